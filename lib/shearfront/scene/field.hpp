@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/scene/input_error.hpp"
+
+/// Self-description of the numeric entries of a model. A model lists its fields once, in
+///     template <class Self, class Visit> static void fields(Self& self, Visit&& visit)
+/// which calls visit(FieldInfo, member) for each; members are Scalar or std::vector<Scalar>. Scene files,
+/// validation, messages and the parameter names of a fit are all generated from it.
+namespace shearfront {
+
+/// What a single number must satisfy (besides being finite, which all must be).
+enum class Range { any, positive };
+
+struct FieldInfo {
+  std::string_view key;  ///< name inside the model's table, e.g. "values"
+  Range range = Range::any;
+};
+
+/// Adds a problem for every number of the field that is not finite or outside its range.
+template <Real S>
+void check_number(const std::string& key, Range range, const S& x, Problems& problems) {
+  if (!is_finite(x)) {
+    problems.push_back({key, number_text(x), "must be a finite number"});
+  } else if (range == Range::positive && !(x > 0)) {
+    problems.push_back({key, number_text(x), "must be > 0"});
+  }
+}
+
+template <Real S>
+void check_number(const std::string& key, Range range, const std::vector<S>& xs, Problems& problems) {
+  for (std::size_t i = 0; i < xs.size(); ++i)
+    check_number(key + "[" + std::to_string(i) + "]", range, xs[i], problems);
+}
+
+/// Breaks of a piecewise function: finite, strictly increasing, strictly inside (bottom, top).
+template <Real S>
+void check_breaks(const std::string& key, const std::vector<S>& breaks, const S& bottom, const S& top,
+                  Problems& problems) {
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    const std::string element = key + "[" + std::to_string(i) + "]";
+    if (!is_finite(breaks[i])) continue;  // reported by check_number
+    if (!(breaks[i] > bottom) || !(breaks[i] < top)) {
+      problems.push_back(
+          {element, number_text(breaks[i]),
+           "must be inside the domain (" + number_text(bottom) + ", " + number_text(top) + ")"});
+    } else if (i > 0 && is_finite(breaks[i - 1]) && !(breaks[i] > breaks[i - 1])) {
+      problems.push_back({element, number_text(breaks[i]),
+                          "must be greater than the break before it (" + number_text(breaks[i - 1]) + ")"});
+    }
+  }
+}
+
+}  // namespace shearfront

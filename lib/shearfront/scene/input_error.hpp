@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Bad input, kind 2 of the three kinds of error (contract violation, bad input, outcome of a computation).
+namespace shearfront {
+
+/// One thing wrong with an input: `shear_rate.values[1] = -0.31; must be > 0`.
+struct Problem {
+  std::string key;         ///< dotted path of the entry, elements of arrays as [i] counted from 0
+  std::string value;       ///< the offending value as text; empty when there is none (a missing key)
+  std::string constraint;  ///< what is allowed, beginning with a verb: "must be > 0"
+
+  [[nodiscard]] std::string text() const {
+    return value.empty() ? key + ": " + constraint : key + " = " + value + "; " + constraint;
+  }
+};
+
+using Problems = std::vector<Problem>;
+
+/// Thrown when an input cannot be used; carries every problem found, not only the first.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(Problems problems)
+      : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
+  InputError(std::string key, std::string value, std::string constraint)
+      : InputError(Problems{{std::move(key), std::move(value), std::move(constraint)}}) {}
+
+  [[nodiscard]] const Problems& problems() const { return problems_; }
+
+ private:
+  static std::string join(const Problems& problems) {
+    std::string all;
+    for (const Problem& p : problems) all += (all.empty() ? "" : "\n") + p.text();
+    return all;
+  }
+  Problems problems_;
+};
+
+}  // namespace shearfront

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/numeric/type_list.hpp"
+#include "shearfront/solver/solver.hpp"
+#include "shearfront/track/solver.hpp"
+
+namespace shearfront {
+
+/// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
+/// list.
+using SolverList = TypeList<ExactSolver, FrontTrackingSolver>;
+
+}  // namespace shearfront

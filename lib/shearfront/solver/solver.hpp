@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/front_segment.hpp"
+#include "shearfront/solution/summary.hpp"
+#include "shearfront/solution/timeline.hpp"
+
+/// What every solver offers to the program, the fits and the cross tests. A solver never includes another
+/// solver.
+namespace shearfront {
+
+enum class GridKind { levels, singular_mapping };
+enum class Reconstruction { constant, linear };
+
+/// Settings of all solvers; each reads those it knows.
+struct SolverOptions {
+  double resolution =
+      0.01;  ///< front tracking: largest spacing of phi between neighbouring states of a fan, (0, 1]
+  GridKind grid = GridKind::levels;
+  Reconstruction reconstruct = Reconstruction::constant;
+  std::size_t layers = 0;                        ///< smooth a(z): number of layers; 0 lets the solver choose
+  std::uint64_t max_collisions = 4'000'000'000;  ///< stop with Status::budget_reached after so many
+  /// Called now and then with (t, collisions so far); return false to stop with Status::interrupted.
+  std::function<bool(double, std::uint64_t)> progress;
+};
+
+/// What to compute. Times in any order, >= 0; +infinity asks for the steady state. Depths in any order,
+/// inside the domain.
+struct SolverRequest {
+  std::vector<double> times;
+  std::vector<double> depths;
+  bool timeline = false;  ///< event times wanted
+  bool fronts = false;    ///< front segments wanted (solvers that have fronts)
+};
+
+struct Sample {
+  double phi = 0;  ///< concentration; at a jump the value above it, at the top wall the value below
+  double M = 0;    ///< int_bottom^z phi
+};
+
+struct SolverResult {
+  std::vector<Sample> samples;  ///< samples[i * depths.size() + j] belongs to times[i], depths[j]
+  std::optional<Timeline<double>> timeline;
+  std::vector<FrontSegment<double>> fronts;
+  Summary summary;
+};
+
+/// What a solver promises; the cross tests check exactly what is promised here.
+struct Guarantees {
+  bool exact = false;         ///< M and phi to rounding
+  bool conservative = false;  ///< M(top, t) equals the initial mass to rounding
+  bool bounded = false;       ///< phi stays in the range of the flux
+  double order_phi = 0;       ///< L1 order of phi in the resolution, 0 if exact
+  double order_M = 0;         ///< order of M in the resolution, 0 if exact
+  bool any_scene = false;     ///< every scene of the toolkit
+  bool has_fronts = false;    ///< can return front segments
+};
+
+template <class S>
+concept Solver = requires(const Scene<double>& scene, const SolverRequest& request,
+                          const SolverOptions& options) {
+  { S::kName } -> std::convertible_to<std::string_view>;
+  { S::kDescription } -> std::convertible_to<std::string_view>;
+  { S::guarantees() } -> std::same_as<Guarantees>;
+  { S::solve(scene, request, options) } -> std::same_as<SolverResult>;
+};
+
+}  // namespace shearfront
