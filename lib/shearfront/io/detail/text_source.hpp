@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/io/file_error.hpp"
+
+namespace shearfront::detail {
+
+/// A place in a text file, counted from 1; columns count code points.
+struct Position {
+  std::uint32_t line = 0, column = 0;
+  friend auto operator<=>(const Position&, const Position&) = default;
+};
+
+/// The text of an input file: UTF-8 without byte order mark and without NUL bytes.
+class TextSource {
+ public:
+  /// Errors: FileError if the text is not UTF-8 or contains NUL bytes.
+  TextSource(std::string name, std::string text);
+  /// Errors: FileError if the file cannot be read, too.
+  static TextSource read(const std::string& path);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// Byte offset of a place; the end of the text if there is no such place. Cost: O(1) for ASCII text,
+  /// otherwise amortised O(1) when asked in ascending order.
+  [[nodiscard]] std::size_t offset(Position position) const;
+  [[nodiscard]] Position position(std::size_t offset) const;
+
+ private:
+  std::string name_, text_;
+  std::vector<std::size_t> line_starts_;
+  bool is_ascii_ = true;
+  mutable Position last_{1, 1};  ///< where the last search ended
+  mutable std::size_t last_offset_ = 0;
+};
+
+/// Collects the problems of one file and reports them in the order of the file.
+class ProblemReport {
+ public:
+  explicit ProblemReport(std::string file) : file_(std::move(file)) {}
+
+  void add(Position position, Problem problem) { add(position, position, std::move(problem)); }
+  /// Ordered by `position` and printed with `shown`.
+  void add(Position position, Position shown, Problem problem);
+  /// Remembers that an entry could not be read, so that what only follows from this is not reported.
+  void spoil(std::string key) { spoiled_.insert(std::move(key)); }
+  /// Whether this entry or a table or array around it could not be read.
+  [[nodiscard]] bool is_spoiled(std::string_view key) const;
+  /// Errors: FileError with all problems, sorted by place, each line once; nothing if there are none.
+  void throw_if_any() const;
+
+ private:
+  struct Located {
+    Position position, shown;
+    Problem problem;
+  };
+  std::string file_;
+  std::vector<Located> located_;
+  std::set<std::string, std::less<>> spoiled_;
+};
+
+/// FileError for a problem of a file as a whole: "scene.toml: cannot be read: Is a directory".
+[[noreturn]] void throw_file_error(const std::string& file, const std::string& what);
+
+}  // namespace shearfront::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <utility>
+
+#include "shearfront/scene/input_error.hpp"
+
+namespace shearfront {
+
+/// A file that cannot be used: bad input whose problems are located in a file.
+///
+/// what() is the finished report, one line per problem in the order of the file:
+///     scene.toml:7:10: shear_rate.values[1] = -0.31; must be > 0
+/// Lines and columns count from 1, columns in characters (Unicode code points), not bytes.
+class FileError : public InputError {
+ public:
+  FileError(Problems problems, std::string report)
+      : InputError(std::move(problems)), report_(std::move(report)) {}
+
+  [[nodiscard]] const char* what() const noexcept override { return report_.c_str(); }
+
+ private:
+  std::string report_;
+};
+
+}  // namespace shearfront

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "shearfront/io/detail/text_source.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::detail {
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{256} << 20;  // endless devices must not fill the memory
+
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+}  // namespace
+
+void throw_file_error(const std::string& file, const std::string& what) {
+  const std::string name = printable(file);
+  throw FileError({{name, "", what}}, name + ": " + what);
+}
+
+TextSource::TextSource(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+  if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+    throw_file_error(name_, "is UTF-16 text; must be UTF-8");
+  line_starts_.push_back(0);
+  for (std::size_t i = text_.find('\n'); i != std::string::npos; i = text_.find('\n', i + 1))
+    line_starts_.push_back(i + 1);
+  is_ascii_ = std::none_of(text_.begin(), text_.end(), [](char c) { return (c & '\x80') != 0; });
+
+  const std::size_t nul = text_.find('\0'), bad = first_bad_utf8(text_);
+  if (nul == std::string::npos && bad == text_.size()) return;
+  const std::size_t where = std::min(nul, bad);
+  ProblemReport report(name_);
+  const auto byte = static_cast<unsigned char>(text_[where]);
+  if (byte == 0)
+    report.add(position(where), {"NUL byte", "", "must not occur in a text file"});
+  else
+    report.add(position(where), {fmt::format("byte 0x{:02x}", byte), "", "must be UTF-8 text"});
+  report.throw_if_any();
+}
+
+TextSource TextSource::read(const std::string& path) {
+  const auto fail = [&](int error) {
+    throw_file_error(path, "cannot be read: " + std::generic_category().message(error));
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) fail(errno);
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
+    text.append(block.data(), n);
+    if (text.size() > kLargestFile) throw_file_error(path, "is larger than 256 MiB");
+  }
+  if (std::ferror(file.get()) != 0) fail(errno);
+  return {path, std::move(text)};
+}
+
+std::size_t TextSource::offset(Position position) const {
+  if (position.line == 0 || position.line > line_starts_.size()) return text_.size();
+  const std::size_t start = line_starts_[position.line - 1];
+  if (is_ascii_) return std::min(start + position.column - 1, text_.size());
+  if (position < last_ || position.line != last_.line) {
+    last_ = {position.line, 1};
+    last_offset_ = start;
+  }
+  while (last_.column < position.column && last_offset_ < text_.size()) {
+    do ++last_offset_;
+    while (last_offset_ < text_.size() && continues(text_[last_offset_]));
+    ++last_.column;
+  }
+  return last_offset_;
+}
+
+Position TextSource::position(std::size_t offset) const {
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const std::size_t start = *(next - 1);
+  const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(start);
+  const auto characters = std::count_if(begin, begin + static_cast<std::ptrdiff_t>(offset - start),
+                                        [](char c) { return !continues(c); });
+  return {static_cast<std::uint32_t>(next - line_starts_.begin()),
+          static_cast<std::uint32_t>(characters + 1)};
+}
+
+void ProblemReport::add(Position position, Position shown, Problem problem) {
+  located_.push_back({position, shown, std::move(problem)});
+}
+
+bool ProblemReport::is_spoiled(std::string_view key) const {
+  while (!key.empty()) {
+    if (spoiled_.contains(key)) return true;
+    const std::size_t cut = key.find_last_of(".[");
+    key = key.substr(0, cut == std::string_view::npos ? 0 : cut);
+  }
+  return false;
+}
+
+void ProblemReport::throw_if_any() const {
+  if (located_.empty()) return;
+  std::vector<const Located*> order;
+  order.reserve(located_.size());
+  for (const Located& l : located_) order.push_back(&l);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Located* a, const Located* b) { return a->position < b->position; });
+  const std::string name = printable(file_);
+  std::string report, last;
+  Problems problems;
+  for (const Located* l : order) {
+    std::string line = fmt::format("{}:{}:{}: {}", name, l->shown.line, l->shown.column, l->problem.text());
+    if (line == last) continue;
+    report += (report.empty() ? "" : "\n") + line;
+    problems.push_back(l->problem);
+    last = std::move(line);
+  }
+  throw FileError(std::move(problems), std::move(report));
+}
+
+}  // namespace shearfront::detail
