@@ -34,7 +34,10 @@ class InputError : public std::runtime_error {
  private:
   static std::string join(const Problems& problems) {
     std::string all;
-    for (const Problem& p : problems) all += (all.empty() ? "" : "\n") + p.text();
+    for (const Problem& p : problems) {
+      if (!all.empty()) all += '\n';
+      all += p.text();
+    }
     return all;
   }
   Problems problems_;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront {
+
+/// Index of a state in the grid of its layer; phi increases strictly with the index. Riemann problems are
+/// decided on these integers, so rounding can never change which waves come out of one.
+using State = std::int32_t;
+
+/// States on both sides of a resting discontinuity (interface or wall).
+struct StatePair {
+  State below, above;
+  friend bool operator==(const StatePair&, const StatePair&) = default;
+};
+
+/// The discretised problem: in every layer a continuous piecewise linear flux through the states of a grid.
+///
+///   phi(k, i)        concentration of state i in layer k, increasing in i
+///   flux(k, i)       flux of state i; equal flux_rank <=> equal flux
+///   flux_rank(k, i)  integer that orders fluxes over all layers, increasing with the flux
+///   zero_flux_rank() rank of flux 0, the flux through a wall
+///   speed(k, l, r)   Rankine-Hugoniot speed of the front l | r, l != r
+///   next_vertex(k,i) smallest vertex of the polygon above state i
+///   kUnimodalConvex  every layer flux is convex with one minimum; then also
+///   bottom_state(k)  the state of least flux: fluxes fall up to it and rise after it
+template <class G>
+concept StateGrid = requires(const G& g, std::size_t k, State i) {
+  typename G::Scalar;
+  { G::kUnimodalConvex } -> std::convertible_to<bool>;
+  { g.n_layers() } -> std::convertible_to<std::size_t>;
+  { g.n_states(k) } -> std::convertible_to<State>;
+  { g.boundary(k) } -> std::convertible_to<typename G::Scalar>;
+  { g.phi(k, i) } -> std::convertible_to<typename G::Scalar>;
+  { g.flux(k, i) } -> std::convertible_to<typename G::Scalar>;
+  { g.flux_rank(k, i) } -> std::convertible_to<State>;
+  { g.zero_flux_rank() } -> std::convertible_to<State>;
+  { g.speed(k, i, i) } -> std::convertible_to<typename G::Scalar>;
+  { g.next_vertex(k, i) } -> std::convertible_to<State>;
+};
+
+}  // namespace shearfront

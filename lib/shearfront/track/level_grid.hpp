@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/scene/layer_stack.hpp"
+
+namespace shearfront {
+
+/// A state wanted in a grid: concentration phi in one layer.
+template <Real Scalar>
+struct LayerState {
+  std::size_t layer;
+  Scalar phi;
+};
+
+/// Grids of states for the quadratic flux r_k phi (phi - 1), r_k = s a_k, built on flux LEVELS shared by all
+/// layers.
+///
+/// A level is a value h >= 0 of minus the flux. Layer k has the states phi = (1 -+ q)/2 with q = sqrt(1 - h /
+/// c_k) for every level h <= c_k = r_k / 4 (its capacity), so the interface Riemann problem maps grid states
+/// to grid states. State index i = 0 .. 2 top(k) counts phi upwards: i <= top is level i on the falling
+/// branch (phi <= 1/2), i > top is level 2 top - i on the rising one.
+///
+/// Two ways to choose the levels (both factory functions also place the wanted states and return their
+/// indices):
+///   exact_levels      capacities, initial states and walls are levels, nothing is rounded; between two
+///   neighbouring
+///                     capacities the levels are equally spaced in phi in the layer of the upper one, by at
+///                     most `resolution`. In every other layer they are closer, so `resolution` bounds the
+///                     spacing of fans everywhere, with the fewest levels that do so.
+///   singular_mapping  a_k rounded to the nearest k delta, levels s j delta / 4 (Buerger, Martinez & Villada
+///   2023, Section 2.3,
+///                     with the missing factor restored); initial states are rounded to the nearest state.
+/// If there are more wanted states than kMaxExactStates and more than other levels, making each a vertex of
+/// every layer's polygon would cost jumps x states fronts; they then keep their exact phi, and their flux is
+/// read off the polygon (an error of second order in `resolution`).
+///
+/// Guaranteed: phi is strictly increasing in exact arithmetic, exact (not only to rounding) for wanted states
+/// of exact_levels; equal levels have bitwise equal flux; speed() has a relative error of a few units in the
+/// last place except where speeds of opposite sign cancel, and is exactly 0 between the two states of one
+/// level. Memory: one record per level, nothing per layer and level; cost of phi(): one square root and one
+/// division.
+template <Real S>
+class LevelGrid {
+ public:
+  using Scalar = S;
+  static constexpr bool kUnimodalConvex = true;
+  static constexpr std::size_t kMaxExactStates = 64;
+
+  struct Built;  // grid + indices of the wanted states
+  static Built exact_levels(const LayerStack<S>& stack, const S& resolution,
+                            const std::vector<LayerState<S>>& wanted);
+  static Built singular_mapping(const LayerStack<S>& stack, const S& delta,
+                                const std::vector<LayerState<S>>& wanted);
+
+  /// How many levels exact_levels() would make, wanted states not counted. Cost: O(layers log layers).
+  static double exact_level_count(const LayerStack<S>& stack, const S& resolution);
+
+  [[nodiscard]] std::size_t n_layers() const { return layer_capacity_.size(); }
+  [[nodiscard]] const S& boundary(std::size_t k) const { return boundaries_[k]; }
+  [[nodiscard]] std::size_t n_levels() const { return levels_.size(); }
+  [[nodiscard]] State n_states(std::size_t layer) const { return 2 * top(layer) + 1; }
+  [[nodiscard]] State bottom_state(std::size_t layer) const { return top(layer); }
+  [[nodiscard]] S rate(std::size_t layer) const { return S(4) * capacity(layer); }
+
+  [[nodiscard]] S phi(std::size_t layer, State i) const {
+    const State t = top(layer);
+    return i <= t ? falling_phi(layer, i) : S(1) - falling_phi(layer, 2 * t - i);
+  }
+  [[nodiscard]] S flux(std::size_t layer, State i) const { return -levels_[index(level(layer, i))].value; }
+  [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return -level(layer, i); }
+  [[nodiscard]] static State zero_flux_rank() { return 0; }
+  /// The state with the given flux rank on the falling / rising branch.
+  [[nodiscard]] State falling_state(std::size_t, State rank) const { return -rank; }
+  [[nodiscard]] State rising_state(std::size_t layer, State rank) const { return 2 * top(layer) + rank; }
+
+  [[nodiscard]] State next_vertex(std::size_t layer, State i) const {
+    const State t = top(layer);
+    return i < t ? levels_[index(i + 1)].vertex_above : 2 * t - levels_[index(2 * t - i - 1)].vertex_below;
+  }
+
+  [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
+    const State t = top(layer);
+    const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
+    const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
+    if (level_l.home == kOnChord || level_r.home == kOnChord) return chord_speed(layer, l, r);
+    const S q_l = root(layer, level_l), q_r = root(layer, level_r);
+    return S(2) * capacity(layer) * ((l <= t ? -q_l : q_l) + (r <= t ? -q_r : q_r));
+  }
+
+  /// Whether l | r is one step of a fan (as opposed to a shock).
+  [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }
+  /// d(speed)/d(phi) inside a fan.
+  [[nodiscard]] S fan_rate(std::size_t layer) const { return S(8) * capacity(layer); }
+
+ private:
+  // A level from a square root taken in another layer carries its rounding; "home" is the class of layers
+  // where the concentration itself is known, so that no square root is taken there.
+  static constexpr std::int32_t kOnChord = -1;  // p is the position between two vertices
+  static constexpr std::int32_t kByValue = -2;  // only the value is known
+  struct Level {
+    S value;            // h
+    S p;                // falling-branch phi in the home class, or the position on the chord in [0, 1]
+    std::int32_t home;  // class of equal capacities, or kOnChord, kByValue
+    State vertex_below, vertex_above;  // nearest vertices, itself if it is one
+  };
+  struct Class {
+    S capacity;
+    State top;
+  };
+
+  [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] State top(std::size_t layer) const { return classes_[layer_capacity_[layer]].top; }
+  [[nodiscard]] const S& capacity(std::size_t layer) const {
+    return classes_[layer_capacity_[layer]].capacity;
+  }
+  [[nodiscard]] State level(std::size_t layer, State i) const {
+    return i <= top(layer) ? i : 2 * top(layer) - i;
+  }
+
+  /// q = sqrt(1 - h / c) of a vertex level.
+  [[nodiscard]] S root(std::size_t layer, const Level& h) const {
+    using std::sqrt;
+    const std::uint32_t id = layer_capacity_[layer];
+    if (h.home == static_cast<std::int32_t>(id)) return S(1) - S(2) * h.p;
+    const S& c = classes_[id].capacity;
+    S rest = c - h.value;
+    if (h.home >= 0) {
+      const S& home = classes_[static_cast<std::size_t>(h.home)].capacity;
+      if (home <= c) {  // both terms are >= 0: no cancellation even where h is close to c
+        const S q = S(1) - S(2) * h.p;
+        rest = (c - home) + home * (q * q);
+      }
+    }
+    if (!(rest > 0)) return S(0);
+    if (!(rest < c)) return S(1);
+    return sqrt(rest / c);
+  }
+  [[nodiscard]] S falling_phi(std::size_t layer, State i) const {
+    const Level& h = levels_[index(i)];
+    if (h.home == static_cast<std::int32_t>(layer_capacity_[layer])) return h.p;
+    if (h.home == kOnChord) {
+      const S lo = falling_phi(layer, h.vertex_below), hi = falling_phi(layer, h.vertex_above);
+      return lo + h.p * (hi - lo);
+    }
+    return h.value / (S(2) * capacity(layer) * (S(1) + root(layer, h)));
+  }
+  /// Speed when at least one state lies inside a chord. All fronts inside one chord have bitwise the same
+  /// speed.
+  [[nodiscard]] S chord_speed(std::size_t layer, State l, State r) const {
+    const State t = top(layer);
+    const auto [l_lo, l_hi] = chord(layer, l);
+    const auto [r_lo, r_hi] = chord(layer, r);
+    const State lo = std::min(l_lo, r_lo), hi = std::max(l_hi, r_hi);
+    if (hi == next_vertex(layer, lo)) return speed(layer, lo, hi);
+    const S h_l = levels_[index(l <= t ? l : 2 * t - l)].value,
+            h_r = levels_[index(r <= t ? r : 2 * t - r)].value;
+    return (h_l - h_r) / (phi(layer, r) - phi(layer, l));
+  }
+  /// The two vertices around a state; the state itself twice if it is one.
+  [[nodiscard]] std::pair<State, State> chord(std::size_t layer, State i) const {
+    const State t = top(layer);
+    const Level& h = levels_[index(i <= t ? i : 2 * t - i)];
+    return i <= t ? std::pair(h.vertex_below, h.vertex_above)
+                  : std::pair(2 * t - h.vertex_above, 2 * t - h.vertex_below);
+  }
+
+  struct Draft;  // levels under construction
+
+  void set_classes(const LayerStack<S>& stack);
+
+  std::vector<S> boundaries_;
+  std::vector<std::uint32_t> layer_capacity_;  // layer -> class
+  std::vector<Class> classes_;                 // distinct capacities, ascending
+  std::vector<Level> levels_;                  // ascending
+};
+
+template <Real S>
+struct LevelGrid<S>::Built {
+  LevelGrid grid;
+  std::vector<State> states;  ///< states[i] is the index of wanted[i]
+};
+
+extern template class LevelGrid<double>;
+extern template class LevelGrid<Real50>;
+
+}  // namespace shearfront

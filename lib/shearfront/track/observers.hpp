@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/solution/front_segment.hpp"
+
+/// Observers see every collision of a Tracker and cannot steer it: they get constant views, and the tracker
+/// reads nothing from them. An observer is a template argument, so the one that does nothing costs nothing.
+namespace shearfront {
+
+/// A front as it stands at a collision: born at (t, z), with its states.
+template <Real Scalar>
+struct FrontView {
+  std::size_t layer;
+  Scalar t, z, speed;
+  State below, above;
+};
+
+/// Fronts that met in one point and fronts that left it. boundary is the index of the interface or wall in
+/// whose point they met (0 the bottom wall, n_layers the top wall), kNoBoundary inside a layer.
+template <Real Scalar>
+struct CollisionView {
+  static constexpr std::size_t kNoBoundary = static_cast<std::size_t>(-1);
+  Scalar t, z;
+  std::size_t boundary = kNoBoundary;
+  std::vector<FrontView<Scalar>> incoming, outgoing;
+};
+
+struct NoObserver {
+  static constexpr bool kActive = false;
+};
+
+/// Keeps everything: front segments in the order of their ends, collisions in the order of time.
+template <Real Scalar>
+class History {
+ public:
+  static constexpr bool kActive = true;
+
+  template <class Grid>
+  void collision(const Grid& grid, const CollisionView<Scalar>& view) {
+    for (const FrontView<Scalar>& f : view.incoming) end_of(grid, f, view.t, view.z);
+    collisions_.push_back(view);
+  }
+  /// A front still alive when the record is closed at time t.
+  template <class Grid>
+  void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
+    segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
+  }
+  [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return segments_; }
+  [[nodiscard]] const std::vector<CollisionView<Scalar>>& collisions() const { return collisions_; }
+
+ private:
+  std::vector<FrontSegment<Scalar>> segments_;
+  std::vector<CollisionView<Scalar>> collisions_;
+};
+
+/// Keeps segments only: what a picture needs.
+template <Real Scalar>
+class SegmentRecord {
+ public:
+  static constexpr bool kActive = true;
+
+  template <class Grid>
+  void collision(const Grid& grid, const CollisionView<Scalar>& view) {
+    for (const FrontView<Scalar>& f : view.incoming) end_of(grid, f, view.t, view.z);
+  }
+  template <class Grid>
+  void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
+    segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
+  }
+  [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return segments_; }
+
+ private:
+  std::vector<FrontSegment<Scalar>> segments_;
+};
+
+}  // namespace shearfront

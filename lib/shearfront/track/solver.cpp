@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/solver.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/track/reconstruct.hpp"
+#include "shearfront/track/setup.hpp"
+
+namespace shearfront {
+
+namespace {
+
+// A record of 40 bytes per level: beyond this a grid would need more memory than a workstation has.
+constexpr double kMaxLevels = 4e8;
+constexpr std::uint64_t kCollisionsPerReport = 1 << 20;
+
+/// Why the grid cannot be built; empty if it can.
+std::string refusal(const LayerStack<double>& stack, const SolverOptions& options) {
+  if (options.grid == GridKind::levels) {
+    if (!(options.resolution > 0 && options.resolution <= 1))
+      return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
+    if (const double n = LevelGrid<double>::exact_level_count(stack, options.resolution); n > kMaxLevels)
+      return "the grid would need " + number_text(std::floor(n)) + " levels; use a coarser resolution";
+  } else {
+    if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
+    double largest = 0;
+    for (std::size_t k = 0; k < stack.n_layers(); ++k) largest = std::max(largest, stack.shear_rate(k));
+    if (const double n = largest / options.resolution; n > kMaxLevels)
+      return "the singular-mapping grid would need " + number_text(std::floor(n)) +
+             " levels; use a coarser resolution or the levels grid";
+  }
+  return {};
+}
+
+template <class AnyTracker>
+Status run(AnyTracker& tracker, double t, const SolverOptions& options) {
+  for (;;) {
+    const std::uint64_t report =
+        options.progress ? tracker.n_collisions() + kCollisionsPerReport : UINT64_MAX;
+    const Status status = tracker.advance_to(t, std::min(report, options.max_collisions));
+    if (status != Status::budget_reached || tracker.n_collisions() >= options.max_collisions) return status;
+    if (!options.progress(tracker.time(), tracker.n_collisions())) return Status::interrupted;
+  }
+}
+
+std::string message_of(Status status, double t, std::size_t n_unreachable) {
+  switch (status) {
+    case Status::steady:
+      return "steady state reached";
+    case Status::budget_reached:
+      return "the largest number of collisions allowed was reached at t = " + number_text(t) +
+             "; raise --max-collisions or use a coarser resolution";
+    case Status::interrupted:
+      return "interrupted at t = " + number_text(t);
+    default:
+      return n_unreachable > 0 ? "some fronts meet only after the largest representable time"
+                               : "reached the last time";
+  }
+}
+
+template <class Observer>
+SolverResult track(const Scene<double>& scene, const SolverRequest& request, const SolverOptions& options,
+                   LayerStack<double> stack) {
+  SolverResult result;
+  Summary& summary = result.summary;
+  const TrackingSetup<double> setup(scene, std::move(stack), options.resolution, options.grid);
+  Tracker<LevelGrid<double>, Observer> tracker(setup.grid, setup.pieces);
+  summary.levels = setup.grid.n_levels();
+  summary.layers = setup.stack.n_layers();
+
+  std::vector<std::size_t> order(request.times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
+  result.samples.resize(request.times.size() * request.depths.size());
+  Status status = Status::ok;
+  const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
+  for (const std::size_t i : order) {
+    status = run(tracker, request.times[i], options);
+    if (!is_usable()) break;
+    const Profile<double> profile =
+        options.reconstruct == Reconstruction::linear ? linear_profile(tracker) : tracker.profile();
+    const auto values = profile.at(request.depths);
+    for (std::size_t j = 0; j < values.size(); ++j)
+      result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
+  }
+  if (request.timeline && is_usable()) {
+    status = run(tracker, infinity<double>(), options);
+    if (is_usable()) result.timeline = tracked_timeline(tracker, scene, setup.stack);
+  }
+  if constexpr (Observer::kActive) {
+    tracker.close_record();
+    result.fronts = tracker.observer().segments();
+  }
+  summary.status = status;
+  summary.message = message_of(status, tracker.time(), tracker.n_unreachable());
+  summary.collisions = tracker.n_collisions();
+  summary.fronts_max = tracker.n_fronts_max();
+  return result;
+}
+
+}  // namespace
+
+SolverResult FrontTrackingSolver::solve(const Scene<double>& scene, const SolverRequest& request,
+                                        const SolverOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  SolverResult result;
+  const double layer_resolution =
+      options.resolution > 0 && options.resolution <= 1 ? options.resolution : 1.0;
+  LayerStack<double> stack = tracking_layers(scene, layer_resolution, options.layers);
+  if (std::string why = refusal(stack, options); !why.empty()) {
+    result.summary.status = Status::unsupported;
+    result.summary.message = std::move(why);
+  } else if (request.fronts) {
+    result = track<SegmentRecord<double>>(scene, request, options, std::move(stack));
+  } else {
+    result = track<NoObserver>(scene, request, options, std::move(stack));
+  }
+  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace shearfront
