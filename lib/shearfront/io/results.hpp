@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/io/output_file.hpp"
+#include "shearfront/solver/solver.hpp"
+
+/// Results as CSV and JSON (docs/formats). Doubles are written with the shortest text that reads back to the
+/// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the
+/// file.
+namespace shearfront {
+
+/// Header t,z,phi,M and one row per time and depth; samples as in SolverResult.
+void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
+                       const std::vector<Sample>& samples);
+
+/// Header layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above and one row per front.
+void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts);
+
+/// {"scene","method","times","depths","phi":[[..]],"M":[[..]],"summary"}, one inner array per time.
+void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
+                        const std::vector<double>& times, const std::vector<double>& depths,
+                        const std::vector<Sample>& samples, const Summary& summary);
+
+/// {"scene","method","mass","steady_height","t0","t1","t_star","interfaces":[{"z","first","last"}],"summary"}.
+/// A time that never comes is null. `digits` > 17 writes every number of the timeline with that many digits.
+template <Real S>
+void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
+                       const Timeline<S>& timeline, const Summary& summary, int digits);
+
+extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
+                                       const Timeline<double>&, const Summary&, int);
+extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
+                                       const Timeline<Real50>&, const Summary&, int);
+extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
+                                       const Timeline<Real110>&, const Summary&, int);
+
+}  // namespace shearfront
