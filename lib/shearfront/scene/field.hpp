@@ -35,7 +35,9 @@ void check_number(const std::string& key, Range range, const S& x, Problems& pro
 template <Real S>
 void check_number(const std::string& key, Range range, const std::vector<S>& xs, Problems& problems) {
   for (std::size_t i = 0; i < xs.size(); ++i)
-    check_number(key + "[" + std::to_string(i) + "]", range, xs[i], problems);
+    if (!is_finite(xs[i]) ||
+        (range == Range::positive && !(xs[i] > 0)))  // no text for the many that are right
+      check_number(key + "[" + std::to_string(i) + "]", range, xs[i], problems);
 }
 
 /// Breaks of a piecewise function: finite, strictly increasing, strictly inside (bottom, top).
@@ -43,14 +45,14 @@ template <Real S>
 void check_breaks(const std::string& key, const std::vector<S>& breaks, const S& bottom, const S& top,
                   Problems& problems) {
   for (std::size_t i = 0; i < breaks.size(); ++i) {
-    const std::string element = key + "[" + std::to_string(i) + "]";
     if (!is_finite(breaks[i])) continue;  // reported by check_number
+    const auto element = [&] { return key + "[" + std::to_string(i) + "]"; };
     if (!(breaks[i] > bottom) || !(breaks[i] < top)) {
       problems.push_back(
-          {element, number_text(breaks[i]),
+          {element(), number_text(breaks[i]),
            "must be inside the domain (" + number_text(bottom) + ", " + number_text(top) + ")"});
     } else if (i > 0 && is_finite(breaks[i - 1]) && !(breaks[i] > breaks[i - 1])) {
-      problems.push_back({element, number_text(breaks[i]),
+      problems.push_back({element(), number_text(breaks[i]),
                           "must be greater than the break before it (" + number_text(breaks[i - 1]) + ")"});
     }
   }

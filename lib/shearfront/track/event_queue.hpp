@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <boost/sort/pdqsort/pdqsort.hpp>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,74 +19,156 @@ struct Meeting {
   Scalar time;
   std::uint32_t id;
   std::uint32_t stamp;
+
+  /// Total order (time, id).
+  friend bool operator<(const Meeting& a, const Meeting& b) {
+    if constexpr (std::same_as<Scalar, double>) {
+      // Which of two meetings comes first is a coin toss to a branch predictor: computed without a branch.
+      return bool(int(a.time < b.time) | (int(a.time == b.time) & int(a.id < b.id)));
+    } else {
+      return a.time < b.time || (a.time == b.time && a.id < b.id);
+    }
+  }
 };
 
-/// Priority queue of meetings with a total order (time, id), so that runs are reproducible to the bit.
-/// Implicit 4-ary heap: half the depth of a binary one, and the four children of a node share a cache line.
-/// Cost: push and pop O(log n); n_stale entries are dropped by compact().
+/// Priority queue of meetings with the total order (time, id), so that runs are reproducible to the bit.
+///
+/// A ladder queue (after Tang, Goh & Thng 2005): meetings of the near future are a sorted run that is read
+/// from front to back, plus a small heap for those predicted meanwhile; later ones lie unordered in buckets
+/// of later and later times, and the latest in a rest that is cut into buckets when its turn comes. Besides
+/// being cheap, the run tells which meetings come next, so that what they touch can be fetched from memory in
+/// time (upcoming()). Cost: push and pop O(log 1024) amortised, whatever the size.
 template <Real Scalar>
 class EventQueue {
  public:
   using Entry = Meeting<Scalar>;
 
-  [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] std::size_t size() const { return heap_.size(); }
-  [[nodiscard]] const Entry& first() const { return heap_.front(); }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
-  void push(const Entry& entry) {
-    std::size_t hole = heap_.size();
-    heap_.push_back(entry);
-    while (hole > 0) {
-      const std::size_t parent = (hole - 1) / kArity;
-      if (!before(entry, heap_[parent])) break;
-      heap_[hole] = heap_[parent];
-      hole = parent;
-    }
-    heap_[hole] = entry;
+  /// The earliest meeting. Precondition: not empty.
+  [[nodiscard]] const Entry& first() {
+    if (run_empty() && heap_.empty()) refill();
+    return heap_first() ? heap_.front() : run_[next_in_run_];
   }
+  /// Removes first().
   void pop() {
-    const Entry last = heap_.back();
-    heap_.pop_back();
-    if (!heap_.empty()) sift_down(0, last);
+    --size_;
+    if (heap_first()) {
+      std::pop_heap(heap_.begin(), heap_.end(), Later{});
+      heap_.pop_back();
+    } else {
+      ++next_in_run_;
+    }
   }
-  /// Adds without ordering; order() must follow before anything else.
-  void append(const Entry& entry) { heap_.push_back(entry); }
-  /// Restores the heap after append(): O(n).
-  void order() {
-    if (heap_.size() < 2) return;
-    for (std::size_t i = (heap_.size() - 2) / kArity + 1; i-- > 0;) sift_down(i, Entry(heap_[i]));
+  void push(const Entry& entry) {
+    ++size_;
+    if (entry.time < near_end_) {
+      heap_.push_back(entry);
+      std::push_heap(heap_.begin(), heap_.end(), Later{});
+      if (heap_.size() > kLargestHeap && next_bucket_ == ends_.size()) spill();
+    } else if (next_bucket_ < ends_.size()) {
+      buckets_[bucket_of(entry.time)].push_back(entry);
+    } else {
+      rest_.push_back(entry);
+    }
   }
-  /// Drops every entry for which is_valid is false: O(n).
+  /// The meeting `i` places further on in the sorted run, null beyond its end. Meetings in the heap are not
+  /// seen.
+  [[nodiscard]] const Entry* upcoming(std::size_t i) const {
+    return next_in_run_ + i < run_.size() ? &run_[next_in_run_ + i] : nullptr;
+  }
+  /// Drops every entry for which is_valid is false: O(size).
   template <class IsValid>
   void compact(IsValid&& is_valid) {
-    heap_.erase(std::remove_if(heap_.begin(), heap_.end(), [&](const Entry& e) { return !is_valid(e); }),
-                heap_.end());
-    order();
+    const auto drop = [&](std::vector<Entry>& entries) {
+      entries.erase(
+          std::remove_if(entries.begin(), entries.end(), [&](const Entry& e) { return !is_valid(e); }),
+          entries.end());
+      size_ += entries.size();
+    };
+    size_ = 0;
+    run_.erase(run_.begin(), run_.begin() + static_cast<std::ptrdiff_t>(next_in_run_));
+    next_in_run_ = 0;
+    drop(run_);
+    drop(heap_);
+    std::make_heap(heap_.begin(), heap_.end(), Later{});
+    drop(rest_);
+    for (std::size_t b = next_bucket_; b < ends_.size(); ++b) drop(buckets_[b]);
   }
 
  private:
-  static constexpr std::size_t kArity = 4;
-  static bool before(const Entry& a, const Entry& b) {
-    return a.time < b.time || (a.time == b.time && a.id < b.id);
+  struct Later {
+    bool operator()(const Entry& a, const Entry& b) const { return b < a; }
+  };
+  static constexpr std::size_t kRun = 512;               // meetings wanted in a bucket
+  static constexpr std::size_t kLargestHeap = 2 * kRun;  // a larger heap is cut up
+  static constexpr std::size_t kBuckets = 256;
+  static constexpr std::size_t kSample = 16;  // sampled times per bucket
+
+  [[nodiscard]] bool run_empty() const { return next_in_run_ == run_.size(); }
+  [[nodiscard]] bool heap_first() const {
+    return !heap_.empty() && (run_empty() || heap_.front() < run_[next_in_run_]);
+  }
+  [[nodiscard]] std::size_t bucket_of(const Scalar& time) const {
+    const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(next_bucket_);
+    return static_cast<std::size_t>(std::upper_bound(first, ends_.end(), time) - ends_.begin());
   }
 
-  void sift_down(std::size_t hole, const Entry& entry) {
-    const std::size_t n = heap_.size();
-    for (;;) {
-      const std::size_t child = kArity * hole + 1;
-      if (child >= n) break;
-      const std::size_t end = std::min(child + kArity, n);
-      std::size_t best = child;
-      for (std::size_t c = child + 1; c < end; ++c)
-        if (before(heap_[c], heap_[best])) best = c;
-      if (!before(heap_[best], entry)) break;
-      heap_[hole] = heap_[best];
-      hole = best;
+  /// Takes the next bucket, or the rest, as the run. Precondition: run and heap are empty, size_ > 0.
+  void refill() {
+    run_.clear();
+    next_in_run_ = 0;
+    while (run_.empty()) {
+      if (next_bucket_ < ends_.size()) {
+        run_.swap(buckets_[next_bucket_]);
+        near_end_ = ends_[next_bucket_++];
+      } else if (rest_.size() <= kLargestHeap) {
+        run_.swap(rest_);
+        near_end_ = infinity<Scalar>();
+      } else {
+        cut_rest();
+      }
     }
-    heap_[hole] = entry;
+    boost::sort::pdqsort_branchless(run_.begin(), run_.end());
+  }
+  /// Cuts the rest into buckets of about kRun meetings (at most kBuckets) at sampled quantiles of time.
+  void cut_rest() {
+    const std::size_t n = std::min(kBuckets, rest_.size() / kRun + 1);
+    const std::size_t stride = std::max<std::size_t>(1, rest_.size() / (n * kSample));
+    std::vector<Scalar> sample;
+    for (std::size_t i = 0; i < rest_.size(); i += stride) sample.push_back(rest_[i].time);
+    std::sort(sample.begin(), sample.end());
+    ends_.clear();
+    next_bucket_ = 0;
+    for (std::size_t b = 1; b < n; ++b) {
+      const Scalar& end = sample[b * sample.size() / n];
+      if (ends_.empty() || ends_.back() < end) ends_.push_back(end);
+    }
+    ends_.push_back(infinity<Scalar>());
+    buckets_.resize(std::max(buckets_.size(), ends_.size()));
+    for (const Entry& e : rest_) buckets_[bucket_of(e.time)].push_back(e);
+    rest_.clear();
+  }
+  /// A heap that has grown too large goes back to the rest, with the run, to be cut.
+  void spill() {
+    rest_.insert(rest_.end(), heap_.begin(), heap_.end());
+    heap_.clear();
+    rest_.insert(rest_.end(), run_.begin() + static_cast<std::ptrdiff_t>(next_in_run_), run_.end());
+    run_.clear();
+    next_in_run_ = 0;
+    near_end_ = Scalar(0);
   }
 
-  std::vector<Entry> heap_;
+  std::vector<Entry> run_;  // sorted; entries before next_in_run_ are used up
+  std::size_t next_in_run_ = 0;
+  std::vector<Entry> heap_;  // meetings before near_end_ that came after the run was sorted
+  Scalar near_end_{0};
+  std::vector<std::vector<Entry>> buckets_;
+  std::vector<Scalar> ends_;     // bucket b holds times in [ends_[b - 1], ends_[b])
+  std::size_t next_bucket_ = 0;  // first bucket that is not used up
+  std::vector<Entry> rest_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace shearfront

@@ -41,11 +41,11 @@ struct LevelGrid<S>::Draft {
   /// neighbouring capacities the spacing of phi is widest in the layer of the upper one, because d(phi)/dh =
   /// 1 / (4 sqrt(c (c - h))) falls with c; so these are the fewest levels that keep every layer within the
   /// resolution.
-  static std::vector<Level> vertices(const std::vector<Class>& classes, const S& resolution) {
+  static Levels vertices(const std::vector<Class>& classes, const S& resolution) {
     using std::sqrt;
-    std::vector<Level> levels;
+    Levels levels;
     levels.reserve(static_cast<std::size_t>(level_count(classes, resolution)));
-    levels.push_back({S(0), S(0), 0, 0, 0});
+    levels.push_back({S(0), S(0), 0, 0, 0, 0});
     S previous(0);
     for (std::size_t c = 0; c < classes.size(); ++c) {
       const auto home = static_cast<std::int32_t>(c);
@@ -57,9 +57,9 @@ struct LevelGrid<S>::Draft {
       for (std::uint64_t i = 1; i < n; ++i) {
         const S p = p_first + p_range * (S(static_cast<double>(i)) / n_steps);
         const S value = capacity * (S(4) * (p * (S(1) - p)));
-        if (value > levels.back().value && value < capacity) levels.push_back({value, p, home, 0, 0});
+        if (value > levels.back().value && value < capacity) levels.push_back({value, p, home, 0, 0, 0});
       }
-      levels.push_back({capacity, S(1) / S(2), home, 0, 0});
+      levels.push_back({capacity, S(1) / S(2), home, 0, 0, 0});
       previous = capacity;
     }
     return levels;
@@ -78,8 +78,7 @@ struct LevelGrid<S>::Draft {
 
   /// Merges vertices and extras (both ascending) into the grid, equal levels once; the level index of each
   /// wanted state.
-  static std::vector<State> merge(LevelGrid& grid, std::vector<Level> vertices,
-                                  const std::vector<Extra>& extras) {
+  static std::vector<State> merge(LevelGrid& grid, Levels vertices, const std::vector<Extra>& extras) {
     std::vector<State> level_of(extras.size());
     if (extras.empty()) {
       grid.levels_ = std::move(vertices);
@@ -104,12 +103,16 @@ struct LevelGrid<S>::Draft {
   /// Vertices around every level and the top level of every class.
   static void link(LevelGrid& grid) {
     const auto n = static_cast<State>(grid.levels_.size());
-    State vertex = 0;
+    State vertex = 0, n_vertices = 0;
     std::size_t c = 0;
     for (State i = 0; i < n; ++i) {
       Level& level = grid.levels_[index(i)];
-      if (level.home != kOnChord) vertex = i;
+      if (level.home != kOnChord) {
+        vertex = i;
+        ++n_vertices;
+      }
       level.vertex_below = level.vertex_above = vertex;
+      level.ordinal = n_vertices - 1;
       if (c < grid.classes_.size() && level.home == static_cast<std::int32_t>(c) &&
           level.value == grid.classes_[c].capacity && level.p + level.p == S(1))
         grid.classes_[c++].top = i;
@@ -119,6 +122,22 @@ struct LevelGrid<S>::Draft {
       if (level.home != kOnChord) vertex = i;
       level.vertex_above = vertex;
     }
+  }
+
+  /// Fills the table of vertex concentrations, unless it would be large.
+  static void tabulate(LevelGrid& grid) {
+    constexpr std::size_t kLargest = std::size_t{1} << 22;
+    const auto n = static_cast<std::size_t>(grid.levels_.back().ordinal) + 1;
+    if (n * grid.classes_.size() > kLargest) return;
+    std::vector<S> table(n * grid.classes_.size());
+    std::vector<std::size_t> layer_of(grid.classes_.size());
+    for (std::size_t k = 0; k < grid.n_layers(); ++k) layer_of[grid.layer_capacity_[k]] = k;
+    for (std::size_t c = 0; c < grid.classes_.size(); ++c)
+      for (State i = 0; i <= grid.classes_[c].top; ++i)
+        if (const Level& level = grid.levels_[index(i)]; level.home != kOnChord)
+          table[c * n + index(level.ordinal)] = grid.falling_phi(layer_of[c], i);
+    grid.n_vertices_ = n;
+    grid.vertex_phi_ = std::move(table);
   }
 
   /// Puts the phi of every extra between two vertices: exact phi, flux from the chord.
@@ -144,7 +163,7 @@ struct LevelGrid<S>::Draft {
       const S position = (p - phi_lo) / (grid.falling_phi(layer, lo + 1) - phi_lo);
       const S value = h_lo + position * (h_hi - h_lo);
       if (value > h_lo && value < h_hi) {
-        e.level = {value, position, kOnChord, 0, 0};
+        e.level = {value, position, kOnChord, 0, 0, 0};
       } else if (position + position >= S(1)) {
         e.level = upper;  // indistinguishable from the vertex
       }
@@ -181,7 +200,7 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
   Built built;
   LevelGrid& grid = built.grid;
   grid.set_classes(stack);
-  std::vector<Level> vertices = Draft::vertices(grid.classes_, resolution);
+  Levels vertices = Draft::vertices(grid.classes_, resolution);
 
   std::vector<Extra> extras;
   extras.reserve(wanted.size());
@@ -189,7 +208,7 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
     const std::uint32_t home = grid.layer_capacity_[wanted[i].layer];
     const S& capacity = grid.classes_[home].capacity;
     const S p = Draft::falling(wanted[i].phi);
-    Level level{capacity * (S(4) * (p * (S(1) - p))), p, static_cast<std::int32_t>(home), 0, 0};
+    Level level{capacity * (S(4) * (p * (S(1) - p))), p, static_cast<std::int32_t>(home), 0, 0, 0};
     if (p == 0) level.home = 0;  // flux 0 is one level for all layers
     extras.push_back({std::move(level), i});
   }
@@ -197,14 +216,16 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
   std::size_t n_distinct = 0;
   for (std::size_t i = 0; i < extras.size(); ++i)
     if (i == 0 || !Draft::is_same(extras[i - 1].level, extras[i].level)) ++n_distinct;
-  if (n_distinct > kMaxExactStates && n_distinct > vertices.size()) {
+  const bool on_chords = n_distinct > kMaxExactStates && n_distinct > vertices.size();
+  if (on_chords) {
     grid.levels_ = vertices;
     Draft::link(grid);
     Draft::place_on_chords(grid, extras, wanted);
-    for (Extra& e : extras) e.level.vertex_below = e.level.vertex_above = 0;
+    for (Extra& e : extras) e.level.vertex_below = e.level.vertex_above = e.level.ordinal = 0;
     Draft::sort(extras);
   }
   const std::vector<State> level_of = Draft::merge(grid, std::move(vertices), extras);
+  if (on_chords) Draft::tabulate(grid);
   built.states.resize(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i)
     built.states[i] =
@@ -233,7 +254,7 @@ typename LevelGrid<S>::Built LevelGrid<S>::singular_mapping(const LayerStack<S>&
         static_cast<std::uint32_t>(std::lower_bound(distinct.begin(), distinct.end(), k) - distinct.begin()));
   const auto n = static_cast<State>(distinct.back());
   for (State j = 0; j <= n; ++j)
-    grid.levels_.push_back({S(static_cast<double>(j)) * quantum, S(0), kByValue, j, j});
+    grid.levels_.push_back({S(static_cast<double>(j)) * quantum, S(0), kByValue, j, j, j});
 
   for (const LayerState<S>& state : wanted) {
     const State last = grid.n_states(state.layer) - 1;

@@ -97,6 +97,12 @@ class LevelGrid {
     return S(2) * capacity(layer) * ((l <= t ? -q_l : q_l) + (r <= t ? -q_r : q_r));
   }
 
+  /// Asks for a state's record ahead of time. A stale state of another layer is ignored.
+  void prefetch(std::size_t layer, State i) const {
+    if (layer < n_layers() && i >= 0 && i < n_states(layer))
+      __builtin_prefetch(&levels_[index(level(layer, i))]);
+  }
+
   /// Whether l | r is one step of a fan (as opposed to a shock).
   [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }
   /// d(speed)/d(phi) inside a fan.
@@ -112,7 +118,9 @@ class LevelGrid {
     S p;                // falling-branch phi in the home class, or the position on the chord in [0, 1]
     std::int32_t home;  // class of equal capacities, or kOnChord, kByValue
     State vertex_below, vertex_above;  // nearest vertices, itself if it is one
+    State ordinal = 0;                 // number of vertices below it
   };
+  using Levels = std::vector<Level>;
   struct Class {
     S capacity;
     State top;
@@ -152,6 +160,7 @@ class LevelGrid {
       const S lo = falling_phi(layer, h.vertex_below), hi = falling_phi(layer, h.vertex_above);
       return lo + h.p * (hi - lo);
     }
+    if (!vertex_phi_.empty()) return vertex_phi_[layer_capacity_[layer] * n_vertices_ + index(h.ordinal)];
     return h.value / (S(2) * capacity(layer) * (S(1) + root(layer, h)));
   }
   /// Speed when at least one state lies inside a chord. All fronts inside one chord have bitwise the same
@@ -181,7 +190,11 @@ class LevelGrid {
   std::vector<S> boundaries_;
   std::vector<std::uint32_t> layer_capacity_;  // layer -> class
   std::vector<Class> classes_;                 // distinct capacities, ascending
-  std::vector<Level> levels_;                  // ascending
+  // falling_phi of every vertex in every class, kept where states lie on chords: those ask for two square
+  // roots each.
+  std::vector<S> vertex_phi_;
+  std::size_t n_vertices_ = 0;
+  Levels levels_;  // ascending
 };
 
 template <Real S>

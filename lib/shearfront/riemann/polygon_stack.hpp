@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/riemann/state.hpp"
+
+namespace shearfront {
+
+/// A continuous piecewise linear flux: through the points (phi[i], flux[i]), phi ascending.
+template <Real Scalar>
+struct Polygon {
+  std::vector<Scalar> phi, flux;
+};
+
+/// A stack of layers with an arbitrary polygon as flux in each: the general StateGrid, no convexity assumed.
+///
+/// The constructor closes the grid under interface Riemann problems: every flux value of a vertex of any
+/// layer, and flux 0, becomes a level, and every edge of every polygon gets a state at each level it passes.
+/// These added states lie on the edge, so the problem solved is still exactly that of the given polygons.
+/// Domain: at least two points per polygon; the same kind of flux in all layers (scaled copies of one flux,
+/// or unimodal fluxes of one kind), so that the envelopes of an interface cross on a level. Cost: O(levels x
+/// edges) states at worst.
+template <Real S>
+class PolygonStack {
+ public:
+  using Scalar = S;
+  static constexpr bool kUnimodalConvex = false;
+
+  PolygonStack(std::vector<S> boundaries, const std::vector<Polygon<S>>& polygons)
+      : boundaries_(std::move(boundaries)) {
+    SHEARFRONT_EXPECTS(boundaries_.size() == polygons.size() + 1, "one polygon per layer");
+    levels_.push_back(S(0));
+    for (const Polygon<S>& p : polygons) levels_.insert(levels_.end(), p.flux.begin(), p.flux.end());
+    std::sort(levels_.begin(), levels_.end());
+    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    for (const Polygon<S>& p : polygons) layers_.push_back(closed(p));
+    zero_ = rank_of(S(0));
+  }
+
+  [[nodiscard]] std::size_t n_layers() const { return layers_.size(); }
+  [[nodiscard]] const S& boundary(std::size_t k) const { return boundaries_[k]; }
+  [[nodiscard]] State n_states(std::size_t layer) const {
+    return static_cast<State>(layers_[layer].points.size());
+  }
+  [[nodiscard]] const S& phi(std::size_t layer, State i) const { return point(layer, i).phi; }
+  [[nodiscard]] const S& flux(std::size_t layer, State i) const {
+    return levels_[static_cast<std::size_t>(point(layer, i).rank)];
+  }
+  [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return point(layer, i).rank; }
+  [[nodiscard]] State zero_flux_rank() const { return zero_; }
+  [[nodiscard]] State next_vertex(std::size_t, State i) const { return i + 1; }
+  /// Fronts inside one edge all have bitwise the speed of the edge.
+  [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
+    const State lo = std::min(l, r), hi = std::max(l, r);
+    if (lo == hi || point(layer, lo).edge_above == point(layer, hi).edge_below)
+      return layers_[layer].edge_speed[static_cast<std::size_t>(point(layer, lo).edge_above)];
+    return (flux(layer, r) - flux(layer, l)) / (phi(layer, r) - phi(layer, l));
+  }
+  [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
+  [[nodiscard]] static S fan_rate(std::size_t) { return S(0); }
+
+  /// The state nearest to phi; exact if phi is one.
+  [[nodiscard]] State nearest(std::size_t layer, const S& phi) const {
+    const auto& points = layers_[layer].points;
+    auto it = std::lower_bound(points.begin(), points.end(), phi,
+                               [](const Point& p, const S& x) { return p.phi < x; });
+    if (it == points.end() || (it != points.begin() && phi - (it - 1)->phi < it->phi - phi)) --it;
+    return static_cast<State>(it - points.begin());
+  }
+
+ private:
+  struct Point {
+    S phi;
+    State rank;
+    std::int32_t edge_below, edge_above;  // edges of the given polygon it belongs to
+  };
+  struct Layer {
+    std::vector<Point> points;
+    std::vector<S> edge_speed;
+  };
+
+  [[nodiscard]] const Point& point(std::size_t layer, State i) const {
+    return layers_[layer].points[static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] State rank_of(const S& flux) const {
+    return static_cast<State>(std::lower_bound(levels_.begin(), levels_.end(), flux) - levels_.begin());
+  }
+  [[nodiscard]] Layer closed(const Polygon<S>& p) const {
+    SHEARFRONT_EXPECTS(p.phi.size() >= 2 && p.phi.size() == p.flux.size(), "points of a polygon");
+    Layer layer;
+    const auto n_edges = static_cast<std::int32_t>(p.phi.size()) - 1;
+    for (std::int32_t e = 0; e < n_edges; ++e) {
+      const auto i = static_cast<std::size_t>(e);
+      const S rise = p.flux[i + 1] - p.flux[i], run = p.phi[i + 1] - p.phi[i];
+      layer.edge_speed.push_back(rise / run);
+      const State from = rank_of(p.flux[i]), to = rank_of(p.flux[i + 1]);
+      layer.points.push_back({p.phi[i], from, std::max(e - 1, 0), e});
+      const State step = from < to ? 1 : -1;
+      for (State r = from + step; from != to && r != to; r += step) {
+        const S x = p.phi[i] + run * ((levels_[static_cast<std::size_t>(r)] - p.flux[i]) / rise);
+        if (x > layer.points.back().phi && x < p.phi[i + 1]) layer.points.push_back({x, r, e, e});
+      }
+    }
+    layer.points.push_back({p.phi.back(), rank_of(p.flux.back()), n_edges - 1, n_edges - 1});
+    return layer;
+  }
+
+  std::vector<S> boundaries_, levels_;
+  std::vector<Layer> layers_;
+  State zero_ = 0;
+};
+
+}  // namespace shearfront
