@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront::hopf_lax {
+
+/// How a path that ends in (z, t) begins.
+enum class PathKind : std::uint8_t {
+  none,         ///< no path (value +infinity)
+  bottom_wall,  ///< leaves the bottom with phi = 1, H = 0
+  top_wall,     ///< leaves the top with phi = 0, H = 0
+  fan,          ///< leaves an initial jump or an interface at t = 0 and never rests
+  waiting,      ///< as fan, but rests at an interface at its capacity H = s min(a_below, a_above) / 4
+  constant      ///< leaves the inside of a constant initial state
+};
+
+/// One admissible path of the Lax-Hopf formula: M(z, t) is the least value over all of them.
+template <Real Scalar>
+struct Candidate {
+  Scalar value = infinity<Scalar>();  ///< initial cumulative at the start + cost of the path
+  Scalar p{0};                        ///< dM/dz at its end, the concentration if this path is the best
+  Scalar H{0};                        ///< conserved along the path, dM/dt at its end
+  PathKind kind = PathKind::none;
+  bool upward = false;        ///< arrives from below
+  std::size_t source = 0;     ///< fan, waiting: point of Cells; constant: cell of Cells
+  std::size_t interface = 0;  ///< waiting: boundary index of the interface
+  Scalar foot{0};             ///< height where it starts
+
+  /// Smaller value first; at a tie (a shock passes through z) the smaller p, which is the state above.
+  [[nodiscard]] bool better_than(const Candidate& other) const {
+    return value < other.value || (value == other.value && p < other.p);
+  }
+};
+
+/// A medium in which the Lax-Hopf formula is evaluated.
+template <Real Scalar>
+class Medium {
+ public:
+  virtual ~Medium() = default;
+  /// Best path that does not start at a wall; kind none if there is none. May return any candidate whose
+  /// value exceeds `upper` when the best one does. Domain: bottom <= z <= top, 0 < t < infinity.
+  [[nodiscard]] virtual Candidate<Scalar> best_free(const Scalar& z, const Scalar& t,
+                                                    const Scalar& upper) const = 0;
+  /// Time a pure state (H = 0) needs between two heights: |int dz / (s a)|.
+  [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const = 0;
+  /// s a(z); at a jump of a the value above it, at the top the value below.
+  [[nodiscard]] virtual Scalar rate_at(const Scalar& z) const = 0;
+};
+
+}  // namespace shearfront::hopf_lax

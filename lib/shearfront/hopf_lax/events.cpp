@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/hopf_lax/events.hpp"
+
+#include <algorithm>
+
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/hopf_lax/final_time.hpp"
+#include "shearfront/hopf_lax/first_wave.hpp"
+#include "shearfront/hopf_lax/medium.hpp"
+
+namespace shearfront {
+
+namespace {
+
+using hopf_lax::Medium;
+
+/// Heights of the lowest and highest initial jump where phi really changes.
+template <Real Scalar>
+struct RealJumps {
+  std::optional<Scalar> lowest, highest;
+  explicit RealJumps(const Scene<Scalar>& scene) {
+    const auto& values = scene.initial_values();
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+      if (values[i] == values[i + 1]) continue;
+      if (!lowest) lowest = scene.initial_breaks()[i];
+      highest = scene.initial_breaks()[i];
+    }
+  }
+};
+
+/// Whether the initial phi equals `pure` on the whole of (from, to); decided from the data, not from sums.
+template <Real Scalar>
+bool is_pure(const Scene<Scalar>& scene, const Scalar& from, const Scalar& to, int pure) {
+  const auto& jumps = scene.initial_breaks();
+  for (std::size_t i = 0; i <= jumps.size(); ++i) {
+    const Scalar& lo = i == 0 ? scene.bottom() : jumps[i - 1];
+    const Scalar& hi = i == jumps.size() ? scene.top() : jumps[i];
+    if (lo < to && hi > from && scene.initial_values()[i] != Scalar(pure)) return false;
+  }
+  return true;
+}
+
+/// 1s below, 0s above, or only one of them.
+template <Real Scalar>
+bool is_steady(const Scene<Scalar>& scene) {
+  bool seen_zero = false;
+  for (const Scalar& phi : scene.initial_values()) {
+    if (phi == Scalar(0)) {
+      seen_zero = true;
+    } else if (phi != Scalar(1) || seen_zero) {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <Real Scalar>
+Scalar last_time(const Scene<Scalar>& scene, const Medium<Scalar>& medium, const Scalar& z,
+                 const Scalar& mass) {
+  const Scalar target = std::min(Scalar(z - scene.bottom()), mass);
+  const Scalar start =
+      std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(z, scene.top()));
+  return hopf_lax::final_time(medium, z, target, start, Scalar(scene.top() - scene.bottom()));
+}
+
+}  // namespace
+
+template <Real Scalar>
+Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
+  const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::kDefaultLayers;
+  const auto medium = hopf_lax::make_medium(scene, n);
+  Timeline<Scalar> events;
+  events.mass = scene.mass();
+  events.steady_height = std::min(Scalar(scene.bottom() + events.mass), scene.top());
+
+  const RealJumps<Scalar> jumps(scene);
+  const Scalar& at_bottom = scene.initial_values().front();
+  const Scalar& at_top = scene.initial_values().back();
+  if (at_bottom == Scalar(0)) {
+    if (jumps.lowest) events.t0 = medium->pure_travel_time(scene.bottom(), *jumps.lowest);
+  } else if (at_bottom != Scalar(1)) {
+    events.t0 = Scalar(0);
+  }
+  if (at_top == Scalar(1)) {
+    if (jumps.highest) events.t1 = medium->pure_travel_time(*jumps.highest, scene.top());
+  } else if (at_top != Scalar(0)) {
+    events.t1 = Scalar(0);
+  }
+  events.t_star = is_steady(scene) ? Scalar(0) : last_time(scene, *medium, events.steady_height, events.mass);
+
+  const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium.get());
+  if (layered == nullptr || !scene.is_layered()) return events;
+  for (std::size_t i = 1; i < layered->layers().n_layers(); ++i) {
+    const Scalar& z = layered->layers().boundary(i);
+    typename Timeline<Scalar>::InterfaceTimes times{z, hopf_lax::first_wave(*layered, i, events.mass), {}};
+    // Only 1 below or only 0 above: no flux ever passes z, which acts as a wall; the first wave there is the
+    // last.
+    if (is_pure(scene, scene.bottom(), z, 1) || is_pure(scene, z, scene.top(), 0)) {
+      times.last = times.first;
+    } else {
+      times.last = last_time(scene, *medium, z, events.mass);
+    }
+    events.interfaces.push_back(std::move(times));
+  }
+  return events;
+}
+
+template Timeline<double> exact_timeline<double>(const Scene<double>&, TimelineOptions);
+template Timeline<Real50> exact_timeline<Real50>(const Scene<Real50>&, TimelineOptions);
+template Timeline<Real110> exact_timeline<Real110>(const Scene<Real110>&, TimelineOptions);
+
+}  // namespace shearfront

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/hopf_lax/exact_solution.hpp"
+
+#include <algorithm>
+
+#include "shearfront/hopf_lax/medium.hpp"
+#include "shearfront/numeric/contract.hpp"
+
+namespace shearfront {
+
+using hopf_lax::Candidate;
+using hopf_lax::PathKind;
+
+template <Real Scalar>
+ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options)
+    : scene_(scene), mass_(scene.mass()), steady_height_(scene.bottom() + mass_) {
+  if (steady_height_ > scene.top()) steady_height_ = scene.top();
+  const std::size_t n = options.layers > 0 ? options.layers : kDefaultLayers;
+  medium_ = hopf_lax::make_medium(scene, n);
+  if (const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium_.get()))
+    n_layers_ = layered->layers().n_layers();
+  if (!hopf_lax::has_exact_medium(scene)) coarse_ = hopf_lax::make_medium(scene, (n + 1) / 2);
+}
+
+template <Real Scalar>
+Candidate<Scalar> ExactSolution<Scalar>::best_path(const hopf_lax::Medium<Scalar>& medium, const Scalar& z,
+                                                   const Scalar& t) const {
+  Candidate<Scalar> wall;
+  if (medium.pure_travel_time(scene_.bottom(), z) <= t) {
+    wall.value = z - scene_.bottom();
+    wall.p = Scalar(1);
+    wall.kind = PathKind::bottom_wall;
+    wall.upward = true;
+    wall.foot = scene_.bottom();
+  }
+  if (medium.pure_travel_time(z, scene_.top()) <= t && !(mass_ > wall.value)) {
+    wall = Candidate<Scalar>{};
+    wall.value = mass_;
+    wall.kind = PathKind::top_wall;
+    wall.foot = scene_.top();
+  }
+  Candidate<Scalar> free = medium.best_free(z, t, wall.value);
+  if (z == scene_.top()) {
+    // The state below the wall is asked for: the wall's own path (value m for every t) counts only where it
+    // is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not decide.
+    const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (scene_.top() - scene_.bottom());
+    if (free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
+      return free;
+  }
+  return free.better_than(wall) ? free : wall;
+}
+
+template <Real Scalar>
+typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_from(const Candidate<Scalar>& path,
+                                                                        const Scalar& z) const {
+  Value value;
+  const Scalar low = std::max(Scalar(0), Scalar(mass_ - (scene_.top() - z)));
+  const Scalar high = std::min(Scalar(z - scene_.bottom()), mass_);
+  value.M = z == scene_.top() ? mass_ : std::max(low, std::min(high, path.value));
+  value.phi = std::min(Scalar(1), std::max(Scalar(0), path.p));
+  value.H = path.H;
+  return value;
+}
+
+template <Real Scalar>
+Candidate<Scalar> ExactSolution<Scalar>::path(const Scalar& z, const Scalar& t) const {
+  if (t == Scalar(0) || !is_finite(t)) return {};
+  return best_path(*medium_, z, t);
+}
+
+template <Real Scalar>
+typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z, const Scalar& t) const {
+  SHEARFRONT_EXPECTS(z >= scene_.bottom() && z <= scene_.top() && t >= Scalar(0), "a point of the domain");
+  Value value;
+  if (t == Scalar(0)) {
+    value.phi = scene_.initial_phi(z);
+    const auto& jumps = scene_.initial_breaks();
+    CompensatedSum<Scalar> sum;
+    for (std::size_t i = 0; i <= jumps.size(); ++i) {
+      const Scalar& lo = i == 0 ? scene_.bottom() : jumps[i - 1];
+      if (!(lo < z)) break;
+      sum += (std::min(z, i == jumps.size() ? scene_.top() : jumps[i]) - lo) * scene_.initial_values()[i];
+    }
+    value.M = sum.value();
+    value.H = medium_->rate_at(z) * value.phi * (Scalar(1) - value.phi);
+    return value;
+  }
+  if (!is_finite(t)) {
+    const bool pure_above = z >= steady_height_ && steady_height_ < scene_.top();
+    value.phi = Scalar(pure_above ? 0 : 1);
+    value.M = std::min(Scalar(z - scene_.bottom()), mass_);
+    return value;
+  }
+  value = value_from(best_path(*medium_, z, t), z);
+  if (coarse_) {
+    const Value coarse = value_from(best_path(*coarse_, z, t), z);
+    value.M_error = coarse.M > value.M ? coarse.M - value.M : value.M - coarse.M;
+    value.phi_error = coarse.phi > value.phi ? coarse.phi - value.phi : value.phi - coarse.phi;
+  }
+  return value;
+}
+
+template class ExactSolution<double>;
+template class ExactSolution<Real50>;
+template class ExactSolution<Real110>;
+
+}  // namespace shearfront

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+
+#include "shearfront/numeric/scalar.hpp"
+
+/// The two quadratics of an exponential medium, without cancellation and without overflow.
+namespace shearfront::hopf_lax {
+
+/// Momenta at both ends of the path with (1 - B (1 - p0)) (1 + B p0) = 1 + e.
+/// Domain: B > 0, -min(1, B) <= e <= B. Guaranteed: relative accuracy of p0, 1 - p0 and p.
+template <Real Scalar>
+struct FanMomenta {
+  Scalar S, p0, one_minus_p0, p;
+
+  FanMomenta(const Scalar& B, const Scalar& e) {
+    using std::sqrt;
+    const Scalar one(1), half(0.5), E = one + e;
+    const Scalar half_B = B * half;
+    // Beyond 2^400 the square would overflow a double and E no longer matters.
+    const Scalar large = Scalar(std::ldexp(1.0, 400));
+    S = B < large ? Scalar(sqrt(Scalar(E + half_B * half_B))) : half_B;
+    p0 = half_B < one ? Scalar((B + e) / (B * (S + (one - half_B)))) : Scalar(half + (S - one) / B);
+    one_minus_p0 = ((B - e) / B) / (half_B + one + S);
+    p = E * ((B + e) / B) / (half_B + E + S);
+  }
+};
+
+/// E = exp((z - foot) / decay) = 1 + e for the characteristic of a constant state p0 that reaches z:
+/// b^2 p0 (1 - p0) E^2 + (1 - b (2 p0 - 1)) E - 1 = 0, b = s a(z) t / decay > 0. Exactly one positive root,
+/// except for p0 = 1 and b >= 1 (the characteristic would have to start at -infinity).
+template <Real Scalar>
+struct FootRoot {
+  bool exists = true;
+  Scalar E{1}, e{0};
+
+  FootRoot(const Scalar& b, const Scalar& p0) {
+    using std::sqrt;
+    const Scalar one(1), zero(0), h = p0 * (one - p0), twist = p0 + (p0 - one);
+    const Scalar unit = b > one ? Scalar(one / b) : one;  // scale so that nothing exceeds order 1
+    const Scalar bs = b > one ? one : b;
+    const Scalar c = unit - bs * twist;
+    const Scalar D = sqrt(Scalar(c * c + Scalar(4) * bs * bs * h));
+    const Scalar sum = c < zero ? Scalar(Scalar(4) * bs * bs * h / (D - c)) : Scalar(c + D);
+    if (!(sum > zero)) {
+      exists = false;
+      return;
+    }
+    E = Scalar(2) * unit / sum;
+    e = Scalar(4) * bs * (twist * unit - bs * h) / (sum * ((Scalar(2) * unit - c) + D));
+  }
+};
+
+}  // namespace shearfront::hopf_lax

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/hopf_lax/solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/hopf_lax/medium.hpp"
+
+namespace shearfront {
+
+namespace {
+
+void check_request(const Scene<double>& scene, const SolverRequest& request) {
+  Problems problems;
+  for (std::size_t i = 0; i < request.times.size(); ++i)
+    if (!(request.times[i] >= 0))
+      problems.push_back({"times[" + std::to_string(i) + "]", number_text(request.times[i]), "must be >= 0"});
+  for (std::size_t i = 0; i < request.depths.size(); ++i)
+    if (!(request.depths[i] >= scene.bottom() && request.depths[i] <= scene.top()))
+      problems.push_back({"depths[" + std::to_string(i) + "]", number_text(request.depths[i]),
+                          "must be inside the domain [" + number_text(scene.bottom()) + ", " +
+                              number_text(scene.top()) + "]"});
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace
+
+SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest& request,
+                                const SolverOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  check_request(scene, request);
+  SolverResult result;
+  const ExactSolution<double> solution(scene, {options.layers});
+  result.summary.layers = solution.n_layers();
+  result.summary.status = Status::ok;
+  result.summary.message = "exact to rounding";
+  double worst_M = 0;
+  result.samples.reserve(request.times.size() * request.depths.size());
+  for (const double t : request.times) {
+    if (options.progress && !options.progress(t, 0)) {
+      result.summary.status = Status::interrupted;
+      result.summary.message = "interrupted at t = " + number_text(t);
+      result.samples.clear();
+      break;
+    }
+    for (const double z : request.depths) {
+      const auto value = solution.at(z, t);
+      result.samples.push_back({value.phi, value.M});
+      worst_M = std::max(worst_M, value.M_error);
+    }
+  }
+  if (result.summary.usable() && request.timeline)
+    result.timeline = exact_timeline(scene, {.layers = options.layers});
+  if (result.summary.usable() && !hopf_lax::has_exact_medium(scene))
+    result.summary.message = "exact for a staircase of " + std::to_string(solution.n_layers()) +
+                             " layers; M changed by at most " + number_text(worst_M) + " from half as many";
+  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace shearfront
