@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/method.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "shearfront/solver/all.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  SolverList::for_each([&]<class S>() { names.emplace_back(S::kName); });
+  return names;
+}
+
+std::string join(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, "|")); }
+
+}  // namespace
+
+const std::vector<std::string>& grid_names() {
+  static const std::vector<std::string> names{"levels", "singular-mapping"};
+  return names;
+}
+
+const std::vector<std::string>& reconstruction_names() {
+  static const std::vector<std::string> names{"constant", "linear"};
+  return names;
+}
+
+void MethodArguments::add_to(CLI::App& app) {
+  app.add_option("--method", method_, "solver: " + SolverList::names() + "; default " + method_)
+      ->type_name(join(solver_names()));
+  app.add_option("--resolution", resolution_,
+                 "front tracking: largest step of phi in a fan, or delta of the singular mapping; "
+                 "> 0 and <= 1, default 0.01")
+      ->type_name("D");
+  app.add_option("--grid", grid_, "front tracking: grid of states; default levels")
+      ->type_name(join(grid_names()));
+  app.add_option("--reconstruct", reconstruct_, "front tracking: phi between fronts; default constant")
+      ->type_name(join(reconstruction_names()));
+  app.add_option("--layers", layers_, "smooth shear rates: number of layers of the staircase")
+      ->type_name("N");
+  app.add_option("--max-collisions", max_collisions_, "front tracking: stop after so many collisions")
+      ->type_name("N");
+}
+
+std::string_view MethodArguments::method() const {
+  (void)choice_option("--method", method_, solver_names());
+  return method_;
+}
+
+SolverOptions MethodArguments::options() const {
+  SolverOptions options;
+  (void)method();
+  if (!resolution_.empty())
+    options.resolution = number_option("--resolution", resolution_, {0, 1, true}, "> 0 and <= 1");
+  if (!grid_.empty()) options.grid = static_cast<GridKind>(choice_option("--grid", grid_, grid_names()));
+  if (!reconstruct_.empty())
+    options.reconstruct =
+        static_cast<Reconstruction>(choice_option("--reconstruct", reconstruct_, reconstruction_names()));
+  constexpr unsigned long long kMostLayers = 1'000'000, kMostCollisions = 1'000'000'000'000'000;
+  if (!layers_.empty())
+    options.layers = static_cast<std::size_t>(count_option("--layers", layers_, 1, kMostLayers));
+  if (!max_collisions_.empty())
+    options.max_collisions = count_option("--max-collisions", max_collisions_, 1, kMostCollisions);
+  return options;
+}
+
+void note_unused_layers(const MethodArguments& arguments, const Scene<double>& scene) {
+  if (arguments.has_layers() && scene.is_layered())
+    note("--layers changes nothing: the shear rate is piecewise constant");
+}
+
+SolverResult solve_with(std::string_view method, const Scene<double>& scene, const SolverRequest& request,
+                        const SolverOptions& options) {
+  SolverResult result;
+  SolverList::for_each([&]<class S>() {
+    if (method == S::kName) result = S::solve(scene, request, options);
+  });
+  return result;
+}
+
+Guarantees guarantees_of(std::string_view method) {
+  Guarantees guarantees;
+  SolverList::for_each([&]<class S>() {
+    if (method == S::kName) guarantees = S::guarantees();
+  });
+  return guarantees;
+}
+
+std::vector<std::string> methods_with_fronts() {
+  std::vector<std::string> names;
+  SolverList::for_each([&]<class S>() {
+    if (S::guarantees().has_fronts) names.emplace_back(S::kName);
+  });
+  return names;
+}
+
+}  // namespace shearfront::tools

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace shearfront::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{200};
+
+}  // namespace
+
+ProgressLine::ProgressLine()
+    : is_terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (is_shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+std::function<bool(double, std::uint64_t)> ProgressLine::callback() {
+  if (!is_terminal_) return {};
+  return [this](double t, std::uint64_t collisions) {
+    show(t, collisions);
+    return true;
+  };
+}
+
+void ProgressLine::show(double t, std::uint64_t collisions) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kPeriod) return;
+  last_ = now;
+  is_shown_ = true;
+  fmt::print(stderr, "\r\x1b[Kt = {:.6g}, {} collisions", t, collisions);
+  std::fflush(stderr);
+}
+
+}  // namespace shearfront::tools

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/solver/solver.hpp"
+
+namespace shearfront::tools {
+
+/// Refuses a picture whose name does not end in .svg, .png or .pdf. An empty name is no picture.
+void check_picture_name(std::string_view option, const std::string& path);
+/// Refuses a picture that cannot be written. Errors: FileError.
+void check_picture_target(const std::string& path);
+
+/// Fronts in the (t, z) plane, t to the right: coloured by phi, shocks thicker, interfaces dashed, event
+/// times marked. Returns an exit code: without gnuplot one line on standard error and kDone.
+int draw_fronts(const std::string& path, const Scene<double>& scene,
+                const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline,
+                double resolution);
+
+/// Profiles phi(z) at some times, z upwards; a method that is not exact gets the exact profile as a thin line
+/// on top.
+int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
+                  const std::vector<double>& times, const SolverOptions& options);
+
+}  // namespace shearfront::tools
