@@ -75,21 +75,25 @@ std::vector<EventRow<S>> event_rows(const Timeline<S>& timeline, const ClosedFor
   return rows;
 }
 
+/// With so many digits, or the shortest text that reads back if digits is 0.
+template <Real S>
+std::string shown(const S& x, int digits) {
+  if (digits == 0) return number_text(to_double(x));
+  return x == 0 ? "0" : number_text(x, digits);
+}
+
 template <Real S>
 std::string event_table(const std::vector<EventRow<S>>& rows, int digits, bool compare) {
-  const auto shown = [&](const auto& x) {
-    return digits > 0 ? number_text(x, digits) : number_text(to_double(x));
-  };
   TextTable table({"event", "meaning", "time", compare ? "exact" : "", compare ? "relative difference" : "",
                    "closed form"});
   for (const EventRow<S>& row : rows) {
     std::string exact, difference;
     if (compare && row.exact) {
-      exact = shown(*row.exact);
+      exact = shown(*row.exact, digits);
       if (row.time && *row.exact != 0)
         difference = fmt::format("{:.1e}", to_double(*row.time) / *row.exact - 1);
     }
-    table.add({row.event, row.meaning, row.time ? shown(*row.time) : "never", exact, difference,
+    table.add({row.event, row.meaning, row.time ? shown(*row.time, digits) : "never", exact, difference,
                row.form ? row.form->formula : ""});
   }
   return table.text();
@@ -127,11 +131,8 @@ void print_events(const EventsArguments& arguments, const Scene<double>& scene, 
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "
           "k0, k1 rates s a below and above the interface\n");
-    const auto shown = [&](const S& x) {
-      return digits > 0 ? number_text(x, digits) : number_text(to_double(x));
-    };
-    out.write(
-        fmt::format("\nmass {}, steady height {}\n", shown(timeline.mass), shown(timeline.steady_height)));
+    out.write(fmt::format("\nmass {}, steady height {}\n", shown(timeline.mass, digits),
+                          shown(timeline.steady_height, digits)));
     out.write(summary_line(summary));
   }
   out.commit();

@@ -64,6 +64,13 @@ std::string terminal(const std::string& ending, int width, int height) {
                      width, height);
 }
 
+/// gnuplot's SVG leaves blanks between words of different fonts to the viewer, and viewers drop them.
+void keep_blanks(std::string& svg) {
+  constexpr std::string_view kText = "<text>", kKeeping = "<text xml:space=\"preserve\">";
+  for (std::size_t i = svg.find(kText); i != std::string::npos; i = svg.find(kText, i + kKeeping.size()))
+    svg.replace(i, kText.size(), kKeeping);
+}
+
 }  // namespace
 
 void check_picture_name(std::string_view option, const std::string& path) {
@@ -120,6 +127,7 @@ int Gnuplot::draw() const {
     note(fmt::format("no picture {}: gnuplot failed: {}", printable(path_), printable(reason)));
     return kNoResult;
   }
+  if (ending_of(path_) == ".svg") keep_blanks(picture);
   OutputFile file(path_);
   file.write(picture);
   file.commit();

@@ -12,7 +12,7 @@ class Gnuplot {
   /// Size in points of 1/72 inch at which a font of 12 points looks right; a PNG has twice as many pixels.
   Gnuplot(std::string path, int width, int height);
 
-  /// Adds one line of script.
+  /// Adds a line of script.
   void add(std::string_view line);
   /// Adds an inline data block that plots refer to as $name; `rows` are lines of numbers, each with its
   /// newline.

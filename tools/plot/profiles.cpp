@@ -74,8 +74,8 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, std::stri
   if (many) {
     const auto [least, most] = std::minmax_element(times.begin(), times.end());
     plot.add("set palette defined (0 '#0d0887', 0.25 '#6a00a8', 0.5 '#b12a90', 0.75 '#e16462', 1 '#f0a028')");
-    plot.add(fmt::format("set cbrange [{:.9g}:{:.9g}]\nset cblabel 'time {{/:Italic t}}'", *least,
-                         *most > *least ? *most : *least + 1));
+    plot.add(fmt::format("set cbrange [{:.9g}:{:.9g}]\nset cblabel 'time {{/:Italic t}}' offset 1.2,0",
+                         *least, *most > *least ? *most : *least + 1));
     plot.add("set colorbox noborder");
   }
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -83,7 +83,7 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, std::stri
         many ? fmt::format("lc palette cb {:.9g} notitle", times[i])
              : fmt::format("lc rgb '{}' title '{{/:Italic t}} = {:.5g}'", kColours[i], times[i]);
     curves +=
-        fmt::format("{}$profile{} with lines lw {} {}", i == 0 ? "" : ", ", i, compare ? 3.0 : 2.0, style);
+        fmt::format("{}$profile{} with lines lw {} {}", i == 0 ? "" : ", ", i, compare ? 2.4 : 2.0, style);
   }
   if (exact.summary.usable()) {
     add_profiles(plot, "exact", request, exact);
