@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/flux/all.hpp"
+#include "shearfront/flux/skeleton.hpp"
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/shear_rate/all.hpp"
+#include "shearfront/shear_rate/skeleton.hpp"
+#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/skeleton.hpp"
+
+/// The lists of models: what the program, the scene files and the laws take from them.
+namespace shearfront {
+namespace {
+
+template <class List>
+std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  List::for_each([&]<class T>() { names.emplace_back(T::kName); });
+  return names;
+}
+
+/// A name is typed by users in scene files and on command lines.
+bool is_plain(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
+template <class List>
+void expect_good_names() {
+  const auto names = names_of<List>();
+  EXPECT_EQ(names.size(), List::kSize);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << List::names();
+  for (const std::string& name : names) {
+    EXPECT_TRUE(is_plain(name)) << name;
+    EXPECT_NE(name, "skeleton") << "a copy of the skeleton needs a name of its own";
+    EXPECT_TRUE(List::contains(name));
+  }
+  EXPECT_FALSE(List::contains("skeleton"));
+  EXPECT_FALSE(List::contains(""));
+}
+
+TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList>(); }
+TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<ShearRateList<double>>(); }
+TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
+
+TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
+  EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real50>>());
+  EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real110>>());
+}
+
+TEST(Lists, NamesJoinsInOrder) { EXPECT_EQ(ShearRateList<double>::names(), "piecewise, exponential, table"); }
+
+TEST(Lists, EveryListedTypeHasSamples) {
+  FluxList::for_each([]<class F>() { EXPECT_FALSE(F::samples().empty()) << F::kName; });
+  ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::samples().empty()) << A::kName; });
+}
+
+TEST(Lists, EveryListedTypeDescribesItself) {
+  FluxList::for_each([]<class F>() { EXPECT_FALSE(F::kFormula.empty()) << F::kName; });
+  ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::kFormula.empty()) << A::kName; });
+  SolverList::for_each([]<class S>() { EXPECT_FALSE(S::kDescription.empty()) << S::kName; });
+}
+
+Scene<double> half_and_half() {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1.0}};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0.0, 1.0};
+  return Scene<double>(std::move(spec));
+}
+
+TEST(Skeletons, FluxWorksAsItStands) {
+  using F = TypeList<SkeletonFlux>::Variant;
+  EXPECT_EQ(std::visit([](const auto& f) { return f.value(0.25); }, F{}), -0.1875);
+  EXPECT_EQ(SkeletonFlux::secant(0.25, 0.25), SkeletonFlux::derivative(0.25));
+  EXPECT_EQ(SkeletonFlux::value(Real50(0.25)), Real50(-0.1875));
+}
+
+TEST(Skeletons, ShearRateWorksAsItStands) {
+  for (const auto& rate : SkeletonShearRate<double>::samples()) {
+    Problems problems;
+    rate.fields(rate, [&](const FieldInfo& info, const auto& x) {
+      check_number(std::string(info.key), info.range, x, problems);
+    });
+    rate.check("shear_rate.", 0.0, 1.0, problems);
+    EXPECT_TRUE(problems.empty());
+    EXPECT_EQ(rate.harmonic_mean(0.25, 0.75), rate.value(0.5));
+    EXPECT_TRUE(rate.knots().empty());
+  }
+}
+
+TEST(Skeletons, SolverSaysThatItSolvesNothing) {
+  SolverRequest request;
+  request.times = {0.0, 1.0};
+  request.depths = {0.25, 0.75};
+  const SolverResult result = SkeletonSolver::solve(half_and_half(), request, {});
+  ASSERT_EQ(result.samples.size(), 4U);
+  EXPECT_EQ(result.samples[1].phi, 1.0);
+  EXPECT_EQ(result.summary.status, Status::unsupported);
+  EXPECT_FALSE(result.summary.usable());
+}
+
+}  // namespace
+}  // namespace shearfront
