@@ -14,6 +14,7 @@
 #include "shearfront/shear_rate/skeleton.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/skeleton.hpp"
+#include "unit/example/linear.hpp"
 
 /// The lists of models: what the program, the scene files and the laws take from them.
 namespace shearfront {
@@ -95,6 +96,23 @@ TEST(Skeletons, ShearRateWorksAsItStands) {
     EXPECT_EQ(rate.harmonic_mean(0.25, 0.75), rate.value(0.5));
     EXPECT_TRUE(rate.knots().empty());
   }
+}
+
+// The example of docs/extending.md. Reference: (hi - lo) / int dz/a by the closed form, in 50 digits.
+TEST(Skeletons, ExampleOfTheDocsIsAShearRate) {
+  for (const auto& rate : Linear<double>::samples()) {
+    Problems problems;
+    rate.check("shear_rate.", 0.0, 1.0, problems);
+    EXPECT_TRUE(problems.empty());
+    const Linear<Real50> fine{Real50(rate.ground), Real50(rate.slope)};
+    const Real50 lo(0.25), hi(0.75);
+    const Real50 integral = log(fine.value(hi) / fine.value(lo)) / fine.slope;
+    EXPECT_NEAR(rate.harmonic_mean(0.25, 0.75), to_double(Real50((hi - lo) / integral)), 1e-15);
+  }
+  Problems problems;
+  Linear<double>{1.0, -2.0}.check("shear_rate.", 0.0, 1.0, problems);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
 }
 
 TEST(Skeletons, SolverSaysThatItSolvesNothing) {
