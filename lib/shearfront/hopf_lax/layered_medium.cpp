@@ -26,6 +26,16 @@ Scalar bound_slack(const Geometry<Scalar>& g) {
   return Scalar(1 << 12) * unit_roundoff<Scalar>() * (g.layers.top() - g.layers.bottom());
 }
 
+/// Makes the H of a path the H' of later lower bounds in the same sweep.
+template <Real Scalar>
+void set_dual(const Geometry<Scalar>& g, Sweep<Scalar>& sweep, const FanState<Scalar>& fan) {
+  sweep.h_dual = Scalar(4) * fan.H;
+  sweep.Q_dual = Scalar(0);
+  sweep.for_each_crossed(g, [&](const Scalar& d, std::size_t k) {
+    sweep.Q_dual += d * momentum_root<Scalar>(g.rate[k] - sweep.h_dual, g.inverse_rate[k]);
+  });
+}
+
 }  // namespace
 
 template <Real Scalar>
@@ -37,6 +47,19 @@ LayeredMedium<Scalar>::LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scal
   for (std::size_t i = 0; i < cells_.n_cells(); ++i)
     h_cell_.push_back(Scalar(4) * geometry_.rate[cells_.layer[i]] * cells_.phi[i] *
                       (Scalar(1) - cells_.phi[i]));
+  // Going up from a point needs 4 s a phi (1 - phi) of the cell above <= 4 H <= the same of the cell below
+  // when phi_b > 1/2, its capacity otherwise (beyond that, resting is better); going down mirrored.
+  emits_.assign(cells_.x.size(), 0);
+  const Scalar half(0.5);
+  for (std::size_t i = 1; i < cells_.n_cells(); ++i) {
+    const Scalar& below = cells_.phi[i - 1];
+    const Scalar& above = cells_.phi[i];
+    const Scalar up_limit = below > half ? h_cell_[i - 1] : geometry_.rate[cells_.layer[i - 1]];
+    const Scalar down_limit = above < half ? h_cell_[i] : geometry_.rate[cells_.layer[i]];
+    if (above >= half && h_cell_[i] <= up_limit && (above > half || below < half)) emits_[i] |= 1U;
+    if (below <= half && h_cell_[i - 1] <= down_limit && (below < half || above > half)) emits_[i] |= 2U;
+    if (below == above && h_cell_[i] == 0) emits_[i] = 0;
+  }
 }
 
 template <Real Scalar>
@@ -61,7 +84,7 @@ Candidate<Scalar> LayeredMedium<Scalar>::best_free(const Scalar& z, const Scalar
 }
 
 template <Real Scalar>
-void LayeredMedium<Scalar>::search_layer(const Query& query, const Sweep<Scalar>& sweep,
+void LayeredMedium<Scalar>::search_layer(const Query& query, Sweep<Scalar>& sweep,
                                          Candidate<Scalar>& best) const {
   std::size_t begin = cells_.first[sweep.start], end = cells_.first[sweep.start + 1];
   if (sweep.start == sweep.own) {
@@ -80,7 +103,7 @@ void LayeredMedium<Scalar>::search_layer(const Query& query, const Sweep<Scalar>
 
 /// Cells begin .. end - 1 with the source at the outer end of each (below it for paths going up).
 template <Real Scalar>
-void LayeredMedium<Scalar>::search_range(const Query& query, const Sweep<Scalar>& sweep, std::size_t begin,
+void LayeredMedium<Scalar>::search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin,
                                          std::size_t end, Candidate<Scalar>& best) const {
   constexpr std::size_t kLeaf = 6;
   if (end - begin <= kLeaf) {
@@ -125,8 +148,8 @@ void LayeredMedium<Scalar>::search_range(const Query& query, const Sweep<Scalar>
 
 /// The fan from point i. With `prune` false it is solved to the end even when it cannot be the best.
 template <Real Scalar>
-FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, const Sweep<Scalar>& sweep,
-                                                   std::size_t i, bool prune, Candidate<Scalar>& best) const {
+FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i,
+                                                   bool prune, Candidate<Scalar>& best) const {
   FanState<Scalar> fan;
   if (i == 0 || i + 1 == cells_.x.size()) return fan;  // walls
   if (prune && !emits(i, sweep.upward)) return fan;
@@ -136,14 +159,18 @@ FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, const Swe
   if (d < 0) return fan;
   const Scalar base = cells_.M[i] + (query.z - x) / Scalar(2);
   const Scalar limit = prune ? Scalar(std::min(query.upper, best.value) + slack_) : infinity<Scalar>();
-  if (sweep.start == sweep.own && d == 0) {
+  const bool own = sweep.start == sweep.own;
+  if (own && d == 0) {
     // A jump at the query height itself: rest there. On an interface this is a waiting path.
     if (cells_.first[sweep.own] == i) return fan;
     fan.reachable = true;
     fan.r_min = geometry_.rate[sweep.own];
     fan.H = fan.r_min / Scalar(4);
   } else {
+    if (prune && !own && cells_.M[i] + dual_bound(geometry_, sweep, d, Scalar(query.z - x), query.t) > limit)
+      return fan;
     fan = solve_fan(geometry_, sweep, d, query.t, base, limit);
+    if (prune && !own && fan.reachable) set_dual(geometry_, sweep, fan);
   }
   if (!fan.reachable || fan.pruned) return fan;
   Candidate<Scalar> path;
@@ -178,13 +205,25 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
   const Scalar nearest = sweep.upward ? exit - cells_.x[i + 1] : cells_.x[i] - exit;
   const Scalar farthest = sweep.upward ? exit - cells_.x[i] : cells_.x[i + 1] - exit;
   if ((query.t - sweep.T0) * speed < nearest) return;  // the crossing takes at least T0
-  Scalar time(0), Q(0);
-  sweep.for_each_crossed(geometry_, [&](const Scalar& d, std::size_t k) {
-    const Scalar q =
-        h == 0 ? Scalar(1) : momentum_root<Scalar>(geometry_.rate[k] - h, geometry_.inverse_rate[k]);
-    time += d * geometry_.inverse_rate[k] / q;
-    Q += d * q;
-  });
+  if (!own) {                                          // the bound is linear in the foot point
+    const Scalar limit = std::min(query.upper, best.value) + slack_;
+    const auto bound = [&](std::size_t end, const Scalar& d) {
+      return Scalar(cells_.M[end] +
+                    dual_bound(geometry_, sweep, d, Scalar(query.z - cells_.x[end]), query.t));
+    };
+    const Scalar bottom = bound(i, sweep.upward ? farthest : nearest);
+    const Scalar top = bound(i + 1, sweep.upward ? nearest : farthest);
+    if (std::min(bottom, top) > limit) return;
+  }
+  Scalar time = sweep.T0, Q(0);
+  if (h > 0) {
+    time = Scalar(0);
+    sweep.for_each_crossed(geometry_, [&](const Scalar& d, std::size_t k) {
+      const Scalar q = momentum_root<Scalar>(geometry_.rate[k] - h, geometry_.inverse_rate[k]);
+      time += d * geometry_.inverse_rate[k] / q;
+      Q += d * q;
+    });
+  }
   const Scalar d = (query.t - time) * speed;
   if (!(d >= nearest && d <= farthest) || d < 0) return;
   Candidate<Scalar> path;

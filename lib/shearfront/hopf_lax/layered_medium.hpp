@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "shearfront/hopf_lax/candidate.hpp"
@@ -46,26 +47,23 @@ class LayeredMedium final : public Medium<Scalar> {
   [[nodiscard]] const Cells<Scalar>& cells() const { return cells_; }
   [[nodiscard]] const LayerStack<Scalar>& layers() const { return geometry_.layers; }
   [[nodiscard]] const Waiting<Scalar>& waiting() const { return waiting_; }
-  /// Whether a fan can leave point i upwards (downwards).
-  [[nodiscard]] bool emits(std::size_t i, bool upward) const {
-    return (upward ? cells_.phi[i] : cells_.phi[i - 1]) == Scalar(0.5)
-               ? true
-               : (upward ? cells_.phi[i] > Scalar(0.5) : cells_.phi[i - 1] < Scalar(0.5));
-  }
+  /// Whether a fan can leave inner point i upwards (downwards): some H satisfies phi_b <= p <= phi_a.
+  [[nodiscard]] bool emits(std::size_t i, bool upward) const { return (emits_[i] & (upward ? 1U : 2U)) != 0; }
 
  private:
   struct Query;
-  void search_layer(const Query& query, const Sweep<Scalar>& sweep, Candidate<Scalar>& best) const;
-  void search_range(const Query& query, const Sweep<Scalar>& sweep, std::size_t begin, std::size_t end,
+  void search_layer(const Query& query, Sweep<Scalar>& sweep, Candidate<Scalar>& best) const;
+  void search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin, std::size_t end,
                     Candidate<Scalar>& best) const;
-  FanState<Scalar> try_source(const Query& query, const Sweep<Scalar>& sweep, std::size_t i, bool prune,
+  FanState<Scalar> try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i, bool prune,
                               Candidate<Scalar>& best) const;
   void try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i, Candidate<Scalar>& best) const;
 
   Geometry<Scalar> geometry_;
   Cells<Scalar> cells_;
-  std::vector<Scalar> h_cell_;  ///< 4 s a phi (1 - phi) per cell
-  Scalar slack_;                ///< rounding allowance of lower bounds
+  std::vector<Scalar> h_cell_;       ///< 4 s a phi (1 - phi) per cell
+  std::vector<std::uint8_t> emits_;  ///< per point: bit 0 upwards, bit 1 downwards
+  Scalar slack_;                     ///< rounding allowance of lower bounds
   Waiting<Scalar> waiting_;
 };
 

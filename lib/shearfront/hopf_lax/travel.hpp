@@ -67,6 +67,9 @@ struct Sweep {
   Scalar S{0};                        ///< sum d / r^2 of the same
   Scalar r_min = infinity<Scalar>();  ///< smallest rate of the same
 
+  /// A value of 4 H for lower bounds (negative: none) and sum q d of everything between at that H.
+  Scalar h_dual{-1}, Q_dual{0};
+
   /// Calls f(d, k) for every layer between, the start layer excluded, the own layer included if crossed.
   template <class F>
   void for_each_crossed(const Geometry<Scalar>& g, F&& f) const {
@@ -84,10 +87,26 @@ struct Sweep {
       T0 += d * g.inverse_rate[start];
       S += d * g.inverse_rate[start] * g.inverse_rate[start];
       r_min = std::min(r_min, g.rate[start]);
+      if (!(h_dual < g.rate[start])) {
+        h_dual = Scalar(-1);
+      } else if (h_dual >= 0) {
+        Q_dual += d * momentum_root<Scalar>(g.rate[start] - h_dual, g.inverse_rate[start]);
+      }
     }
     upward ? --start : ++start;
   }
 };
+
+/// Duality: H' t + (z - x) / 2 + sum q_k(H') d_k / 2 bounds the cost from below for every H' up to the
+/// capacity of the layers crossed. Here at the H' of the sweep, for a path that covers d in its start layer
+/// and x -> z = `rise` in all; 0 if there is no such H'.
+template <Real Scalar>
+[[nodiscard]] Scalar dual_bound(const Geometry<Scalar>& g, const Sweep<Scalar>& sweep, const Scalar& d,
+                                const Scalar& rise, const Scalar& t) {
+  if (sweep.h_dual < 0 || !(sweep.h_dual < g.rate[sweep.start])) return Scalar(0);
+  const Scalar q = momentum_root<Scalar>(g.rate[sweep.start] - sweep.h_dual, g.inverse_rate[sweep.start]);
+  return sweep.h_dual * t / Scalar(4) + (rise + sweep.Q_dual + q * d) / Scalar(2);
+}
 
 /// A path with T(H) = t, or a lower bound on its cost when `pruned`.
 template <Real Scalar>

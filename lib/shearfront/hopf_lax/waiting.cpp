@@ -98,7 +98,7 @@ void Waiting<Scalar>::build(const Geometry<Scalar>& g, const Cells<Scalar>& cell
 template <Real Scalar>
 void Waiting<Scalar>::try_interface(const Geometry<Scalar>& g, const Cells<Scalar>& cells, std::size_t i,
                                     const Scalar& z, std::size_t k, const Scalar& t, const Scalar& upper,
-                                    Candidate<Scalar>& best) const {
+                                    Scalar& Q_floor, Candidate<Scalar>& best) const {
   const Basin& basin = basins_[i];
   if (basin.entries.empty()) return;
   const Scalar H = basin.h / Scalar(4);
@@ -106,7 +106,7 @@ void Waiting<Scalar>::try_interface(const Geometry<Scalar>& g, const Cells<Scala
   const Scalar half_way = (z - z_i) / Scalar(2);
   const Scalar limit = std::min(upper, best.value);
   const Scalar base = half_way + H * t;
-  if (basin.entries.back().A + base > limit + slack_) return;  // Q >= 0 comes on top
+  if (basin.entries.back().A + base + Q_floor / Scalar(2) > limit + slack_) return;
   Scalar tau(0), Q(0);
   if (z != z_i) {
     const Scalar d = basin.below ? g.layers.boundary(k + 1) - z : z - g.layers.boundary(k);
@@ -125,6 +125,7 @@ void Waiting<Scalar>::try_interface(const Geometry<Scalar>& g, const Cells<Scala
     const Scalar q = momentum_root<Scalar>(g.rate[k] - basin.h, g.inverse_rate[k]);
     tau += d * g.inverse_rate[k] / q;
     Q += d * q;
+    Q_floor = Q;
   }
   const Scalar left = t - tau;
   const auto late = std::upper_bound(basin.entries.begin(), basin.entries.end(), left,
@@ -150,14 +151,17 @@ template <Real Scalar>
 void Waiting<Scalar>::search(const Geometry<Scalar>& g, const Cells<Scalar>& cells, const Scalar& z,
                              std::size_t k, const Scalar& t, const Scalar& upper,
                              Candidate<Scalar>& best) const {
-  // Basins that contain layer k end at a layer slower than every layer on the way: a record low.
+  // Basins that contain layer k end at a layer slower than every layer on the way: a record low. Going
+  // outwards H_i falls and the way gets longer, so sum q d only grows: the last one computed bounds the next
+  // from below.
+  Scalar above(0), below(0), here(0);
   for (std::size_t l = slower_above_[k]; l != kNone; l = slower_above_[l])
-    try_interface(g, cells, l, z, k, t, upper, best);
+    try_interface(g, cells, l, z, k, t, upper, above, best);
   for (std::size_t l = slower_below_[k]; l != kNone; l = slower_below_[l])
-    try_interface(g, cells, l + 1, z, k, t, upper, best);
+    try_interface(g, cells, l + 1, z, k, t, upper, below, best);
   // On an interface whose basin is not above, the path may end where it rests.
   if (k > 0 && z == g.layers.boundary(k) && !(g.rate[k - 1] < g.rate[k]))
-    try_interface(g, cells, k, z, k, t, upper, best);
+    try_interface(g, cells, k, z, k, t, upper, here, best);
 }
 
 template class Waiting<double>;

@@ -53,7 +53,8 @@ class Waiting {
                                       std::size_t point, bool upward, const Scalar& h);
   void build(const Geometry<Scalar>& g, const Cells<Scalar>& cells, std::size_t i, Basin& basin);
   void try_interface(const Geometry<Scalar>& g, const Cells<Scalar>& cells, std::size_t i, const Scalar& z,
-                     std::size_t k, const Scalar& t, const Scalar& upper, Candidate<Scalar>& best) const;
+                     std::size_t k, const Scalar& t, const Scalar& upper, Scalar& Q_floor,
+                     Candidate<Scalar>& best) const;
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<Basin> basins_;                             ///< per boundary; walls stay empty
