@@ -94,7 +94,14 @@ class LevelGrid {
     const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
     if (level_l.home == kOnChord || level_r.home == kOnChord) return chord_speed(layer, l, r);
     const S q_l = root(layer, level_l), q_r = root(layer, level_r);
-    return S(2) * capacity(layer) * ((l <= t ? -q_l : q_l) + (r <= t ? -q_r : q_r));
+    const bool falling_l = l <= t, falling_r = r <= t;
+    if (falling_l == falling_r) return (falling_l ? S(-2) : S(2)) * capacity(layer) * (q_l + q_r);
+    // A shock across the minimum: phi_l + phi_r - 1 is a difference of q, or of the distances p to the pure
+    // states; the smaller of the two pairs loses nothing.
+    const S difference = S(2) * q_l > S(1) && S(2) * q_r > S(1)
+                             ? S(2) * (falling_p(layer, level_r, q_r) - falling_p(layer, level_l, q_l))
+                             : q_l - q_r;
+    return (falling_l ? S(-2) : S(2)) * capacity(layer) * difference;
   }
 
   /// Asks for a state's record ahead of time. A stale state of another layer is ignored.
@@ -153,6 +160,11 @@ class LevelGrid {
     if (!(rest < c)) return S(1);
     return sqrt(rest / c);
   }
+  /// (1 - q) / 2 of a vertex level without cancellation.
+  [[nodiscard]] S falling_p(std::size_t layer, const Level& h, const S& q) const {
+    if (h.home == static_cast<std::int32_t>(layer_capacity_[layer])) return h.p;
+    return h.value / (S(2) * capacity(layer) * (S(1) + q));
+  }
   [[nodiscard]] S falling_phi(std::size_t layer, State i) const {
     const Level& h = levels_[index(i)];
     if (h.home == static_cast<std::int32_t>(layer_capacity_[layer])) return h.p;
@@ -161,7 +173,7 @@ class LevelGrid {
       return lo + h.p * (hi - lo);
     }
     if (!vertex_phi_.empty()) return vertex_phi_[layer_capacity_[layer] * n_vertices_ + index(h.ordinal)];
-    return h.value / (S(2) * capacity(layer) * (S(1) + root(layer, h)));
+    return falling_p(layer, h, root(layer, h));
   }
   /// Speed when at least one state lies inside a chord. All fronts inside one chord have bitwise the same
   /// speed.
