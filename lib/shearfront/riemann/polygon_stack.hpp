@@ -37,7 +37,12 @@ class PolygonStack {
     levels_.push_back(S(0));
     for (const Polygon<S>& p : polygons) levels_.insert(levels_.end(), p.flux.begin(), p.flux.end());
     std::sort(levels_.begin(), levels_.end());
-    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    // Values that differ by the rounding of their own evaluation are one level: f(phi) and f(1 - phi), say.
+    // Kept apart they would ask for states closer together than numbers are.
+    slack_ = std::max(levels_.back(), Scalar(-levels_.front())) * (Scalar(kRoundings) * unit_roundoff<S>());
+    levels_.erase(
+        std::unique(levels_.begin(), levels_.end(), [&](const S& a, const S& b) { return b - a <= slack_; }),
+        levels_.end());
     for (const Polygon<S>& p : polygons) layers_.push_back(closed(p));
     zero_ = rank_of(S(0));
   }
@@ -88,7 +93,8 @@ class PolygonStack {
     return layers_[layer].points[static_cast<std::size_t>(i)];
   }
   [[nodiscard]] State rank_of(const S& flux) const {
-    return static_cast<State>(std::lower_bound(levels_.begin(), levels_.end(), flux) - levels_.begin());
+    return static_cast<State>(std::lower_bound(levels_.begin(), levels_.end(), flux - slack_) -
+                              levels_.begin());
   }
   [[nodiscard]] Layer closed(const Polygon<S>& p) const {
     SHEARFRONT_EXPECTS(p.phi.size() >= 2 && p.phi.size() == p.flux.size(), "points of a polygon");
@@ -110,7 +116,10 @@ class PolygonStack {
     return layer;
   }
 
+  static constexpr int kRoundings = 16;
+
   std::vector<S> boundaries_, levels_;
+  S slack_{0};
   std::vector<Layer> layers_;
   State zero_ = 0;
 };
