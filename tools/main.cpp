@@ -66,6 +66,10 @@ std::string reshaped(const CLI::ParseError& error, const std::vector<Command>& c
       if (command.app->parsed())
         return fmt::format("{}: missing; usage: shearfront {}", command.argument, command.usage());
   }
+  if (error.get_name() == "ConversionError") {  // only flags are converted by CLI11
+    const std::size_t begin = text.find("--"), end = text.find(' ', begin);
+    return text.substr(begin, end - begin) + ": takes no value";
+  }
   if (error.get_name() != "ArgumentMismatch") return text;
   return name + (text.find("At Most") != std::string::npos ? ": must not be given more than once"
                                                            : ": needs a value");

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 bool is_same_file(std::string_view a, std::string_view b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+  return fs::weakly_canonical(fs::absolute(a, error), error) ==
+         fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
 bool is_same_output(std::string_view a, std::string_view b) {

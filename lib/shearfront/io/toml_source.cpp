@@ -17,6 +17,10 @@ toml::table parse(const TextSource& text) {
     std::string what(error.description());
     constexpr std::string_view kPrefix = "Error while parsing ";
     if (what.starts_with(kPrefix)) what = "in " + what.substr(kPrefix.size());
+    const std::size_t place = text.offset(TomlSource::position(error.source()));
+    if (what.starts_with("in string: unescaped control") &&
+        text.text().substr(place, 1).find_first_of("\r\n") == 0)
+      what = "in string: must end with a quotation mark on the same line";
     ProblemReport report(text.name());
     report.add(TomlSource::position(error.source()), {"syntax error", "", printable(what)});
     report.throw_if_any();
