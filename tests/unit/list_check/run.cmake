@@ -17,7 +17,7 @@ shearfront_check_list(shearfront/flux)
 shearfront_check_list(shearfront/shear_rate)
 shearfront_check_solvers()
 ")
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${work} -B ${work}/build RESULT_VARIABLE code OUTPUT_QUIET
+execute_process(COMMAND ${CMAKE_COMMAND} -G ${generator} -S ${work} -B ${work}/build RESULT_VARIABLE code OUTPUT_QUIET
                 ERROR_VARIABLE message)
 if(NOT expected)
   if(NOT code EQUAL 0)
