@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "../cli/case_file.hpp"
+
+/// Runs the fuzz target without a fuzzer: on the corpus, then on mutations of it from a fixed seed.
+///
+///     replay [number of mutations] [seed]        replay --write-corpus FOLDER        replay --file FILE
+///
+/// The corpus are the datasets and the scene files of the command-line cases.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> corpus() {
+  std::vector<std::string> texts{""};
+  for (const auto& entry : fs::recursive_directory_iterator(SHEARFRONT_SOURCE_DIR "/datasets"))
+    if (entry.path().filename() == "scene.toml") texts.push_back(content_of(entry.path()));
+  for (const auto& entry : fs::directory_iterator(SHEARFRONT_SOURCE_DIR "/tests/cli")) {
+    if (entry.path().extension() != ".txt" || entry.path().filename() == "CMakeLists.txt") continue;
+    for (const auto& c : shearfront::cli_tests::read_cases(entry.path().string()))
+      for (const auto& s : c.sections) {
+        if (s.kind == "file" && s.argument.ends_with(".toml")) texts.push_back(s.text);
+        if (s.kind == "raw-file") texts.push_back(shearfront::cli_tests::unescaped(s.text));
+      }
+  }
+  std::sort(texts.begin(), texts.end());  // directory order differs between machines
+  return texts;
+}
+
+const std::vector<std::string> kWords{"[",
+                                      "]",
+                                      "[[",
+                                      "]]",
+                                      "{",
+                                      "}",
+                                      "=",
+                                      ",",
+                                      ".",
+                                      "\n",
+                                      "\r\n",
+                                      "#",
+                                      "\"",
+                                      "'",
+                                      "\"\"\"",
+                                      "'''",
+                                      "\\",
+                                      "\\u0041",
+                                      "nan",
+                                      "-inf",
+                                      "1e400",
+                                      "1e-400",
+                                      "-0.0",
+                                      "0x7fffffff",
+                                      "1_0",
+                                      "2010-05-27",
+                                      "true",
+                                      "99999999999999999999",
+                                      "0.5",
+                                      "values",
+                                      "breaks",
+                                      "[shear_rate]",
+                                      "[initial]",
+                                      "[domain]",
+                                      "model = \"table\"",
+                                      "z = [0, 1]",
+                                      "top = ",
+                                      "scale = ",
+                                      std::string("\0", 1),
+                                      "\xff",
+                                      "\xc3",
+                                      "\xe2\x80\xae",
+                                      "\xef\xbb\xbf"};
+
+/// Splitmix64: the same mutations on every machine.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(next() % n); }
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15U);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+void mutate(std::string& text, const std::vector<std::string>& texts, Random& random) {
+  const std::size_t at = random.below(text.size() + 1),
+                    length = random.below(std::min<std::size_t>(text.size() - at, 20) + 1);
+  switch (random.below(6)) {
+    case 0:
+      if (at < text.size()) text[at] = static_cast<char>(random.below(256));
+      break;
+    case 1:
+      text.erase(at, length);
+      break;
+    case 2:
+      text.insert(at, text.substr(at, length));
+      break;
+    case 3:
+    case 4:
+      text.replace(at, random.below(3) == 0 ? length : 0, kWords[random.below(kWords.size())]);
+      break;
+    default: {
+      const std::string& other = texts[random.below(texts.size())];
+      text = text.substr(0, at) + other.substr(random.below(other.size() + 1));
+    }
+  }
+}
+
+void run(const std::string& text) {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto texts = corpus();
+  if (arguments.size() == 2 && arguments[0] == "--file") {
+    run(content_of(arguments[1]));
+    return 0;
+  }
+  if (arguments.size() == 2 && arguments[0] == "--write-corpus") {
+    fs::create_directories(arguments[1]);
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      std::ofstream(fs::path(arguments[1]) / std::to_string(i), std::ios::binary) << texts[i];
+    return 0;
+  }
+  const std::size_t n = arguments.empty() ? 10000 : std::stoul(arguments[0]);
+  const std::uint64_t seed = arguments.size() < 2 ? 1 : std::stoull(arguments[1]);
+  Random random(seed);
+  std::string text;
+  try {
+    for (const std::string& original : texts) run(text = original);
+    for (std::size_t i = 0; i < n; ++i) {
+      text = texts[random.below(texts.size())];
+      for (std::size_t k = 0, steps = 1 + random.below(8); k < steps; ++k) mutate(text, texts, random);
+      run(text);
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "seed " << seed << ": an exception that is no FileError: " << error.what() << "\non\n"
+              << text << '\n';
+    return 1;
+  }
+  std::cout << texts.size() << " texts and " << n << " mutations, seed " << seed << '\n';
+  return 0;
+}
