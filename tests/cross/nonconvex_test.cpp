@@ -80,8 +80,8 @@ TEST(NonConvex, TwoLayersKeepEveryGuarantee) {
   Tracker<PolygonStack<double>> tracker(
       grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}});
   const double mass = tracker.mass();
-  std::uint64_t events = 0;
-  while (tracker.advance_to(infinity<double>(), events += 25) == Status::budget_reached) {
+  while (tracker.step()) {
+    if (tracker.n_collisions() % 25 != 0) continue;
     ASSERT_EQ(verify(tracker, 1e-13, 1e-10), std::vector<std::string>{});
     ASSERT_NEAR(tracker.mass(), mass, 1e-13);
   }

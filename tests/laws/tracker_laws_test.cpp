@@ -38,10 +38,13 @@ TEST(TrackerLaws, EveryEventKeepsMassRangeOrderJumpConditionsAndEntropy) {
     const TrackingSetup<double> setup(scene, kResolution);
     Tracked tracker(setup.grid, setup.pieces);
     const double mass = scene.mass();
-    std::uint64_t events = 0;
-    while (tracker.advance_to(infinity<double>(), ++events) == Status::budget_reached) {
+    double last = 0;
+    while (tracker.step()) {
+      ASSERT_GE(tracker.time(), last);
+      last = tracker.time();
       ASSERT_NEAR(tracker.mass(), mass, 1e-13 * std::max(mass, 1e-3));
-      ASSERT_EQ(verify(tracker, 1e-13, 1e-11), std::vector<std::string>{}) << "after event " << events;
+      ASSERT_EQ(verify(tracker, 1e-13, 1e-11), std::vector<std::string>{})
+          << "after event " << tracker.n_collisions();
     }
     EXPECT_TRUE(tracker.is_steady());
     const Profile<double> steady = tracker.profile();
@@ -80,6 +83,47 @@ TEST(TrackerLaws, StoppingOnTheWayAndCopyingChangeNothing) {
     EXPECT_EQ(stopped.last_collision(), direct.last_collision());
     EXPECT_TRUE(same(stopped.profile(), direct.profile()));
   }
+}
+
+// A run to a time sweeps through the bed; steps go strictly by time. Events do not depend on which is chosen.
+TEST(TrackerLaws, StepsInTimeEqualTheSweep) {
+  for (int number = 0; number < 20; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    const Scene<double> scene = draw(number);
+    const TrackingSetup<double> setup(scene, kResolution);
+    Tracked sweep(setup.grid, setup.pieces), steps(setup.grid, setup.pieces), both(setup.grid, setup.pieces);
+    sweep.run_to_steady();
+    while (steps.step()) {
+    }
+    for (int i = 0; i < 30; ++i) both.step();
+    both.run_to_steady();
+    for (const Tracked* other : {&steps, &both}) {
+      EXPECT_TRUE(same(sweep.profile(), other->profile()));
+      EXPECT_EQ(sweep.last_collision(), other->last_collision());
+      EXPECT_EQ(sweep.n_collisions(), other->n_collisions());
+      for (std::size_t k = 0; k <= setup.stack.n_layers(); ++k) {
+        EXPECT_EQ(sweep.first_wave(k), other->first_wave(k));
+        EXPECT_EQ(sweep.last_wave(k), other->last_wave(k));
+      }
+    }
+  }
+}
+
+TEST(TrackerLaws, LimitsStopARunAndSayWhy) {
+  const Scene<double> scene = draw(3);
+  const TrackingSetup<double> setup(scene, 1e-4);
+  Tracked limited(setup.grid, setup.pieces), interrupted(setup.grid, setup.pieces),
+      direct(setup.grid, setup.pieces);
+  EXPECT_EQ(limited.run_to_steady({100, {}}), Status::budget_reached);
+  EXPECT_EQ(limited.n_collisions(), 100u);
+  EXPECT_EQ(interrupted.run_to_steady({UINT64_MAX, [](double, std::uint64_t) { return false; }}),
+            Status::interrupted);
+  direct.run_to_steady();
+  // Going on afterwards is allowed and ends where a direct run ends.
+  EXPECT_EQ(limited.run_to_steady(), Status::steady);
+  EXPECT_EQ(interrupted.run_to_steady(), Status::steady);
+  EXPECT_EQ(limited.last_collision(), direct.last_collision());
+  EXPECT_EQ(interrupted.last_collision(), direct.last_collision());
 }
 
 TEST(TrackerLaws, RestartFromAStateEqualsTheDirectRun) {

@@ -17,7 +17,7 @@ using Queue = EventQueue<double>;
 /// The reference: correct by construction, slow.
 class Reference {
  public:
-  void push(const Meeting<double>& m) { set_.insert({m.time, m.id}); }
+  void push(const Meeting<double>& m) { set_.insert({m.key, m.id}); }
   std::pair<double, std::uint32_t> pop() {
     const auto first = *set_.begin();
     set_.erase(set_.begin());
@@ -47,10 +47,10 @@ void run(std::size_t n, int children, double spread, std::uint64_t seed) {
     const auto expected = reference.pop();
     const Meeting<double> first = queue.first();
     queue.pop();
-    ASSERT_EQ(first.time, expected.first);
+    ASSERT_EQ(first.key, expected.first);
     ASSERT_EQ(first.id, expected.second);
     for (int c = 0; c < children && budget > 0; ++c, --budget)
-      push(first.time + spread * (maker.integer(0, 3) == 0 ? 0.0 : maker.uniform(0, 1)));
+      push(first.key + spread * (maker.integer(0, 3) == 0 ? 0.0 : maker.uniform(0, 1)));
   }
   EXPECT_TRUE(reference.empty());
 }
@@ -89,8 +89,8 @@ TEST(EventQueue, CompactDropsOnlyWhatIsStale) {
       const Meeting<double> m = queue.first();
       queue.pop();
       ASSERT_EQ(m.stamp, 0u);
-      ASSERT_GE(m.time, last);
-      last = m.time;
+      ASSERT_GE(m.key, last);
+      last = m.key;
       ++count;
     }
     EXPECT_LE(count, 6667u);

@@ -66,6 +66,13 @@ class PolygonStack {
       return layers_[layer].edge_speed[static_cast<std::size_t>(point(layer, lo).edge_above)];
     return (flux(layer, r) - flux(layer, l)) / (phi(layer, r) - phi(layer, l));
   }
+  /// Bound for |speed| in all layers: the steepest edge.
+  [[nodiscard]] S fastest() const {
+    S fastest(0);
+    for (const Layer& layer : layers_)
+      for (const S& v : layer.edge_speed) fastest = std::max(fastest, v < 0 ? S(-v) : v);
+    return fastest;
+  }
   [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
   [[nodiscard]] static S fan_rate(std::size_t) { return S(0); }
 

@@ -25,6 +25,7 @@ struct StatePair {
 ///   flux_rank(k, i)  integer that orders fluxes over all layers, increasing with the flux
 ///   zero_flux_rank() rank of flux 0, the flux through a wall
 ///   speed(k, l, r)   Rankine-Hugoniot speed of the front l | r, l != r
+///   fastest()        a bound for |speed|
 ///   next_vertex(k,i) smallest vertex of the polygon above state i
 ///   kUnimodalConvex  every layer flux is convex with one minimum; then also
 ///   bottom_state(k)  the state of least flux: fluxes fall up to it and rise after it
@@ -40,6 +41,7 @@ concept StateGrid = requires(const G& g, std::size_t k, State i) {
   { g.flux_rank(k, i) } -> std::convertible_to<State>;
   { g.zero_flux_rank() } -> std::convertible_to<State>;
   { g.speed(k, i, i) } -> std::convertible_to<typename G::Scalar>;
+  { g.fastest() } -> std::convertible_to<typename G::Scalar>;
   { g.next_vertex(k, i) } -> std::convertible_to<State>;
 };
 

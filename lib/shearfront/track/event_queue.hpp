@@ -11,27 +11,27 @@
 
 namespace shearfront {
 
-/// A predicted meeting of node `id` with its upper neighbour. Valid as long as the node's stamp equals
-/// `stamp`: stamps of a slot only ever grow, also when the slot is given to a new front, so (id, stamp) names
-/// one prediction for ever.
+/// A predicted meeting of node `id` with its upper neighbour, to be handled in the order of `key`. Valid as
+/// long as the node's stamp equals `stamp`: stamps of a slot only ever grow, also when the slot is given to a
+/// new front, so (id, stamp) names one prediction for ever.
 template <Real Scalar>
 struct Meeting {
-  Scalar time;
+  Scalar key;
   std::uint32_t id;
   std::uint32_t stamp;
 
-  /// Total order (time, id).
+  /// Total order (key, id).
   friend bool operator<(const Meeting& a, const Meeting& b) {
     if constexpr (std::same_as<Scalar, double>) {
       // Which of two meetings comes first is a coin toss to a branch predictor: computed without a branch.
-      return bool(int(a.time < b.time) | (int(a.time == b.time) & int(a.id < b.id)));
+      return bool(int(a.key < b.key) | (int(a.key == b.key) & int(a.id < b.id)));
     } else {
-      return a.time < b.time || (a.time == b.time && a.id < b.id);
+      return a.key < b.key || (a.key == b.key && a.id < b.id);
     }
   }
 };
 
-/// Priority queue of meetings with the total order (time, id), so that runs are reproducible to the bit.
+/// Priority queue of meetings with the total order (key, id), so that runs are reproducible to the bit.
 ///
 /// A ladder queue (after Tang, Goh & Thng 2005): meetings of the near future are a sorted run that is read
 /// from front to back, plus a small heap for those predicted meanwhile; later ones lie unordered in buckets
@@ -63,20 +63,15 @@ class EventQueue {
   }
   void push(const Entry& entry) {
     ++size_;
-    if (entry.time < near_end_) {
+    if (entry.key < near_end_) {
       heap_.push_back(entry);
       std::push_heap(heap_.begin(), heap_.end(), Later{});
       if (heap_.size() > kLargestHeap && next_bucket_ == ends_.size()) spill();
     } else if (next_bucket_ < ends_.size()) {
-      buckets_[bucket_of(entry.time)].push_back(entry);
+      buckets_[bucket_of(entry.key)].push_back(entry);
     } else {
       rest_.push_back(entry);
     }
-  }
-  /// The meeting `i` places further on in the sorted run, null beyond its end. Meetings in the heap are not
-  /// seen.
-  [[nodiscard]] const Entry* upcoming(std::size_t i) const {
-    return next_in_run_ + i < run_.size() ? &run_[next_in_run_ + i] : nullptr;
   }
   /// Drops every entry for which is_valid is false: O(size).
   template <class IsValid>
@@ -97,6 +92,17 @@ class EventQueue {
     for (std::size_t b = next_bucket_; b < ends_.size(); ++b) drop(buckets_[b]);
   }
 
+  /// Takes everything out: take(entry) in no particular order.
+  template <class Take>
+  void drain(Take&& take) {
+    for (std::size_t i = next_in_run_; i < run_.size(); ++i) take(run_[i]);
+    for (const Entry& e : heap_) take(e);
+    for (std::size_t b = next_bucket_; b < ends_.size(); ++b)
+      for (const Entry& e : buckets_[b]) take(e);
+    for (const Entry& e : rest_) take(e);
+    *this = EventQueue();
+  }
+
  private:
   struct Later {
     bool operator()(const Entry& a, const Entry& b) const { return b < a; }
@@ -110,9 +116,9 @@ class EventQueue {
   [[nodiscard]] bool heap_first() const {
     return !heap_.empty() && (run_empty() || heap_.front() < run_[next_in_run_]);
   }
-  [[nodiscard]] std::size_t bucket_of(const Scalar& time) const {
+  [[nodiscard]] std::size_t bucket_of(const Scalar& key) const {
     const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(next_bucket_);
-    return static_cast<std::size_t>(std::upper_bound(first, ends_.end(), time) - ends_.begin());
+    return static_cast<std::size_t>(std::upper_bound(first, ends_.end(), key) - ends_.begin());
   }
 
   /// Takes the next bucket, or the rest, as the run. Precondition: run and heap are empty, size_ > 0.
@@ -137,7 +143,7 @@ class EventQueue {
     const std::size_t n = std::min(kBuckets, rest_.size() / kRun + 1);
     const std::size_t stride = std::max<std::size_t>(1, rest_.size() / (n * kSample));
     std::vector<Scalar> sample;
-    for (std::size_t i = 0; i < rest_.size(); i += stride) sample.push_back(rest_[i].time);
+    for (std::size_t i = 0; i < rest_.size(); i += stride) sample.push_back(rest_[i].key);
     std::sort(sample.begin(), sample.end());
     ends_.clear();
     next_bucket_ = 0;
@@ -147,7 +153,7 @@ class EventQueue {
     }
     ends_.push_back(infinity<Scalar>());
     buckets_.resize(std::max(buckets_.size(), ends_.size()));
-    for (const Entry& e : rest_) buckets_[bucket_of(e.time)].push_back(e);
+    for (const Entry& e : rest_) buckets_[bucket_of(e.key)].push_back(e);
     rest_.clear();
   }
   /// A heap that has grown too large goes back to the rest, with the run, to be cut.

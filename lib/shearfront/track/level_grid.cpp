@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/track/level_grid.hpp"
 
+#include <boost/sort/pdqsort/pdqsort.hpp>
+#include <concepts>
+
 namespace shearfront {
 
 namespace {

@@ -104,11 +104,8 @@ class LevelGrid {
     return (falling_l ? S(-2) : S(2)) * capacity(layer) * difference;
   }
 
-  /// Asks for a state's record ahead of time. A stale state of another layer is ignored.
-  void prefetch(std::size_t layer, State i) const {
-    if (layer < n_layers() && i >= 0 && i < n_states(layer))
-      __builtin_prefetch(&levels_[index(level(layer, i))]);
-  }
+  /// Bound for |speed| in all layers.
+  [[nodiscard]] S fastest() const { return S(4) * classes_.back().capacity; }
 
   /// Whether l | r is one step of a fan (as opposed to a shock).
   [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }

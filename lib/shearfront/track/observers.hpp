@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -34,7 +35,17 @@ struct NoObserver {
   static constexpr bool kActive = false;
 };
 
-/// Keeps everything: front segments in the order of their ends, collisions in the order of time.
+/// Segments by the time and height at which they begin, then from the slowest to the fastest.
+template <Real Scalar>
+void sort_by_begin(std::vector<FrontSegment<Scalar>>& segments) {
+  std::stable_sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) {
+    if (a.t_begin != b.t_begin) return a.t_begin < b.t_begin;
+    if (a.z_begin != b.z_begin) return a.z_begin < b.z_begin;
+    return a.z_end < b.z_end;
+  });
+}
+
+/// Keeps everything: front segments and collisions, in the order of time once the record is closed.
 template <Real Scalar>
 class History {
  public:
@@ -49,6 +60,11 @@ class History {
   template <class Grid>
   void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
     segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
+  }
+  void close() {
+    sort_by_begin(segments_);
+    std::stable_sort(collisions_.begin(), collisions_.end(),
+                     [](const auto& a, const auto& b) { return a.t < b.t || (a.t == b.t && a.z < b.z); });
   }
   [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return segments_; }
   [[nodiscard]] const std::vector<CollisionView<Scalar>>& collisions() const { return collisions_; }
@@ -72,6 +88,7 @@ class SegmentRecord {
   void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
     segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
   }
+  void close() { sort_by_begin(segments_); }
   [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return segments_; }
 
  private:

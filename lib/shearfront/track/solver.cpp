@@ -15,7 +15,6 @@ namespace {
 
 // A record of 40 bytes per level: beyond this a grid would need more memory than a workstation has.
 constexpr double kMaxLevels = 4e8;
-constexpr std::uint64_t kCollisionsPerReport = 1 << 20;
 
 /// Why the grid cannot be built; empty if it can.
 std::string refusal(const LayerStack<double>& stack, const SolverOptions& options) {
@@ -35,18 +34,7 @@ std::string refusal(const LayerStack<double>& stack, const SolverOptions& option
   return {};
 }
 
-template <class AnyTracker>
-Status run(AnyTracker& tracker, double t, const SolverOptions& options) {
-  for (;;) {
-    const std::uint64_t report =
-        options.progress ? tracker.n_collisions() + kCollisionsPerReport : UINT64_MAX;
-    const Status status = tracker.advance_to(t, std::min(report, options.max_collisions));
-    if (status != Status::budget_reached || tracker.n_collisions() >= options.max_collisions) return status;
-    if (!options.progress(tracker.time(), tracker.n_collisions())) return Status::interrupted;
-  }
-}
-
-std::string message_of(Status status, double t, std::size_t n_unreachable) {
+std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
   switch (status) {
     case Status::steady:
       return "steady state reached";
@@ -76,10 +64,11 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
   result.samples.resize(request.times.size() * request.depths.size());
+  const RunLimits limits{options.max_collisions, options.progress};
   Status status = Status::ok;
   const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
   for (const std::size_t i : order) {
-    status = run(tracker, request.times[i], options);
+    status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
     const Profile<double> profile =
         options.reconstruct == Reconstruction::linear ? linear_profile(tracker) : tracker.profile();
@@ -88,7 +77,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
       result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
   }
   if (request.timeline && is_usable()) {
-    status = run(tracker, infinity<double>(), options);
+    status = tracker.run_to_steady(limits);
     if (is_usable()) result.timeline = tracked_timeline(tracker, scene, setup.stack);
   }
   if constexpr (Observer::kActive) {
@@ -96,7 +85,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
     result.fronts = tracker.observer().segments();
   }
   summary.status = status;
-  summary.message = message_of(status, tracker.time(), tracker.n_unreachable());
+  summary.message = message_of(status, tracker.n_collisions(), tracker.n_unreachable());
   summary.collisions = tracker.n_collisions();
   summary.fronts_max = tracker.n_fronts_max();
   return result;

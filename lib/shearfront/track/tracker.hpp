@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,6 +29,13 @@ struct Piece {
   std::size_t layer;
   Scalar top;
   State state;
+};
+
+/// What may stop a run before its end.
+struct RunLimits {
+  std::uint64_t max_collisions = UINT64_MAX;
+  /// Called now and then with (a time in the run, collisions so far); false stops with Status::interrupted.
+  std::function<bool(double, std::uint64_t)> keep_going;
 };
 
 /// Event-driven front tracking: the exact solution of the problem whose fluxes are the polygons of a
@@ -61,37 +69,55 @@ class Tracker {
     start(pieces);
   }
 
-  /// Runs to time t (events at t included) or until `max_collisions` in all have been handled.
-  /// Precondition: t >= time(). Returns ok, steady (nothing will ever happen again) or budget_reached.
-  Status advance_to(const Scalar& t, std::uint64_t max_collisions = UINT64_MAX) {
+  /// Runs to time t, events at t included. Precondition: t >= time().
+  /// Returns ok, or steady if nothing will ever happen again. After budget_reached or interrupted the fronts
+  /// are not all at one time: only the counters may be read.
+  Status advance_to(const Scalar& t, const RunLimits& limits = {}) {
     SHEARFRONT_EXPECTS(t >= now_, "a time that is not past");
+    // In the order of t + skew z. A meeting can only influence another one that waves of speed <= fastest()
+    // can reach from it, and that one has a greater key; so this order respects every influence, like that of
+    // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
+    collect(t, Scalar(1) / (Scalar(2) * grid_->fastest()));
     while (!queue_.empty()) {
       const Meeting<Scalar> next = queue_.first();
-      const bool is_stale = nodes_[next.id].stamp != next.stamp;
-      if (!is_stale) {
-        if (next.time > t) break;
-        if (collisions_ >= max_collisions) return Status::budget_reached;
-      }
       queue_.pop();
-      prefetch();
-      if (is_stale) continue;
-      now_ = next.time;
+      if (is_stale(next)) continue;
+      if (collisions_ >= limits.max_collisions) {
+        queue_.push(next);
+        return Status::budget_reached;
+      }
+      now_ = nodes_[next.id].meets;
       collide(next.id);
-      if (queue_.size() > 2 * n_pending_ + kCompactFrom) compact();
+      if (queue_.size() + waiting_.size() > 2 * n_pending_ + kCompactFrom) compact();
+      if (collisions_ % kCollisionsPerReport == 0 && limits.keep_going &&
+          !limits.keep_going(to_double(now_), collisions_))
+        return Status::interrupted;
     }
-    is_steady_ = queue_.empty() && n_unreachable_ == 0;
-    if (is_finite(t)) now_ = t;
-    return is_steady_ ? Status::steady : Status::ok;
+    now_ = is_finite(t) ? t : last_collision_;
+    return is_steady() ? Status::steady : Status::ok;
   }
-  /// Runs until nothing will ever happen again.
-  Status run_to_steady(std::uint64_t max_collisions = UINT64_MAX) {
-    return advance_to(infinity<Scalar>(), max_collisions);
+  /// Runs until nothing will ever happen again; time() is then that of the last collision.
+  Status run_to_steady(const RunLimits& limits = {}) { return advance_to(infinity<Scalar>(), limits); }
+
+  /// Handles the next collision in time; false if there is none.
+  bool step() {
+    collect(infinity<Scalar>(), Scalar(0));
+    while (!queue_.empty()) {
+      const Meeting<Scalar> next = queue_.first();
+      queue_.pop();
+      if (is_stale(next)) continue;
+      now_ = nodes_[next.id].meets;
+      collide(next.id);
+      return true;
+    }
+    return false;
   }
 
   [[nodiscard]] const Grid& grid() const { return *grid_; }
   [[nodiscard]] const Observer& observer() const { return observer_; }
   [[nodiscard]] const Scalar& time() const { return now_; }
-  [[nodiscard]] bool is_steady() const { return is_steady_; }
+  /// Whether nothing will ever happen again.
+  [[nodiscard]] bool is_steady() const { return n_pending_ == 0 && n_unreachable_ == 0; }
   /// Time of the last collision so far; 0 if there was none.
   [[nodiscard]] const Scalar& last_collision() const { return last_collision_; }
   [[nodiscard]] std::uint64_t n_collisions() const { return collisions_; }
@@ -175,6 +201,7 @@ class Tracker {
     if constexpr (Observer::kActive) {
       for (Index i = 0; i != kNone; i = nodes_[i].next)
         if (!is_boundary(i)) observer_.end_of(*grid_, view_of(i), now_, position(nodes_[i], now_));
+      observer_.close();
     }
   }
 
@@ -182,6 +209,7 @@ class Tracker {
   using Index = std::uint32_t;
   static constexpr Index kNone = UINT32_MAX;
   static constexpr std::size_t kCompactFrom = 1024;
+  static constexpr std::uint64_t kCollisionsPerReport = 1 << 14;
 
   // A cache line of its own for every front of doubles.
   struct alignas(std::same_as<Scalar, double> ? 64 : alignof(Scalar)) Node {
@@ -259,31 +287,37 @@ class Tracker {
     return true;
   }
   void schedule(Index i) {
-    if (predict(i)) queue_.push({nodes_[i].meets, i, nodes_[i].stamp});
+    if (predict(i)) enqueue(i);
   }
-  /// Fetches from memory what the next events will touch: fronts that meet soon after each other are seldom
-  /// neighbours. In three stages, because where a front's neighbours are is written in the front itself.
-  void prefetch() const {
-    constexpr std::size_t kFar = 24, kMiddle = 16, kNear = 8;
-    if (const Meeting<Scalar>* m = queue_.upcoming(kFar)) __builtin_prefetch(&nodes_[m->id]);
-    if (const Meeting<Scalar>* m = queue_.upcoming(kMiddle)) {
-      const Node& n = nodes_[m->id];
-      if (n.next != kNone) __builtin_prefetch(&nodes_[n.next]);
-      if (n.prev != kNone) __builtin_prefetch(&nodes_[n.prev]);
+  void enqueue(Index i) {
+    const Node& n = nodes_[i];
+    if (n.meets > horizon_) {
+      waiting_.push_back({n.meets, i, n.stamp});
+    } else {
+      queue_.push({n.meets + skew_ * (position(n, n.meets) - nodes_[0].z), i, n.stamp});
     }
-    if (const Meeting<Scalar>* m = queue_.upcoming(kNear)) {
-      const Node& n = nodes_[m->id];
-      if (n.next == kNone) return;
-      const Node& above = nodes_[n.next];
-      if (above.next != kNone) __builtin_prefetch(&nodes_[above.next]);
-      if constexpr (requires { grid_->prefetch(n.layer, n.below); }) {
-        grid_->prefetch(n.layer, n.below);
-        grid_->prefetch(above.layer, above.above);
-      }
+  }
+  [[nodiscard]] bool is_stale(const Meeting<Scalar>& m) const { return nodes_[m.id].stamp != m.stamp; }
+  /// Puts every meeting up to `horizon` into the queue, in the order of t + skew z.
+  void collect(const Scalar& horizon, const Scalar& skew) {
+    if (skew != skew_ || horizon < horizon_) {
+      queue_.drain([this](const Meeting<Scalar>& m) { waiting_.push_back(m); });
+    } else if (waiting_.empty()) {
+      horizon_ = horizon;
+      return;
     }
+    horizon_ = horizon;
+    skew_ = skew;
+    std::vector<Meeting<Scalar>> meetings;
+    meetings.swap(waiting_);
+    for (const Meeting<Scalar>& m : meetings)
+      if (!is_stale(m)) enqueue(m.id);
   }
   void compact() {
-    queue_.compact([this](const Meeting<Scalar>& m) { return nodes_[m.id].stamp == m.stamp; });
+    queue_.compact([this](const Meeting<Scalar>& m) { return !is_stale(m); });
+    waiting_.erase(
+        std::remove_if(waiting_.begin(), waiting_.end(), [this](const auto& m) { return is_stale(m); }),
+        waiting_.end());
   }
 
   void insert_after(Index i, Index j) {
@@ -454,7 +488,7 @@ class Tracker {
     while (nodes_[a].prev != kNone && !(nodes_[nodes_[a].prev].meets > now_)) a = nodes_[a].prev;
     while (!(nodes_[b].meets > now_)) b = nodes_[b].next;
     ++collisions_;
-    last_collision_ = now_;
+    last_collision_ = std::max(last_collision_, now_);
     const State l = nodes_[a].below, r = nodes_[b].above;
     Index boundary = kNone;
     for (Index k = a;; k = nodes_[k].next) {
@@ -488,8 +522,8 @@ class Tracker {
     const Index top = emit_at_boundary(boundary, l, r);
     end_view();
     Waves& waves = waves_[boundary];
-    if (!waves.first) waves.first = now_;
-    waves.last = now_;
+    waves.first = waves.first ? std::min(*waves.first, now_) : now_;
+    waves.last = waves.last ? std::max(*waves.last, now_) : now_;
     // Fronts that leave one point separate: only the outermost pairs are new.
     if (under != kNone) schedule(under);
     schedule(top);
@@ -528,12 +562,13 @@ class Tracker {
   CollisionView<Scalar> view_{};
   std::vector<Node> nodes_;
   std::vector<Index> free_;
-  EventQueue<Scalar> queue_;
+  EventQueue<Scalar> queue_;              // meetings up to horizon_, by t + skew_ z
+  std::vector<Meeting<Scalar>> waiting_;  // later meetings, in no order
+  Scalar horizon_{-1}, skew_{0};
   std::vector<Waves> waves_;
   Scalar now_{0}, last_collision_{0};
   std::size_t n_pending_ = 0, n_fronts_ = 0, n_fronts_max_ = 0, n_unreachable_ = 0;
   std::uint64_t collisions_ = 0;
-  bool is_steady_ = false;
 };
 
 }  // namespace shearfront
