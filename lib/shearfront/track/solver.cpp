@@ -39,10 +39,10 @@ std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_
     case Status::steady:
       return "steady state reached";
     case Status::budget_reached:
-      return "the largest number of collisions allowed was reached at t = " + number_text(t) +
-             "; raise --max-collisions or use a coarser resolution";
+      return "stopped at " + std::to_string(n_collisions) +
+             " collisions, the largest number allowed; allow more or use a coarser resolution";
     case Status::interrupted:
-      return "interrupted at t = " + number_text(t);
+      return "interrupted after " + std::to_string(n_collisions) + " collisions";
     default:
       return n_unreachable > 0 ? "some fronts meet only after the largest representable time"
                                : "reached the last time";
