@@ -43,6 +43,15 @@ TEST(LevelGrid, OneLayerHasExactlyTheStepsItNeeds) {
   for (State i = 0; i <= 10; ++i) EXPECT_NEAR(grid.phi(0, i), i / 10.0, 1e-16);
 }
 
+TEST(LevelGrid, CountIsRightBeforeAnythingIsBuiltAndNeverOverflows) {
+  const auto stack = stack_of({2.4, 0.31, 0.31, 1e-3});
+  for (const double resolution : {0.5, 0.1, 0.003})
+    EXPECT_EQ(LevelGrid<double>::exact_level_count(stack, resolution),
+              static_cast<double>(LevelGrid<double>::exact_levels(stack, resolution, {}).grid.n_levels()));
+  EXPECT_GT(LevelGrid<double>::exact_level_count(stack, 1e-20), 1e20);
+  EXPECT_GT(LevelGrid<double>::exact_level_count(stack, 1e-300), 1e300);
+}
+
 TEST(LevelGrid, WantedStatesAreExactToTheBit) {
   const std::vector<LayerState<double>> wanted{{0, 0.3},       {1, 0.7}, {1, 1e-9}, {0, 0.5 + 1e-12},
                                                {1, 1 - 1e-10}, {0, 0.5}, {1, 0},    {0, 1}};

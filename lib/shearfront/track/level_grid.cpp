@@ -8,12 +8,12 @@ namespace shearfront {
 
 namespace {
 
+/// How many steps of at most `step` make up `length`; a double, because it may be larger than any integer
+/// type.
 template <Real S>
-std::uint64_t whole_steps(const S& length, const S& step) {
-  using std::ceil;
+double whole_steps(const S& length, const S& step) {
   // A quotient that is whole up to rounding must not become one step more.
-  const double steps = to_double(S(length / step));
-  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(ceil(steps * (1 - 1e-12))));
+  return std::max(1.0, std::ceil(to_double(S(length / step)) * (1 - 1e-12)));
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ struct LevelGrid<S>::Draft {
       const S& capacity = classes[c].capacity;
       const S q_first = sqrt((capacity - previous) / capacity);
       const S p_first = previous / (S(2) * capacity * (S(1) + q_first));
-      const std::uint64_t n = whole_steps(S(q_first / S(2)), resolution);
+      const auto n = static_cast<std::uint64_t>(whole_steps(S(q_first / S(2)), resolution));
       const S n_steps(static_cast<double>(n)), p_range = q_first / S(2);
       for (std::uint64_t i = 1; i < n; ++i) {
         const S p = p_first + p_range * (S(static_cast<double>(i)) / n_steps);
@@ -72,8 +72,7 @@ struct LevelGrid<S>::Draft {
     double count = 1;
     S previous(0);
     for (const Class& c : classes) {
-      count +=
-          static_cast<double>(whole_steps(S(sqrt((c.capacity - previous) / c.capacity) / S(2)), resolution));
+      count += whole_steps(S(sqrt((c.capacity - previous) / c.capacity) / S(2)), resolution);
       previous = c.capacity;
     }
     return count;
