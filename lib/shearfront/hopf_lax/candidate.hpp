@@ -28,6 +28,9 @@ struct Candidate {
   std::size_t source = 0;     ///< fan, waiting: point of Cells; constant: cell of Cells
   std::size_t interface = 0;  ///< waiting: boundary index of the interface
   Scalar foot{0};             ///< height where it starts
+  /// Layered media: 4 H = r_reference (1 - x^2), so that q_k = sqrt((r_k - r_reference + r_reference x^2) /
+  /// r_k) keeps its accuracy near a capacity, where H alone does not.
+  Scalar r_reference{0}, x{1};
 
   /// Smaller value first; at a tie (a shock passes through z) the smaller p, which is the state above.
   [[nodiscard]] bool better_than(const Candidate& other) const {

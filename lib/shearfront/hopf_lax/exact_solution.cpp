@@ -91,7 +91,14 @@ typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z,
     value.M = std::min(Scalar(z - scene_.bottom()), mass_);
     return value;
   }
-  value = value_from(best_path(*medium_, z, t), z);
+  return value_of(best_path(*medium_, z, t), z, t);
+}
+
+template <Real Scalar>
+typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_of(const Candidate<Scalar>& path,
+                                                                      const Scalar& z,
+                                                                      const Scalar& t) const {
+  Value value = value_from(path, z);
   if (coarse_) {
     const Value coarse = value_from(best_path(*coarse_, z, t), z);
     value.M_error = coarse.M > value.M ? coarse.M - value.M : value.M - coarse.M;

@@ -50,6 +50,10 @@ class ExactSolution {
   /// Where the minimising path of (z, t) comes from; kind none for t = 0 and t = +infinity.
   [[nodiscard]] hopf_lax::Candidate<Scalar> path(const Scalar& z, const Scalar& t) const;
 
+  /// The value that belongs to path(z, t).
+  [[nodiscard]] Value value_of(const hopf_lax::Candidate<Scalar>& path, const Scalar& z,
+                               const Scalar& t) const;
+
   [[nodiscard]] const Scene<Scalar>& scene() const { return scene_; }
   [[nodiscard]] const Scalar& mass() const { return mass_; }
   /// bottom + mass: phi = 1 below it and 0 above in the steady state.

@@ -181,6 +181,8 @@ FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, Sweep<Sca
   path.upward = sweep.upward;
   path.source = i;
   path.foot = x;
+  path.r_reference = fan.r_min;
+  path.x = fan.x;
   const Scalar q = fan.q(geometry_.rate[query.k], geometry_.inverse_rate[query.k]);
   path.p = sweep.upward ? (Scalar(1) + q) / Scalar(2)
                         : Scalar(2) * fan.H * geometry_.inverse_rate[query.k] / (Scalar(1) + q);
@@ -229,6 +231,8 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
   Candidate<Scalar> path;
   path.foot = sweep.upward ? exit - d : exit + d;
   path.H = h / Scalar(4);
+  path.r_reference = r;
+  path.x = speed / r;
   path.kind = PathKind::constant;
   path.upward = sweep.upward;
   path.source = i;

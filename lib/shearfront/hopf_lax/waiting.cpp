@@ -136,6 +136,8 @@ void Waiting<Scalar>::try_interface(const Geometry<Scalar>& g, const Cells<Scala
   path.value = entry.A + base + Q / Scalar(2);
   if (path.value > best.value) return;
   path.H = H;
+  path.r_reference = basin.h;
+  path.x = Scalar(0);
   path.kind = PathKind::waiting;
   path.upward = z == z_i || !basin.below;
   path.source = entry.source;

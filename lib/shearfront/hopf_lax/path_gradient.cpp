@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/hopf_lax/path_gradient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/hopf_lax/exponential_path.hpp"
+
+namespace shearfront::hopf_lax {
+
+namespace {
+
+/// One straight run of a layered path through consecutive layers.
+template <Real Scalar>
+class Legs {
+ public:
+  Legs(const Geometry<Scalar>& g, const Candidate<Scalar>& path, LayeredGradient<Scalar>& out)
+      : g_(g), path_(path), out_(out) {}
+
+  [[nodiscard]] Scalar q(std::size_t k) const {
+    return momentum_root<Scalar>((g_.rate[k] - path_.r_reference) + path_.r_reference * path_.x * path_.x,
+                                 g_.inverse_rate[k]);
+  }
+
+  /// Adds the run between two heights: dM/dr_k, and into the phi entries dT/d(.), to be turned into dphi
+  /// later.
+  void add(const Scalar& z1, const Scalar& z2) {
+    const Scalar& lo = std::min(z1, z2);
+    const Scalar& hi = std::max(z1, z2);
+    Scalar q_below(0), slowness_below(0);
+    bool crossed = false;
+    for (std::size_t k = g_.layers.layer_at(lo); k < g_.layers.n_layers() && g_.layers.boundary(k) < hi;
+         ++k) {
+      const Scalar d = std::min(hi, g_.layers.boundary(k + 1)) - std::max(lo, g_.layers.boundary(k));
+      if (!(d > 0)) continue;
+      const Scalar& ir = g_.inverse_rate[k];
+      const Scalar qk = q(k), slowness = ir / qk;
+      const Scalar steep = d * ir * slowness / (qk * qk);  // d / (r^2 q^3)
+      auto& rate = out_.rates[k - out_.first];
+      rate.M += d * slowness * path_.H * ir;
+      rate.phi -= steep * (Scalar(1) + qk * qk) / Scalar(2);
+      T_H += Scalar(2) * steep;
+      time += d * slowness;
+      if (crossed) {
+        auto& boundary = out_.boundaries[k - out_.first];
+        boundary.M += (q_below - qk) / Scalar(2);
+        boundary.phi += slowness_below - slowness;
+      }
+      crossed = true;
+      q_below = qk;
+      slowness_below = slowness;
+    }
+  }
+
+  Scalar T_H{0}, time{0};
+
+ private:
+  const Geometry<Scalar>& g_;
+  const Candidate<Scalar>& path_;
+  LayeredGradient<Scalar>& out_;
+};
+
+}  // namespace
+
+template <Real Scalar>
+LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const Candidate<Scalar>& path,
+                                      const Scalar& z, const Scalar& t) {
+  using Pair = typename LayeredGradient<Scalar>::Pair;
+  LayeredGradient<Scalar> out;
+  if (path.kind == PathKind::bottom_wall || path.kind == PathKind::top_wall || path.kind == PathKind::none)
+    return out;
+  const Geometry<Scalar>& g = medium.geometry();
+  const std::size_t end = g.layers.layer_at(z);
+  const bool waits = path.kind == PathKind::waiting;
+  std::size_t lowest = std::min(end, g.layers.layer_at(path.foot)),
+              highest = std::max(end, g.layers.layer_at(path.foot));
+  if (waits) {
+    lowest = std::min(lowest, path.interface - 1);
+    highest = std::max(highest, path.interface);
+  }
+  if (lowest > 0 && (path.foot == g.layers.boundary(lowest) || z == g.layers.boundary(lowest))) --lowest;
+  out.first = lowest;
+  out.rates.resize(highest - lowest + 1);
+  out.boundaries.resize(highest - lowest + 1);
+  Legs<Scalar> legs(g, path, out);
+  const Scalar& r_end = g.rate[end];
+  const Scalar q_end = legs.q(end), half(0.5);
+  const Scalar sign = path.upward ? half : -half;  // phi = 1/2 + sign q_end
+  // d phi = sign dq, 2 q dq = -4 dH / r + 4 H dr / r^2.
+  const Scalar from_H = q_end > 0 ? Scalar(-Scalar(2) * sign / (r_end * q_end)) : Scalar(0);
+  const Scalar from_r = -from_H * path.H / r_end;
+
+  if (waits) {
+    const std::size_t w = path.interface;
+    const Scalar& z_w = g.layers.boundary(w);
+    legs.add(path.foot, z_w);
+    legs.add(z_w, z);
+    for (Pair& pair : out.rates) pair.phi = Scalar(0);
+    for (Pair& pair : out.boundaries) pair.phi = Scalar(0);
+    const std::size_t slow = g.rate[w] <= g.rate[w - 1] ? w : w - 1, fast = slow == w ? w - 1 : w;
+    out.rates[slow - lowest].M += (t - legs.time) / Scalar(4);
+    out.rates[slow - lowest].phi += from_H / Scalar(4);
+    out.rates[end - lowest].phi += from_r;
+    const Scalar q = legs.q(fast), outwards = fast < w ? Scalar(1) : Scalar(-1);
+    const bool comes = path.foot != z_w, goes = z != z_w;
+    if (comes && goes) out.boundaries[w - lowest].M += outwards * q;
+    if (comes) {
+      const std::size_t from = medium.cells().layer[fast < w ? path.source : path.source - 1];
+      out.start.M = -(Scalar(1) + outwards * legs.q(from)) / Scalar(2);
+    }
+    // A source at the interface itself: the start of the way back is what moves.
+    if (!comes && goes) out.start.M = -(Scalar(1) - outwards * q) / Scalar(2);
+    return out;
+  }
+  if (path.kind == PathKind::constant) {
+    const std::size_t cell = path.source, c = medium.cells().layer[cell];
+    const Scalar& phi0 = medium.cells().phi[cell];
+    legs.add(path.foot, z);
+    for (Pair& pair : out.rates) pair.phi = Scalar(0);
+    for (Pair& pair : out.boundaries) pair.phi = Scalar(0);
+    if (c == end) {
+      // One layer: dM/dr with phi0 (1 - phi0) t also where the path stands still, phi0 = 1/2.
+      out.rates[c - lowest].M = phi0 * (Scalar(1) - phi0) * t;
+      out.phi_start = Scalar(1);
+    } else {
+      out.rates[c - lowest].phi += from_H * phi0 * (Scalar(1) - phi0);
+      out.rates[end - lowest].phi += from_r;
+      out.phi_start = from_H * g.rate[c] * ((Scalar(1) - phi0) - phi0);
+    }
+    return out;
+  }
+  const std::size_t i = path.source;
+  const std::size_t start = path.upward ? medium.cells().layer[i] : medium.cells().layer[i - 1];
+  if (start == end) {  // one layer: phi = 1/2 + (z - x) / (2 r t)
+    const Scalar v = (z - path.foot) / (r_end * t);
+    out.rates[end - lowest].M = t * path.H / r_end;
+    out.rates[end - lowest].phi = -v / (Scalar(2) * r_end);
+    out.start.M = -(Scalar(1) + v) / Scalar(2);
+    out.start.phi = Scalar(-1) / (Scalar(2) * r_end * t);
+    return out;
+  }
+  legs.add(path.foot, z);
+  const Scalar q_start = legs.q(start), direction = path.upward ? Scalar(1) : Scalar(-1);
+  out.start.M = -(Scalar(1) + direction * q_start) / Scalar(2);
+  out.start.phi = -direction * g.inverse_rate[start] / q_start;
+  const Scalar turn = -from_H / legs.T_H;  // dH = -dT / T_H
+  for (Pair& pair : out.rates) pair.phi *= turn;
+  for (Pair& pair : out.boundaries) pair.phi *= turn;
+  out.start.phi *= turn;
+  out.rates[end - lowest].phi += from_r;
+  return out;
+}
+
+namespace {
+
+/// (1 + x) log(1 + x) - x for x >= -1 without cancellation: sum (-1)^n x^n / (n (n - 1)), n >= 2.
+template <Real Scalar>
+Scalar entropy_excess(const Scalar& x) {
+  using std::log1p;
+  const Scalar size = x < 0 ? Scalar(-x) : x;
+  if (size > Scalar(0.125)) {
+    if (!(x > -1)) return Scalar(1);
+    return (Scalar(1) + x) * log1p(x) - x;
+  }
+  Scalar power = x * x, sum(0);
+  for (int n = 2; n < 400; ++n) {
+    const Scalar term = power / Scalar(n * (n - 1));
+    sum += term;
+    const Scalar term_size = term < 0 ? Scalar(-term) : term;
+    if (term_size <= unit_roundoff<Scalar>() * sum * Scalar(0.25)) break;
+    power *= -x;
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <Real Scalar>
+ExponentialGradient<Scalar> path_gradient(const ExponentialMedium<Scalar>& medium,
+                                          const Candidate<Scalar>& path, const Scalar& z, const Scalar& t) {
+  using std::expm1;
+  ExponentialGradient<Scalar> out;
+  if (path.kind != PathKind::fan && path.kind != PathKind::constant) return out;
+  const Scalar one(1), two(2), four(4);
+  const Scalar& lambda = medium.decay();
+  const Scalar& x = path.foot;
+  const Scalar B = medium.rate_at(x) * t / lambda;
+  Scalar p0, one_minus_p0;
+  if (path.kind == PathKind::fan) {
+    const Scalar e = expm1(Scalar((z - x) / lambda)), E = one + e;
+    const FanMomenta<Scalar> fan(B, e);
+    p0 = fan.p0;
+    one_minus_p0 = fan.one_minus_p0;
+    const Scalar difference = (E * e - B * B / four) / (E + fan.S);  // E - S
+    const Scalar p_E = (one - one / (two * fan.S)) / B;
+    const Scalar p_B = -difference / (B * B) - one / (four * fan.S);
+    out.M_start = -p0;
+    out.phi_start = -(p_B * B + p_E * E) / lambda;
+    out.phi_log_rate = p_B * B;
+    out.phi_decay = p_B * B * (x - lambda) / (lambda * lambda) - p_E * E * (z - x) / (lambda * lambda);
+  } else {
+    p0 = medium.cells().phi[path.source];
+    one_minus_p0 = one - p0;
+    const Scalar b = medium.rate_at(z) * t / lambda, h = p0 * one_minus_p0, twist = p0 + (p0 - one);
+    const FootRoot<Scalar> root(b, p0);
+    const Scalar& E = root.E;
+    const Scalar F_E = two * b * b * h * E + (one - b * twist);
+    const Scalar F_b = two * b * h * E * E - twist * E;
+    const Scalar F_p = -b * b * twist * E * E - two * b * E;
+    const Scalar p_b = -h * (E - b * F_b / F_E);  // p = p0 - b E h
+    out.phi_log_rate = p_b * b;
+    out.phi_decay = p_b * b * (z - lambda) / (lambda * lambda);
+    out.phi_state = one + b * E * twist + h * b * F_p / F_E;
+  }
+  const Scalar Ht = path.H * t;
+  out.M_log_rate = Ht;
+  // int z dt along the path, times H / lambda^2 = d(rate)/d(lambda) / rate integrated.
+  const Scalar alpha = std::min(one, Scalar(B * one_minus_p0));
+  out.M_decay = Ht * x / (lambda * lambda) -
+                (p0 * entropy_excess(Scalar(-alpha)) - one_minus_p0 * entropy_excess(Scalar(B * p0)));
+  return out;
+}
+
+#define SHEARFRONT_INSTANTIATE(Scalar)                                                                   \
+  template LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>&, const Candidate<Scalar>&, \
+                                                 const Scalar&, const Scalar&);                          \
+  template ExponentialGradient<Scalar> path_gradient(                                                    \
+      const ExponentialMedium<Scalar>&, const Candidate<Scalar>&, const Scalar&, const Scalar&);
+SHEARFRONT_INSTANTIATE(double)
+SHEARFRONT_INSTANTIATE(Real50)
+SHEARFRONT_INSTANTIATE(Real110)
+#undef SHEARFRONT_INSTANTIATE
+
+}  // namespace shearfront::hopf_lax

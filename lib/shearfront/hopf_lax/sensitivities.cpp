@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/hopf_lax/sensitivities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/hopf_lax/path_gradient.hpp"
+
+namespace shearfront {
+
+namespace {
+
+using hopf_lax::Candidate;
+using hopf_lax::ExponentialMedium;
+using hopf_lax::LayeredMedium;
+using hopf_lax::PathKind;
+
+/// Derivatives of int_bottom^x phi(., 0) at fixed x. A jump at x itself counts as lying at x - 0: the caller
+/// adds what its own movement does to the path.
+template <Real Scalar>
+void add_initial_cumulative(const Scene<Scalar>& scene, const Scalar& x, bool include_jump_at_x,
+                            Gradient<Scalar>& M) {
+  const auto& jumps = scene.initial_breaks();
+  const auto& values = scene.initial_values();
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const Scalar& lo = j == 0 ? scene.bottom() : jumps[j - 1];
+    if (!(lo < x)) break;
+    const bool last = j == jumps.size();
+    const Scalar hi = last ? scene.top() : jumps[j];
+    M.initial_value(j) += std::min(x, hi) - lo;
+    if (!last && (hi < x || (include_jump_at_x && hi == x))) M.initial_break(j) += values[j] - values[j + 1];
+  }
+}
+
+/// Index of the initial jump at height x, or n if there is none.
+template <Real Scalar>
+std::size_t jump_at(const Scene<Scalar>& scene, const Scalar& x) {
+  const auto& jumps = scene.initial_breaks();
+  const auto it = std::lower_bound(jumps.begin(), jumps.end(), x);
+  return it != jumps.end() && *it == x ? static_cast<std::size_t>(it - jumps.begin()) : jumps.size();
+}
+
+template <Real Scalar>
+std::size_t piece_at(const Scene<Scalar>& scene, const Scalar& x) {
+  const auto& jumps = scene.initial_breaks();
+  return static_cast<std::size_t>(std::upper_bound(jumps.begin(), jumps.end(), x) - jumps.begin());
+}
+
+/// The source at `path.foot` moves: an initial jump, or an interface without one.
+template <Real Scalar>
+void add_start(const Scene<Scalar>& scene, const Candidate<Scalar>& path, const Scalar& M_start,
+               const Scalar& phi_start, std::size_t boundary, Sensitivities<Scalar>& out) {
+  const std::size_t j = jump_at(scene, path.foot);
+  if (j < scene.initial_breaks().size()) {
+    out.M.initial_break(j) += scene.initial_values()[j] + M_start;
+    out.phi.initial_break(j) += phi_start;
+  } else if (boundary > 0 && boundary <= out.M.shear_rate_breaks().size()) {
+    out.M.shear_rate_break(boundary - 1) += scene.initial_values()[piece_at(scene, path.foot)] + M_start;
+    out.phi.shear_rate_break(boundary - 1) += phi_start;
+  }
+}
+
+/// d(harmonic mean)/d(value at one end of a layer) for a linear a, y = log(other end / this end):
+/// (e^y - 1 - y) / y^2 = sum y^n / (n + 2)!.
+template <Real Scalar>
+Scalar mean_weight(const Scalar& y) {
+  using std::expm1;
+  if (y > Scalar(1) || y < Scalar(-1)) return (expm1(y) - y) / (y * y);
+  Scalar term(0.5), sum(0);
+  for (int n = 0; n < 200; ++n) {
+    sum += term;
+    term *= y / Scalar(n + 3);
+    if ((term < 0 ? Scalar(-term) : term) <= unit_roundoff<Scalar>() * sum) break;
+  }
+  return sum;
+}
+
+/// Spreads the derivative with respect to the rate of one staircase layer over the values of the table.
+template <Real Scalar>
+void spread(const Table<Scalar>& table, const Scalar& lo, const Scalar& hi, const Scalar& scale,
+            const Scalar& dM, const Scalar& dphi, Sensitivities<Scalar>& out) {
+  using std::log;
+  const Scalar middle = lo + (hi - lo) / Scalar(2);
+  const auto it = std::upper_bound(table.z.begin() + 1, table.z.end() - 1, middle);
+  const auto i = static_cast<std::size_t>(it - table.z.begin()) - 1;
+  const Scalar width = table.z[i + 1] - table.z[i];
+  const Scalar slope = (table.values[i + 1] - table.values[i]) / width;
+  const Scalar w_lo = (lo - table.z[i]) / width, w_hi = (hi - table.z[i]) / width;
+  const Scalar y = log(
+      Scalar((table.values[i] + slope * (hi - table.z[i])) / (table.values[i] + slope * (lo - table.z[i]))));
+  const Scalar by_lo = scale * mean_weight(y), by_hi = scale * mean_weight(Scalar(-y));
+  const Scalar right = by_lo * w_lo + by_hi * w_hi, left = by_lo + by_hi - right;
+  out.M.shear_rate_value(i) += dM * left;
+  out.M.shear_rate_value(i + 1) += dM * right;
+  out.phi.shear_rate_value(i) += dphi * left;
+  out.phi.shear_rate_value(i + 1) += dphi * right;
+}
+
+template <Real Scalar>
+void add_path(const Scene<Scalar>& scene, const LayeredMedium<Scalar>& medium, const Candidate<Scalar>& path,
+              const Scalar& z, const Scalar& t, Sensitivities<Scalar>& out) {
+  const auto gradient = hopf_lax::path_gradient(medium, path, z, t);
+  const Scalar& s = scene.scale();
+  const auto& layers = medium.layers();
+  const auto* table = std::get_if<Table<Scalar>>(&scene.shear_rate());
+  Scalar phi_scale(0);
+  for (std::size_t n = 0; n < gradient.rates.size(); ++n) {
+    const std::size_t k = gradient.first + n;
+    const auto& [dM, dphi] = gradient.rates[n];
+    phi_scale += dphi * layers.shear_rate(k);
+    if (table != nullptr) {
+      spread(*table, layers.boundary(k), layers.boundary(k + 1), s, dM, dphi, out);
+      continue;
+    }
+    out.M.shear_rate_value(k) += s * dM;
+    out.phi.shear_rate_value(k) += s * dphi;
+    if (k > 0) {
+      out.M.shear_rate_break(k - 1) += gradient.boundaries[n].M;
+      out.phi.shear_rate_break(k - 1) += gradient.boundaries[n].phi;
+    }
+  }
+  out.phi.scale = phi_scale;
+  if (path.kind == PathKind::constant)
+    out.phi.initial_value(piece_at(scene, medium.cells().x[path.source])) += gradient.phi_start;
+  if (path.kind == PathKind::fan || path.kind == PathKind::waiting) {
+    const auto& boundaries = layers.boundaries();
+    const auto it = std::lower_bound(boundaries.begin(), boundaries.end(), path.foot);
+    const bool on_boundary = table == nullptr && it != boundaries.end() && *it == path.foot;
+    add_start(scene, path, gradient.start.M, gradient.start.phi,
+              on_boundary ? static_cast<std::size_t>(it - boundaries.begin()) : 0, out);
+  }
+}
+
+template <Real Scalar>
+void add_path(const Scene<Scalar>& scene, const ExponentialMedium<Scalar>& medium,
+              const Candidate<Scalar>& path, const Scalar& z, const Scalar& t, Sensitivities<Scalar>& out) {
+  const auto gradient = hopf_lax::path_gradient(medium, path, z, t);
+  const auto& rate = std::get<Exponential<Scalar>>(scene.shear_rate());
+  out.M.amplitude = gradient.M_log_rate / rate.amplitude;
+  out.phi.amplitude = gradient.phi_log_rate / rate.amplitude;
+  out.phi.scale = gradient.phi_log_rate / scene.scale();
+  out.M.decay = gradient.M_decay;
+  out.phi.decay = gradient.phi_decay;
+  if (path.kind == PathKind::constant)
+    out.phi.initial_value(piece_at(scene, medium.cells().x[path.source])) += gradient.phi_state;
+  if (path.kind == PathKind::fan) add_start(scene, path, gradient.M_start, gradient.phi_start, 0, out);
+}
+
+template <Real Scalar>
+Gradient<Scalar> empty_gradient(const Scene<Scalar>& scene) {
+  const std::size_t jumps = scene.initial_breaks().size();
+  if (const auto* layered = std::get_if<Piecewise<Scalar>>(&scene.shear_rate()))
+    return {layered->values.size(), layered->breaks.size(), jumps};
+  if (const auto* table = std::get_if<Table<Scalar>>(&scene.shear_rate()))
+    return {table->values.size(), 0, jumps};
+  return {0, 0, jumps};
+}
+
+}  // namespace
+
+template <Real Scalar>
+Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const Scalar& z, const Scalar& t) {
+  const Scene<Scalar>& scene = solution.scene();
+  Sensitivities<Scalar> out{{}, empty_gradient(scene), {}};
+  out.phi = out.M;
+  if (t == Scalar(0) || !is_finite(t)) {
+    out.value = solution.at(z, t);
+    const bool initial = t == Scalar(0);
+    if (initial) out.phi.initial_value(piece_at(scene, z)) = Scalar(1);
+    const bool below = !initial && z < solution.steady_height();
+    if (!below) add_initial_cumulative(scene, initial ? z : scene.top(), true, out.M);
+    return out;
+  }
+  const Candidate<Scalar> path = solution.path(z, t);
+  out.value = solution.value_of(path, z, t);
+  out.M.scale = path.H * t / scene.scale();
+  add_initial_cumulative(scene, path.foot, path.kind == PathKind::constant, out.M);
+  if (const auto* layered = dynamic_cast<const LayeredMedium<Scalar>*>(&solution.medium())) {
+    add_path(scene, *layered, path, z, t, out);
+  } else {
+    add_path(scene, dynamic_cast<const ExponentialMedium<Scalar>&>(solution.medium()), path, z, t, out);
+  }
+  return out;
+}
+
+template Sensitivities<double> sensitivities(const ExactSolution<double>&, const double&, const double&);
+template Sensitivities<Real50> sensitivities(const ExactSolution<Real50>&, const Real50&, const Real50&);
+template Sensitivities<Real110> sensitivities(const ExactSolution<Real110>&, const Real110&, const Real110&);
+
+}  // namespace shearfront
