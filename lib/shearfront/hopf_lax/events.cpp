@@ -99,6 +99,8 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
       times.last = times.first;
     } else {
       times.last = last_time(scene, *medium, z, events.mass);
+      // The same wave can be the first and the last: rounding must not order them.
+      if (times.first && *times.last < *times.first) times.last = times.first;
     }
     events.interfaces.push_back(std::move(times));
   }

@@ -19,10 +19,11 @@ struct TimelineOptions {
 /// being known, inside a bracket. The walls' own paths are kept out of that comparison, so that no equality
 /// of rounded numbers decides.
 ///
-/// Guarantees: layered and exponential a: every time to a few units in the last place of Scalar (times the
-/// number of layers crossed); tabulated a: second order in the layer height. Status of interfaces: only
-/// breaks of a layered a are listed. Errors: none. Cost: O((jumps + layers) * layers) for first arrivals,
-/// some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two layers.
+/// Guarantees: layered and exponential a: first arrivals to a few units in the last place of Scalar (times
+/// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
+/// the change; tabulated a: second order in the layer height. Only breaks of a layered a are listed as
+/// interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first arrivals, some 20 queries per last
+/// change. Source: May, Shearer & Daniels (2010), Section 3, for two layers.
 template <Real Scalar>
 [[nodiscard]] Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options = {});
 
