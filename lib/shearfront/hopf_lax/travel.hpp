@@ -19,11 +19,13 @@ template <Real Scalar>
 struct Geometry {
   LayerStack<Scalar> layers;
   std::vector<Scalar> rate, inverse_rate, height;  ///< r_k, 1 / r_k, thickness of layer k
+  Scalar fastest{0};                               ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
 
   explicit Geometry(LayerStack<Scalar> stack) : layers(std::move(stack)) {
     for (std::size_t k = 0; k < layers.n_layers(); ++k) {
       rate.push_back(layers.rate(k));
       inverse_rate.push_back(Scalar(1) / rate.back());
+      fastest = std::max(fastest, rate.back());
       height.push_back(layers.boundary(k + 1) - layers.boundary(k));
     }
   }
@@ -64,7 +66,7 @@ struct Sweep {
   std::size_t start;                  ///< layer of the starts
   Scalar d_own;                       ///< distance covered in the own layer when start != own
   Scalar T0{0};                       ///< time through everything between, H = 0
-  Scalar S{0};                        ///< sum d / r^2 of the same
+  Scalar S{0};                        ///< sum d fastest / r^2 of the same
   Scalar r_min = infinity<Scalar>();  ///< smallest rate of the same
 
   /// A value of 4 H for lower bounds (negative: none) and sum q d of everything between at that H.
@@ -85,7 +87,7 @@ struct Sweep {
   void cross(const Geometry<Scalar>& g, const Scalar& d) {
     if (d > 0) {
       T0 += d * g.inverse_rate[start];
-      S += d * g.inverse_rate[start] * g.inverse_rate[start];
+      S += d * g.inverse_rate[start] * (g.fastest * g.inverse_rate[start]);
       r_min = std::min(r_min, g.rate[start]);
       if (!(h_dual < g.rate[start])) {
         h_dual = Scalar(-1);
@@ -146,7 +148,7 @@ template <Real Scalar>
   fan.r_min = r_min;
   const Scalar quarter = r_min / Scalar(4);
   // y - 1 is iterated, so that H keeps its relative accuracy near the edge of the fan.
-  Scalar w = (t - T0) / (r_min * (sweep.S + c * ir));
+  Scalar w = (t - T0) / ((r_min / g.fastest) * (sweep.S + c * (g.fastest * ir)));
   const auto evaluate = [&](Scalar& time, Scalar& slope, Scalar& Q) {
     Scalar slowest(0), rest(0), rest_slope(0);
     Q = Scalar(0);
