@@ -122,8 +122,7 @@ TEST(LevelGrid, ManyStatesLieOnChordsWithTheirPhiAndCommonSpeeds) {
 }
 
 TEST(LevelGrid, SingularMappingIsThePapersGrid) {
-  // phi_{k,m} = 1/2 + sgn(m)/2 sqrt(|m| / k), a rounded to k delta, initial states to the nearest (MATH: both
-  // grids wanted).
+  // phi_{k,m} = 1/2 + sgn(m)/2 sqrt(|m| / k), a rounded to k delta, initial states to the nearest.
   const double delta = 0.1;
   const auto built =
       LevelGrid<double>::singular_mapping(stack_of({2.4, 0.31}), delta, {{0, 0}, {1, 1}, {1, 0.4}});

@@ -80,7 +80,7 @@ State crossing_rank(const Grid& grid, std::size_t below, State l, State r) {
 
 /// States next to the interface between layers `below` and `below + 1`, given the states l and r beyond the
 /// waves. Guaranteed: equal flux rank on both sides; (l, r) itself if the two are at rest. Cost: O(1) for
-/// convex unimodal fluxes (supply and demand, MATH: F* = max of the two one-sided minima), O(states)
+/// convex unimodal fluxes (supply and demand: F* = max of the two one-sided minima), O(states)
 /// otherwise.
 template <StateGrid Grid>
 StatePair solve_interface(const Grid& grid, std::size_t below, State l, State r) {

@@ -45,35 +45,6 @@ void sort_by_begin(std::vector<FrontSegment<Scalar>>& segments) {
   });
 }
 
-/// Keeps everything: front segments and collisions, in the order of time once the record is closed.
-template <Real Scalar>
-class History {
- public:
-  static constexpr bool kActive = true;
-
-  template <class Grid>
-  void collision(const Grid& grid, const CollisionView<Scalar>& view) {
-    for (const FrontView<Scalar>& f : view.incoming) end_of(grid, f, view.t, view.z);
-    collisions_.push_back(view);
-  }
-  /// A front still alive when the record is closed at time t.
-  template <class Grid>
-  void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
-    segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
-  }
-  void close() {
-    sort_by_begin(segments_);
-    std::stable_sort(collisions_.begin(), collisions_.end(),
-                     [](const auto& a, const auto& b) { return a.t < b.t || (a.t == b.t && a.z < b.z); });
-  }
-  [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return segments_; }
-  [[nodiscard]] const std::vector<CollisionView<Scalar>>& collisions() const { return collisions_; }
-
- private:
-  std::vector<FrontSegment<Scalar>> segments_;
-  std::vector<CollisionView<Scalar>> collisions_;
-};
-
 /// Keeps segments only: what a picture needs.
 template <Real Scalar>
 class SegmentRecord {
@@ -84,6 +55,7 @@ class SegmentRecord {
   void collision(const Grid& grid, const CollisionView<Scalar>& view) {
     for (const FrontView<Scalar>& f : view.incoming) end_of(grid, f, view.t, view.z);
   }
+  /// A front that ends at (t, z): in a collision, or still alive when the record is closed.
   template <class Grid>
   void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
     segments_.push_back({f.layer, f.t, f.z, t, z, grid.phi(f.layer, f.below), grid.phi(f.layer, f.above)});
@@ -93,6 +65,34 @@ class SegmentRecord {
 
  private:
   std::vector<FrontSegment<Scalar>> segments_;
+};
+
+/// Keeps everything: front segments and collisions, in the order of time once the record is closed.
+template <Real Scalar>
+class History {
+ public:
+  static constexpr bool kActive = true;
+
+  template <class Grid>
+  void collision(const Grid& grid, const CollisionView<Scalar>& view) {
+    record_.collision(grid, view);
+    collisions_.push_back(view);
+  }
+  template <class Grid>
+  void end_of(const Grid& grid, const FrontView<Scalar>& f, const Scalar& t, const Scalar& z) {
+    record_.end_of(grid, f, t, z);
+  }
+  void close() {
+    record_.close();
+    std::stable_sort(collisions_.begin(), collisions_.end(),
+                     [](const auto& a, const auto& b) { return a.t < b.t || (a.t == b.t && a.z < b.z); });
+  }
+  [[nodiscard]] const std::vector<FrontSegment<Scalar>>& segments() const { return record_.segments(); }
+  [[nodiscard]] const std::vector<CollisionView<Scalar>>& collisions() const { return collisions_; }
+
+ private:
+  SegmentRecord<Scalar> record_;
+  std::vector<CollisionView<Scalar>> collisions_;
 };
 
 }  // namespace shearfront
