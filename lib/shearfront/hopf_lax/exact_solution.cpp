@@ -33,20 +33,21 @@ Candidate<Scalar> ExactSolution<Scalar>::best_path(const hopf_lax::Medium<Scalar
     wall.upward = true;
     wall.foot = scene_.bottom();
   }
-  if (medium.pure_travel_time(z, scene_.top()) <= t && !(mass_ > wall.value)) {
+  // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
+  // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
+  // decide.
+  const bool at_top = z == scene_.top();
+  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (scene_.top() - scene_.bottom());
+  const bool full = at_top && wall.value <= mass_ + tie;
+  if (medium.pure_travel_time(z, scene_.top()) <= t && !(mass_ > wall.value) && !full) {
     wall = Candidate<Scalar>{};
     wall.value = mass_;
     wall.kind = PathKind::top_wall;
     wall.foot = scene_.top();
   }
   Candidate<Scalar> free = medium.best_free(z, t, wall.value);
-  if (z == scene_.top()) {
-    // The state below the wall is asked for: the wall's own path (value m for every t) counts only where it
-    // is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not decide.
-    const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (scene_.top() - scene_.bottom());
-    if (free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
-      return free;
-  }
+  if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
+    return free;
   return free.better_than(wall) ? free : wall;
 }
 

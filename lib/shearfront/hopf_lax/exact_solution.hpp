@@ -21,11 +21,11 @@ namespace shearfront {
 /// bottom) with c of the order of the layers crossed; phi as well, except within a rounding error of a shock;
 /// (2) 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m); (3) tabulated a: the exact solution
 /// of a staircase of layers (harmonic means); Value::M_error and phi_error are the change from half as many
-/// layers, about three times the remaining error of M where phi is continuous; (4) const member functions are
-/// safe to call from many threads. Cost: 2 layers < 1 us, 10 layers < 5 us (tests/bench/exact_bench.cpp);
-/// construction O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone. Errors: none beyond
-/// those of Scene. Source: MATH of the project; Lax (1957), Hopf (1965); for jumps of a, minimum over
-/// refracted and resting paths.
+/// layers, about twice the remaining error of M (order 3/2; 2 where no path turns); (4) const member
+/// functions are safe to call from many threads. Cost: 2 layers < 1 us, 10 layers < 5 us
+/// (tests/bench/exact_bench.cpp); construction O(layers + jumps), up to O(layers * (layers + jumps)) when a
+/// is monotone. Errors: none beyond those of Scene. Source: MATH of the project; Lax (1957), Hopf (1965); for
+/// jumps of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
  public:

@@ -35,7 +35,9 @@ class Legs {
       if (!(d > 0)) continue;
       const Scalar& ir = g_.inverse_rate[k];
       const Scalar qk = q(k), slowness = ir / qk;
-      const Scalar steep = d * ir * slowness / (qk * qk);  // d / (r^2 q^3)
+      // d / (r^2 q^3) times the fastest rate, as all derivatives of T here: their ratios are what counts.
+      const Scalar steep = d * slowness * (g_.fastest * ir) / (qk * qk);
+      const Scalar scaled = (g_.fastest * ir) / qk;
       auto& rate = out_.rates[k - out_.first];
       rate.M += d * slowness * path_.H * ir;
       rate.phi -= steep * (Scalar(1) + qk * qk) / Scalar(2);
@@ -44,11 +46,11 @@ class Legs {
       if (crossed) {
         auto& boundary = out_.boundaries[k - out_.first];
         boundary.M += (q_below - qk) / Scalar(2);
-        boundary.phi += slowness_below - slowness;
+        boundary.phi += slowness_below - scaled;
       }
       crossed = true;
       q_below = qk;
-      slowness_below = slowness;
+      slowness_below = scaled;
     }
   }
 
@@ -142,7 +144,7 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
   legs.add(path.foot, z);
   const Scalar q_start = legs.q(start), direction = path.upward ? Scalar(1) : Scalar(-1);
   out.start.M = -(Scalar(1) + direction * q_start) / Scalar(2);
-  out.start.phi = -direction * g.inverse_rate[start] / q_start;
+  out.start.phi = -direction * (g.fastest * g.inverse_rate[start]) / q_start;
   const Scalar turn = -from_H / legs.T_H;  // dH = -dT / T_H
   for (Pair& pair : out.rates) pair.phi *= turn;
   for (Pair& pair : out.boundaries) pair.phi *= turn;

@@ -19,7 +19,7 @@ template <Real Scalar>
 struct Geometry {
   LayerStack<Scalar> layers;
   std::vector<Scalar> rate, inverse_rate, height;  ///< r_k, 1 / r_k, thickness of layer k
-  Scalar fastest{0};                               ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
+  Scalar fastest{0};  ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
 
   explicit Geometry(LayerStack<Scalar> stack) : layers(std::move(stack)) {
     for (std::size_t k = 0; k < layers.n_layers(); ++k) {
@@ -166,13 +166,13 @@ template <Real Scalar>
       const Scalar q = sqrt(q2);
       const Scalar term = ck / q;
       rest += term;
-      rest_slope += term * g.inverse_rate[k] / q2;
+      rest_slope += term * (r_min * g.inverse_rate[k]) / q2;
       Q += q * dk;
     };
     sweep.for_each_crossed(g, add);
     if (d > 0) add(d, j);
     time = slowest / fan.x + rest;
-    slope = slowest + rest_slope * r_min * fan.x * fan.x * fan.x;
+    slope = slowest + rest_slope * fan.x * fan.x * fan.x;
   };
   const Scalar tolerance = Scalar(1) / Scalar(1 << 4) * [] {
     using std::sqrt;

@@ -74,7 +74,8 @@ template <Real Scalar>
 
 /// A smooth shear rate as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
-/// whole layers are then exact; M(z, t) is second order in the layer height, phi first order. Cost:
+/// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
+/// order 3/2 where paths do (a falling along them), phi first order. Cost:
 /// O(n_layers + knots).
 template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {

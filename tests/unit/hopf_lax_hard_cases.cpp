@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Degenerate and extreme scenes: each test states what must hold, not what the program printed.
+#include <gtest/gtest.h>
+
+#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/hopf_lax/solver.hpp"
+#include "support/closeness.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::relative_error;
+using support::SceneMaker;
+
+SceneSpec<double> layered(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
+                          std::vector<double> values) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{std::move(breaks), std::move(a)};
+  spec.initial_breaks = std::move(jumps);
+  spec.initial_values = std::move(values);
+  return spec;
+}
+
+/// double against 50 digits on a grid, and the bounds.
+void expect_accurate(const SceneSpec<double>& spec, const std::vector<double>& times,
+                     double tolerance = 4e-15) {
+  const Scene<double> scene(spec);
+  const ExactSolution<double> solution(scene);
+  const ExactSolution<Real50> oracle(scene_cast<Real50>(scene));
+  for (const double t : times)
+    for (int i = 0; i <= 20; ++i) {
+      const double z = i / 20.0;
+      const auto value = solution.at(z, t);
+      EXPECT_NEAR(value.M, to_double(oracle.M(Real50(z), Real50(t))), tolerance) << "z " << z << " t " << t;
+      EXPECT_GE(value.phi, 0.0);
+      EXPECT_LE(value.phi, 1.0);
+    }
+}
+
+TEST(ExactHardCases, ThinLayer) {
+  for (const double a : {0.01, 1.0, 100.0})
+    expect_accurate(layered({0.4, 0.4 + 1e-12}, {2, a, 1}, {0.5}, {0, 1}), {0.05, 0.3, 1.0, 3.0});
+  // A layer this thin that is not slower than its neighbours changes M by no more than its thickness.
+  const ExactSolution<double> with{Scene<double>(layered({0.4, 0.4 + 1e-12}, {2, 5, 1}, {0.5}, {0, 1}))};
+  const ExactSolution<double> without{Scene<double>(layered({0.4}, {2, 1}, {0.5}, {0, 1}))};
+  for (int i = 0; i <= 20; ++i) EXPECT_NEAR(with.M(i / 20.0, 0.6), without.M(i / 20.0, 0.6), 2e-11);
+}
+
+TEST(ExactHardCases, ContrastOf1e12) {
+  const auto falling = layered({0.5}, {1, 1e-12}, {0.7}, {0, 1});
+  expect_accurate(falling, {0.1, 1.0, 1e10, 3e11, 1e12, 5e12});
+  expect_accurate(layered({0.5}, {1e-12, 1}, {0.7}, {0, 1}), {0.1, 1.0, 1e10, 3e11, 1e12, 5e12});
+  for (const auto& spec : {falling, layered({0.3, 0.6}, {1e-6, 1e6, 1}, {0.45}, {0, 1})}) {
+    const Scene<double> scene(spec);
+    const auto one = exact_timeline(scene);
+    const auto two = exact_timeline(scene_cast<Real50>(scene));
+    EXPECT_LT(relative_error(*one.t_star, to_double(*two.t_star)), 2e-14);
+    EXPECT_LT(relative_error(*one.t0, to_double(*two.t0)), 1e-15);
+    EXPECT_LT(relative_error(*one.interfaces[0].last, to_double(*two.interfaces[0].last)), 2e-14);
+  }
+}
+
+TEST(ExactHardCases, EqualNeighboursAreOneLayer) {
+  SceneMaker make(support::seed_of(5));
+  for (int n = 0; n < 20; ++n) {
+    auto spec = make.data(1, SceneMaker::Order::random, 4);
+    const double a = std::get<Piecewise<double>>(spec.shear_rate).values[0];
+    const ExactSolution<double> one{Scene<double>(spec)};
+    spec.shear_rate = Piecewise<double>{{0.2, 0.5, 0.7}, {a, a, a, a}};
+    const ExactSolution<double> four{Scene<double>(spec)};
+    for (int k = 0; k < 40; ++k) {
+      const double z = k % 4 == 0 ? 0.5 : make.uniform(0, 1), t = make.uniform(0.01, 2);
+      EXPECT_NEAR(one.M(z, t), four.M(z, t), 2e-15);
+    }
+  }
+}
+
+TEST(ExactHardCases, JumpOnAnInterface) {
+  const auto spec = layered({0.3, 0.6}, {2, 0.5, 1}, {0.3}, {0, 1});
+  expect_accurate(spec, {0.05, 0.3, 1.0, 3.0});
+  // The limit of jumps that approach the interface from both sides.
+  const ExactSolution<double> on{Scene<double>(spec)};
+  for (const double d : {-1e-9, 1e-9}) {
+    const ExactSolution<double> near{Scene<double>(layered({0.3, 0.6}, {2, 0.5, 1}, {0.3 + d}, {0, 1}))};
+    for (int i = 0; i <= 20; ++i) EXPECT_NEAR(on.M(i / 20.0, 0.4), near.M(i / 20.0, 0.4), 2e-9);
+  }
+}
+
+TEST(ExactHardCases, HundredsOfLayers) {
+  for (const auto order :
+       {SceneMaker::Order::falling, SceneMaker::Order::rising, SceneMaker::Order::random}) {
+    SceneMaker make(support::seed_of(7));
+    SceneSpec<double> spec = make.step(2, order);
+    Piecewise<double> a;
+    // Monotone layers take the 50-digit oracle n^2 steps to prepare.
+    const int n = order == SceneMaker::Order::random ? 1000 : 250;
+    for (int i = 0; i < n; ++i) {
+      if (i > 0) a.breaks.push_back(double(i) / n);
+      a.values.push_back(make.uniform(0.2, 4));
+    }
+    if (order == SceneMaker::Order::falling) std::sort(a.values.rbegin(), a.values.rend());
+    if (order == SceneMaker::Order::rising) std::sort(a.values.begin(), a.values.end());
+    spec.shear_rate = a;
+    const Scene<double> scene(spec);
+    const ExactSolution<double> solution(scene);
+    const ExactSolution<Real50> oracle(scene_cast<Real50>(scene));
+    for (int k = 0; k < 3; ++k) {
+      const double z = make.uniform(0, 1), t = make.uniform(0.1, 2);
+      EXPECT_NEAR(solution.M(z, t), to_double(oracle.M(Real50(z), Real50(t))), 1e-13);
+    }
+  }
+}
+
+TEST(SlowExactHardCases, TenThousandLayers) {
+  for (const bool falling : {true, false}) {
+    SceneSpec<double> spec;
+    spec.initial_breaks = {0.5};
+    spec.initial_values = {0, 1};
+    SceneMaker make(support::seed_of(8));
+    Piecewise<double> a;
+    for (int i = 0; i < 10000; ++i) {
+      if (i > 0) a.breaks.push_back(i / 10000.0);
+      a.values.push_back(falling ? 2 * std::exp(-(i + 0.5) / 3000.0) : make.uniform(0.2, 4));
+    }
+    spec.shear_rate = a;
+    const ExactSolution<double> solution{Scene<double>(spec)};
+    SceneSpec<double> smooth = spec;
+    smooth.shear_rate = Exponential<double>{2, 0.3};
+    const ExactSolution<double> limit{Scene<double>(smooth)};
+    double below = 0;
+    for (int i = 0; i <= 20; ++i) {
+      const double z = i / 20.0, M = solution.M(z, 0.8);
+      EXPECT_GE(M, below);
+      below = M;
+      if (falling) {
+        EXPECT_NEAR(M, limit.M(z, 0.8), 2e-6) << z;
+      }
+    }
+    EXPECT_EQ(below, solution.mass());
+  }
+}
+
+TEST(ExactHardCases, AHundredThousandJumps) {
+  SceneMaker make(support::seed_of(9));
+  SceneSpec<double> spec;
+  const int n = 100000;
+  for (int i = 1; i <= n; ++i) spec.initial_breaks.push_back(i / (n + 1.0));
+  for (int i = 0; i <= n; ++i) spec.initial_values.push_back(make.uniform(0, 1));
+  // The same data averaged over cells of 100 jumps: M moves by at most a quarter of their width.
+  SceneSpec<double> averaged = spec;
+  averaged.initial_breaks.clear();
+  averaged.initial_values.clear();
+  const int cells = 1000;
+  for (const auto& a : {Piecewise<double>{{0.3, 0.8}, {1, 3, 0.5}}, Piecewise<double>{{}, {1}}}) {
+    spec.shear_rate = averaged.shear_rate = a;
+    const ExactSolution<double> solution{Scene<double>(spec)};
+    averaged.initial_breaks.clear();
+    averaged.initial_values.clear();
+    for (int i = 0; i < cells; ++i) {
+      if (i > 0) averaged.initial_breaks.push_back(double(i) / cells);
+      averaged.initial_values.push_back(
+          (solution.M(double(i + 1) / cells, 0.0) - solution.M(double(i) / cells, 0.0)) * cells);
+    }
+    const ExactSolution<double> coarse{Scene<double>(averaged)};
+    for (int k = 0; k < 200; ++k) {
+      const double z = make.uniform(0, 1), t = std::exp(make.uniform(-9.0, 1.0));
+      EXPECT_NEAR(solution.M(z, t), coarse.M(z, t), 0.25 / cells) << "z " << z << " t " << t;
+    }
+  }
+}
+
+/// Ranges of cells are pruned by lower bounds only when there are many: here against every path on its own,
+/// one layer, value = M(x) + (z - x + a t)^2 / (4 a t).
+TEST(ExactHardCases, PruningMissesNothing) {
+  SceneMaker make(support::seed_of(10));
+  SceneSpec<double> spec = layered({}, {1.3}, {}, {});
+  const int n = 3000;
+  for (int i = 1; i <= n; ++i) spec.initial_breaks.push_back(i / (n + 1.0));
+  double phi = 0.5;
+  for (int i = 0; i <= n; ++i) {
+    phi = std::clamp(phi + make.uniform(-0.1, 0.1), 0.0, 1.0);
+    spec.initial_values.push_back(phi);
+  }
+  const Scene<double> scene(spec);
+  const ExactSolution<double> solution(scene);
+  for (int k = 0; k < 100; ++k) {
+    const double z = make.uniform(0, 1), t = std::exp(make.uniform(-6.0, 0.5)), r = 1.3;
+    double best = infinity<double>();
+    if (z <= r * t) best = z;
+    if (1 - z <= r * t) best = std::min(best, solution.mass());
+    double M = 0, lo = 0;
+    for (int i = 0; i <= n; ++i) {
+      const double p = spec.initial_values[std::size_t(i)],
+                   hi = i == n ? 1 : spec.initial_breaks[std::size_t(i)];
+      const double foot = std::clamp(z - r * (2 * p - 1) * t, lo, hi), d = z - foot;
+      if (std::abs(d) <= r * t * (1 + 1e-12))
+        best = std::min(best, M + p * (foot - lo) + (d + r * t) * (d + r * t) / (4 * r * t));
+      M += p * (hi - lo);
+      lo = hi;
+    }
+    EXPECT_NEAR(solution.M(z, t), best, 1e-12) << "z " << z << " t " << t;
+  }
+}
+
+TEST(ExactHardCases, TinyAndHugeTimes) {
+  SceneMaker make(support::seed_of(12));
+  for (int n = 0; n < 30; ++n) {
+    auto spec = make.data(make.integer(1, 5), make.order(), 4);
+    if (n % 3 == 0) spec.shear_rate = Exponential<double>{2, 0.4};
+    const Scene<double> scene(spec);
+    const ExactSolution<double> solution(scene);
+    for (int k = 0; k < 20; ++k) {
+      const double z = make.uniform(0, 1);
+      EXPECT_NEAR(solution.M(z, 1e-300), solution.M(z, 0.0), 1e-15);
+      EXPECT_EQ(solution.phi(z, 1e-300), scene.initial_phi(z));
+      EXPECT_EQ(solution.M(z, 1e300), solution.M(z, infinity<double>()));
+      EXPECT_EQ(solution.phi(z, 1e300), solution.phi(z, infinity<double>()));
+      const auto derivatives = sensitivities(solution, z, 1e300);
+      for (const double d : derivatives.M.shear_rate_values()) EXPECT_EQ(d, 0.0);
+    }
+    EXPECT_EQ(solution.M(1.0, 1e-300), solution.mass());
+  }
+}
+
+TEST(ExactHardCases, TinyAndHugeScales) {
+  SceneMaker make(support::seed_of(14));
+  for (int n = 0; n < 20; ++n) {
+    auto spec = make.data(make.integer(1, 5), make.order(), 4);
+    if (n % 4 == 0) spec.shear_rate = Exponential<double>{2, 0.4};
+    const ExactSolution<double> one{Scene<double>(spec)};
+    const auto events = exact_timeline(one.scene());
+    for (const double power : {std::ldexp(1.0, 990), std::ldexp(1.0, -990)}) {
+      spec.scale = power;
+      const ExactSolution<double> other{Scene<double>(spec)};
+      const auto scaled_events = exact_timeline(other.scene());
+      EXPECT_NEAR(*scaled_events.t_star * power, *events.t_star, 1e-14 * *events.t_star);
+      for (int k = 0; k < 20; ++k) {
+        const double z = make.uniform(0, 1), t = make.uniform(0.01, 2);
+        EXPECT_EQ(other.M(z, t / power), one.M(z, t));
+        EXPECT_EQ(other.phi(z, t / power), one.phi(z, t));
+        const auto a = sensitivities(one, z, t), b = sensitivities(other, z, t / power);
+        for (std::size_t i = 0; i < a.M.shear_rate_values().size(); ++i) {
+          EXPECT_NEAR(a.M.shear_rate_values()[i], b.M.shear_rate_values()[i], 1e-13);
+          EXPECT_NEAR(a.phi.shear_rate_values()[i], b.phi.shear_rate_values()[i],
+                      1e-12 * (1 + std::abs(a.phi.shear_rate_values()[i])));
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactHardCases, ConstantStates) {
+  for (const double a_above : {0.5, 2.0, 8.0}) {
+    const ExactSolution<double> zero{Scene<double>(layered({0.4}, {2, a_above}, {}, {0}))};
+    const ExactSolution<double> one{Scene<double>(layered({0.4}, {2, a_above}, {}, {1}))};
+    for (const double t : {0.0, 1e-300, 0.1, 10.0, 1e300, infinity<double>()})
+      for (const double z : {0.0, 0.2, 0.4, 0.7, 1.0}) {
+        EXPECT_EQ(zero.M(z, t), 0.0);
+        EXPECT_EQ(zero.phi(z, t), 0.0) << "z " << z << " t " << t;
+        EXPECT_EQ(one.M(z, t), z);
+        EXPECT_EQ(one.phi(z, t), 1.0) << "z " << z << " t " << t;
+      }
+    expect_accurate(layered({0.4}, {2, a_above}, {}, {0.5}), {0.01, 0.1, 0.3, 1.0});
+  }
+  // phi = 1/2, one layer: still between the walls' waves, M = z / 2 + a t / 4.
+  const ExactSolution<double> half{Scene<double>(layered({}, {2}, {}, {0.5}))};
+  EXPECT_DOUBLE_EQ(half.M(0.5, 0.125), 0.25 + 0.0625);
+  EXPECT_EQ(half.phi(0.5, 0.125), 0.5);
+}
+
+TEST(ExactHardCases, StatesAtTheWallsAndAtJumps) {
+  const ExactSolution<double> solution{Scene<double>(layered({0.29}, {2.4, 0.31}, {0.5}, {0, 1}))};
+  EXPECT_EQ(solution.phi(0.5, 0.0), 1.0);  // the value above
+  EXPECT_EQ(solution.phi(1.0, 0.0), 1.0);  // the value below the top
+  EXPECT_EQ(solution.phi(1.0, 1.6), 1.0);  // first wave there at 1.6129
+  EXPECT_EQ(solution.phi(1.0, 1.62), 0.0);
+  EXPECT_EQ(solution.phi(0.0, 0.79), 0.0);  // first wave there at 0.798
+  EXPECT_EQ(solution.phi(0.0, 0.80), 1.0);
+  EXPECT_EQ(solution.phi(0.5, infinity<double>()), 0.0);
+  EXPECT_EQ(solution.phi(0.4999, infinity<double>()), 1.0);
+}
+
+TEST(ExactHardCases, AnyDomain) {
+  SceneMaker make(support::seed_of(13));
+  for (int n = 0; n < 20; ++n) {
+    const auto spec = make.data(3, make.order(), 4);
+    SceneSpec<double> moved = spec;  // z -> 8 z - 2, a -> 8 a: the same times, M eight times as large
+    auto& a = std::get<Piecewise<double>>(moved.shear_rate);
+    for (double& x : a.breaks) x = 8 * x - 2;
+    for (double& x : a.values) x *= 8;
+    for (double& x : moved.initial_breaks) x = 8 * x - 2;
+    moved.bottom = -2;
+    moved.top = 6;
+    const ExactSolution<double> one{Scene<double>(spec)}, two{Scene<double>(moved)};
+    for (int k = 0; k < 20; ++k) {
+      const double z = make.uniform(0, 1), t = make.uniform(0.01, 2);
+      EXPECT_NEAR(8 * one.M(z, t), two.M(8 * z - 2, t), 4e-14);
+    }
+  }
+}
+
+TEST(ExactSolverApi, SamplesTimelineAndSummary) {
+  const Scene<double> scene(layered({0.29}, {2.4, 0.31}, {0.5}, {0, 1}));
+  SolverRequest request;
+  request.times = {0.0, 3.0, infinity<double>()};
+  request.depths = {0.1, 0.9};
+  request.timeline = true;
+  const auto result = ExactSolver::solve(scene, request, {});
+  ASSERT_EQ(result.samples.size(), 6u);
+  const ExactSolution<double> solution(scene);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      EXPECT_EQ(result.samples[2 * i + j].M, solution.M(request.depths[j], request.times[i]));
+      EXPECT_EQ(result.samples[2 * i + j].phi, solution.phi(request.depths[j], request.times[i]));
+    }
+  ASSERT_TRUE(result.timeline);
+  EXPECT_NEAR(*result.timeline->t_star, 2 / 0.31, 1e-13);
+  EXPECT_EQ(result.summary.status, Status::ok);
+  EXPECT_EQ(result.summary.layers, 2u);
+  EXPECT_GT(result.summary.wall_s, 0.0);
+}
+
+TEST(ExactSolverApi, BadRequestsAreNamed) {
+  const Scene<double> scene(layered({0.29}, {2.4, 0.31}, {0.5}, {0, 1}));
+  SolverRequest request;
+  request.times = {0.0, -1.0};
+  request.depths = {0.1, 1.5};
+  try {
+    (void)ExactSolver::solve(scene, request, {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "times[1] = -1; must be >= 0\ndepths[1] = 1.5; must be inside the domain [0, 1]");
+  }
+}
+
+TEST(ExactSolverApi, StopsWhenAsked) {
+  const Scene<double> scene(layered({}, {1}, {0.5}, {0, 1}));
+  SolverOptions options;
+  options.progress = [](double t, std::uint64_t) { return t < 1; };
+  const auto result = ExactSolver::solve(scene, {{0.5, 2.0}, {0.5}, true, false}, options);
+  EXPECT_EQ(result.summary.status, Status::interrupted);
+  EXPECT_FALSE(result.summary.usable());
+}
+
+}  // namespace
+}  // namespace shearfront
