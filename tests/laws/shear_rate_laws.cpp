@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Laws of shear rates, run for every model of shear_rate/all.hpp and for its skeleton.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/shear_rate/all.hpp"
+#include "shearfront/shear_rate/skeleton.hpp"
+
+namespace shearfront {
+namespace {
+
+template <class Model>
+class ShearRateLaws : public testing::Test {};
+
+struct ModelName {
+  template <class Model>
+  static std::string GetName(int) {
+    return std::string(Model::kName);
+  }
+};
+
+template <class List>
+struct AsTestTypes;
+template <class... Model>
+struct AsTestTypes<TypeList<Model...>> {
+  using Type = testing::Types<Model..., SkeletonShearRate<double>>;
+};
+TYPED_TEST_SUITE(ShearRateLaws, AsTestTypes<ShearRateList<double>>::Type, ModelName);
+
+/// [0, 1] cut at the knots.
+template <class Model>
+std::vector<double> pieces(const Model& a) {
+  std::vector<double> cuts{0, 1};
+  for (const double z : a.knots())
+    if (z > 0 && z < 1) cuts.push_back(z);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+/// int dz / a over [lo, hi] by Gauss's three-point rule on 64 panels.
+template <class Model>
+double slowness(const Model& a, double lo, double hi) {
+  const double node = std::sqrt(0.6);
+  double sum = 0;
+  const int panels = 64;
+  for (int i = 0; i < panels; ++i) {
+    const double h = (hi - lo) / panels, mid = lo + (i + 0.5) * h;
+    sum += h / 18 * (5 / a.value(mid - node * h / 2) + 8 / a.value(mid) + 5 / a.value(mid + node * h / 2));
+  }
+  return sum;
+}
+
+TYPED_TEST(ShearRateLaws, HasSamplesThatPassTheirOwnCheck) {
+  ASSERT_FALSE(TypeParam::samples().empty());
+  for (const auto& a : TypeParam::samples()) {
+    Problems problems;
+    a.check("shear_rate.", 0.0, 1.0, problems);
+    EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : problems[0].text());
+    std::set<std::string> keys;
+    TypeParam::fields(a, [&](const FieldInfo& info, const auto& member) {
+      check_number(std::string(info.key), info.range, member, problems);
+      EXPECT_TRUE(keys.insert(std::string(info.key)).second) << "two fields called " << info.key;
+    });
+    EXPECT_TRUE(problems.empty());
+    EXPECT_FALSE(keys.empty());
+  }
+}
+
+TYPED_TEST(ShearRateLaws, IsPositiveAndFinite) {
+  for (const auto& a : TypeParam::samples())
+    for (int i = 0; i <= 100; ++i) {
+      EXPECT_GT(a.value(i / 100.0), 0.0);
+      EXPECT_TRUE(is_finite(a.value(i / 100.0)));
+    }
+}
+
+TYPED_TEST(ShearRateLaws, HarmonicMeanIsTheMeanOfTheTravelTime) {
+  for (const auto& a : TypeParam::samples()) {
+    const auto cuts = pieces(a);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const double lo = cuts[i], hi = cuts[i + 1], third = lo + (hi - lo) / 3;
+      for (const auto& [from, to] : {std::pair{lo, hi}, std::pair{lo, third}, std::pair{third, hi}}) {
+        const double mean = a.harmonic_mean(from, to);
+        EXPECT_NEAR((to - from) / mean, slowness(a, from, to), 1e-7 * slowness(a, from, to));
+      }
+    }
+  }
+}
+
+TYPED_TEST(ShearRateLaws, HarmonicMeanOfAThinLayerIsTheValue) {
+  for (const auto& a : TypeParam::samples()) {
+    const auto cuts = pieces(a);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const double z = 0.5 * (cuts[i] + cuts[i + 1]), h = 1e-9;
+      EXPECT_NEAR(a.harmonic_mean(z, z + h), a.value(z), 1e-6 * a.value(z));
+    }
+  }
+}
+
+TYPED_TEST(ShearRateLaws, LayeredModelsAreConstantBetweenKnots) {
+  if (!TypeParam::kIsLayered) return;
+  for (const auto& a : TypeParam::samples()) {
+    const auto cuts = pieces(a);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+      for (const double w : {0.01, 0.5, 0.99})
+        EXPECT_EQ(a.value(cuts[i] + w * (cuts[i + 1] - cuts[i])), a.value(cuts[i]));
+  }
+}
+
+TYPED_TEST(ShearRateLaws, KnotsAscend) {
+  for (const auto& a : TypeParam::samples()) {
+    const auto knots = a.knots();
+    EXPECT_TRUE(std::is_sorted(knots.begin(), knots.end()));
+    EXPECT_TRUE(std::adjacent_find(knots.begin(), knots.end()) == knots.end());
+  }
+}
+
+TYPED_TEST(ShearRateLaws, EveryFieldRefusesNotANumber) {
+  for (const auto& sample : TypeParam::samples()) {
+    std::size_t n_fields = 0;
+    TypeParam::fields(sample, [&](const FieldInfo&, const auto&) { ++n_fields; });
+    for (std::size_t broken = 0; broken < n_fields; ++broken) {
+      auto a = sample;
+      std::size_t i = 0;
+      std::string key;
+      bool changed = false;
+      TypeParam::fields(a, [&](const FieldInfo& info, auto& member) {
+        if (i++ != broken) return;
+        key = info.key;
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>) {
+          member = std::numeric_limits<double>::quiet_NaN();
+          changed = true;
+        } else if (!member.empty()) {
+          member[0] = std::numeric_limits<double>::quiet_NaN();
+          changed = true;
+        }
+      });
+      if (!changed) continue;
+      Problems problems;
+      TypeParam::fields(a, [&](const FieldInfo& info, const auto& member) {
+        check_number(std::string(info.key), info.range, member, problems);
+      });
+      ASSERT_FALSE(problems.empty()) << key;
+      EXPECT_EQ(problems[0].key.rfind(key, 0), 0u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shearfront
