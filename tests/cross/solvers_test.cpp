@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every solver of the list against what it guarantees: a new one is tested here without a new line.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/solver/all.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+template <class List>
+struct AsTypes;
+template <class... S>
+struct AsTypes<TypeList<S...>> {
+  using Types = testing::Types<S...>;
+};
+
+template <class S>
+class EverySolver : public testing::Test {};
+
+struct SolverName {
+  template <class S>
+  static std::string GetName(int) {
+    std::string name(S::kName);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  }
+};
+TYPED_TEST_SUITE(EverySolver, typename AsTypes<SolverList>::Types, SolverName);
+
+constexpr double kResolution = 0.02;
+
+SolverRequest request_for(const Scene<double>& scene) {
+  SolverRequest request;
+  request.times = {1.3, 0, infinity<double>(), 0.2};  // in no order
+  for (int i = 0; i <= 40; ++i)
+    request.depths.push_back(scene.bottom() + (scene.top() - scene.bottom()) * i / 40);
+  std::swap(request.depths[3], request.depths[20]);
+  request.timeline = true;
+  return request;
+}
+
+TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
+  const Guarantees promised = TypeParam::guarantees();
+  for (std::uint64_t number = 0; number < 40; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    support::SceneMaker maker(support::seed_of(3000 + number));
+    const Scene<double> scene(maker.data(maker.integer(1, 6), maker.order(), 10));
+    const SolverRequest request = request_for(scene);
+    SolverOptions options;
+    options.resolution = kResolution;
+    const SolverResult result = TypeParam::solve(scene, request, options);
+    ASSERT_TRUE(result.summary.usable()) << result.summary.message;
+    ASSERT_EQ(result.samples.size(), request.times.size() * request.depths.size());
+    const ExactSolution<double> exact(scene);
+    double slack = 1e-12;
+    if (!promised.exact) slack = std::pow(kResolution, promised.order_M);
+    for (std::size_t i = 0; i < request.times.size(); ++i)
+      for (std::size_t j = 0; j < request.depths.size(); ++j) {
+        const Sample& s = result.samples[i * request.depths.size() + j];
+        const double z = request.depths[j], t = request.times[i];
+        if (promised.bounded) {
+          EXPECT_GE(s.phi, 0);
+          EXPECT_LE(s.phi, 1);
+        }
+        if (promised.conservative && z == scene.top()) {
+          EXPECT_NEAR(s.M, scene.mass(), 1e-13);
+        }
+        EXPECT_NEAR(s.M, exact.M(z, t), slack) << "z = " << z << ", t = " << t;
+      }
+    ASSERT_TRUE(result.timeline.has_value());
+    EXPECT_TRUE(result.timeline->t_star.has_value());
+    EXPECT_NEAR(result.timeline->mass, scene.mass(), 1e-15);
+  }
+}
+
+TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
+  ShearRateList<double>::for_each([]<class Model>() {
+    for (const Model& model : Model::samples()) {
+      SceneSpec<double> spec;
+      spec.shear_rate = model;
+      spec.initial_breaks = {0.5};
+      spec.initial_values = {0, 1};
+      const Scene<double> scene(spec);
+      SolverRequest request{{0.3}, {0, 0.25, 0.5, 0.75, 1}, false, false};
+      SolverOptions options;
+      options.resolution = kResolution;
+      const SolverResult result = TypeParam::solve(scene, request, options);
+      ASSERT_TRUE(result.summary.usable()) << Model::kName << ": " << result.summary.message;
+      const ExactSolution<double> exact(scene);
+      for (std::size_t j = 0; j < request.depths.size(); ++j)
+        EXPECT_NEAR(result.samples[j].M, exact.M(request.depths[j], 0.3), 0.1 * kResolution) << Model::kName;
+    }
+  });
+}
+
+TEST(FrontTracking, ReconstructionsGridsAndFrontsAreOptionsOfTheSolver) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  const Scene<double> scene(spec);
+  SolverRequest request{{0.5}, {0.45, 0.5, 0.6}, false, true};
+  SolverOptions options;
+  options.resolution = 0.1;
+  options.reconstruct = Reconstruction::linear;
+  const SolverResult lines = FrontTrackingSolver::solve(scene, request, options);
+  for (std::size_t j = 0; j < 3; ++j)  // before its first meeting the fan is exact
+    EXPECT_NEAR(lines.samples[j].phi, 0.5 + (request.depths[j] - 0.5) / (2 * 0.31 * 0.5), 1e-13);
+  EXPECT_EQ(lines.fronts.size(), 10u);
+  for (const auto& f : lines.fronts) EXPECT_EQ(f.t_end, 0.5);
+  options.grid = GridKind::singular_mapping;
+  options.resolution = 0.4;
+  request.timeline = true;
+  const SolverResult paper = FrontTrackingSolver::solve(scene, request, options);
+  EXPECT_NEAR(*paper.timeline->t_star, 5.0, 1e-13);  // a = 0.31 rounded to 0.4, t* = 2 / a
+}
+
+TEST(FrontTracking, SaysWhyItCannot) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  const Scene<double> scene(spec);
+  const SolverRequest request{{1}, {0.5}, true, false};
+  for (const double resolution : {0.0, -1.0, 2.0, 1e-12, 1e-300, std::nan("")}) {
+    SolverOptions options;
+    options.resolution = resolution;
+    const Summary summary = FrontTrackingSolver::solve(scene, request, options).summary;
+    EXPECT_EQ(summary.status, Status::unsupported) << resolution;
+    EXPECT_FALSE(summary.message.empty());
+  }
+  SolverOptions options;
+  options.max_collisions = 5;
+  EXPECT_EQ(FrontTrackingSolver::solve(scene, request, options).summary.status, Status::budget_reached);
+  options = {};
+  options.resolution = 1e-5;
+  options.progress = [](double, std::uint64_t) { return false; };
+  EXPECT_EQ(FrontTrackingSolver::solve(scene, request, options).summary.status, Status::interrupted);
+}
+
+}  // namespace
+}  // namespace shearfront
