@@ -222,7 +222,7 @@ TEST(ExactLaws, StaircasesConvergeToTheExponential) {
   const Scene<double> scene(spec);
   const ExactSolution<double> exact(scene);
   std::vector<double> errors;
-  for (const std::size_t n : {32, 64, 128, 256}) {
+  for (const std::size_t n : {32u, 64u, 128u, 256u}) {
     const auto layers = staircase(scene, n);
     SceneSpec<double> steps = spec;
     Piecewise<double> a;
