@@ -22,7 +22,7 @@ namespace shearfront {
 ///   speed) entropy       no state between the two of a front would split it: Oleinik's condition for the
 ///   polygon rest          flux is equal on both sides of every interface, and the two states are at rest
 ///   (minimal jump) walls         the flux next to both walls is 0
-/// Cost: O(sum of |l - r| over the fronts).
+/// Cost: O(polygon vertices spanned by the fronts).
 template <class AnyTracker>
 [[nodiscard]] std::vector<std::string> verify(const AnyTracker& tracker,
                                               const typename AnyTracker::Scalar& position_slack,
@@ -71,12 +71,14 @@ template <class AnyTracker>
       const Scalar scale = std::max(size(node.speed), Scalar(size(flux_l) + size(flux_r)));
       if (size(node.speed * (phi_r - phi_l) - (flux_r - flux_l)) > speed_slack * scale)
         complain("jump: not the Rankine-Hugoniot speed", z);
-      // Oleinik: the graph lies above the chord for l < r, below it for l > r.
-      const State step = node.below < node.above ? 1 : -1;
-      for (State i = node.below + step; i != node.above; i += step) {
+      // Oleinik: the graph lies above the chord for l < r, below it for l > r; for a polygon, at its
+      // vertices.
+      const State upper = std::max(node.below, node.above);
+      const Scalar side(node.below < node.above ? 1 : -1);
+      for (State i = grid.next_vertex(k, std::min(node.below, node.above)); i < upper;
+           i = grid.next_vertex(k, i)) {
         const Scalar chord = flux_l + node.speed * (grid.phi(k, i) - phi_l);
-        const Scalar excess = Scalar(step) * (grid.flux(k, i) - chord);
-        if (excess < -speed_slack * scale) {
+        if (side * (grid.flux(k, i) - chord) < -speed_slack * scale) {
           complain("entropy: the front would split", z);
           break;
         }
