@@ -24,7 +24,7 @@ namespace shearfront {
 /// layers, about twice the remaining error of M (order 3/2; 2 where no path turns); (4) const member
 /// functions are safe to call from many threads. Cost: 2 layers < 1 us, 10 layers < 5 us
 /// (tests/bench/exact_bench.cpp); construction O(layers + jumps), up to O(layers * (layers + jumps)) when a
-/// is monotone. Errors: none beyond those of Scene. Source: MATH of the project; Lax (1957), Hopf (1965); for
+/// is monotone. Errors: none beyond those of Scene. Source: Lax (1957), Hopf (1965); for
 /// jumps of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
