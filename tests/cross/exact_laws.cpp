@@ -170,7 +170,7 @@ TEST(ExactLaws, SteadyAfterTheSteadyTime) {
     if (t == 0) return;
     for (int i = 0; i <= 20; ++i) {
       const double z = i / 20.0;
-      EXPECT_EQ(solution.M(z, t), solution.M(z, infinity<double>())) << "z " << z;
+      EXPECT_NEAR(solution.M(z, t), solution.M(z, infinity<double>()), 1e-15) << "z " << z;
     }
   });
 }
@@ -261,7 +261,7 @@ TEST(ExactLaws, TableStatesAnErrorThatHolds) {
     }
     EXPECT_LE(worst, stated);
     EXPECT_GT(stated, 0.0);
-    EXPECT_LT(stated, 1e-3);
+    EXPECT_LT(stated, 5e-3);
   }
 }
 

@@ -20,12 +20,13 @@ namespace shearfront {
 /// value below. Guarantees: (1) layered and exponential a: exact up to rounding, |M error| <= c u (top -
 /// bottom) with c of the order of the layers crossed; phi as well, except within a rounding error of a shock;
 /// (2) 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m); (3) tabulated a: the exact solution
-/// of a staircase of layers (harmonic means); Value::M_error and phi_error are the change from half as many
-/// layers, about twice the remaining error of M (order 3/2; 2 where no path turns); (4) const member
-/// functions are safe to call from many threads. Cost: 2 layers < 1 us, 10 layers < 5 us
-/// (tests/bench/exact_bench.cpp); construction O(layers + jumps), up to O(layers * (layers + jumps)) when a
-/// is monotone. Errors: none beyond those of Scene. Source: Lax (1957), Hopf (1965); for
-/// jumps of a, minimum over refracted and resting paths.
+/// of a staircase of layers (harmonic means), of order 3/2 in the layer height (2 where no path turns);
+/// Value::M_error and phi_error estimate what is left: three times the change of M, once the change of phi,
+/// from half as many layers. Their largest value over a set of points is what to go by: at single points
+/// errors change sign; (4) const member functions are safe to call from many threads. Cost: 2 layers < 1 us,
+/// 10 layers < 5 us (tests/bench/exact_bench.cpp); construction O(layers + jumps), up to O(layers * (layers +
+/// jumps)) when a is monotone. Errors: none beyond those of Scene. Source: Lax (1957), Hopf (1965); for jumps
+/// of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
  public:
@@ -36,7 +37,7 @@ class ExactSolution {
 
   struct Value {
     Scalar phi{0}, M{0}, H{0};
-    Scalar M_error{0}, phi_error{0};  ///< tabulated a only, otherwise 0
+    Scalar M_error{0}, phi_error{0};  ///< estimates, tabulated a only, otherwise 0
   };
 
   explicit ExactSolution(const Scene<Scalar>& scene) : ExactSolution(scene, Options{}) {}

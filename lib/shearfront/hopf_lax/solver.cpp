@@ -55,7 +55,7 @@ SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest&
     result.timeline = exact_timeline(scene, {.layers = options.layers});
   if (result.summary.usable() && !hopf_lax::has_exact_medium(scene))
     result.summary.message = "exact for a staircase of " + std::to_string(solution.n_layers()) +
-                             " layers; M changed by at most " + number_text(worst_M) + " from half as many";
+                             " layers; estimated error of M " + number_text(worst_M);
   result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
