@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/observation.hpp"
+#include "shearfront/solver/solver.hpp"
+
+/// What a fit file says, one struct per table of the file.
+namespace shearfront::fit {
+
+/// Order among the values of a(z), bottom to top.
+enum class Shape {
+  none,
+  decreasing,  ///< v_0 >= v_1 >= ... >= v_n
+  convex       ///< decreasing with shrinking steps: v_0 - v_1 >= v_1 - v_2 >= ... >= 0
+};
+
+/// [unknown]: the entries of the scene to be found. start, lower and upper have one number per unknown in the
+/// order of `parameters`, arrays expanded; empty: the values of the scene, and defaults (parameters.hpp).
+struct UnknownSpec {
+  std::vector<std::string> parameters;
+  std::vector<double> start, lower, upper;
+  Shape shape = Shape::none;
+};
+
+/// [forward]: the solver that predicts the observations; names and settings as on the command line.
+struct ForwardSpec {
+  std::string method = "exact";
+  SolverOptions options;
+};
+
+/// [misfit]: what is compared, and how residuals count.
+struct MisfitSpec {
+  std::string quantity;              ///< name of MisfitList; empty: that of the data
+  std::string loss;                  ///< name of LossList; empty: squared, for point data huber
+  std::optional<double> loss_scale;  ///< residual (in units of sigma) where a robust loss bends; default per loss
+  /// Point data are first fitted through their sums over z, which vary smoothly, then as points without those
+  /// a shock is passing. false: fitted as points at once. Empty: true if the search uses derivatives.
+  std::optional<bool> two_stage;
+};
+
+/// [search]: how the minimum is looked for.
+struct SearchSpec {
+  std::string algorithm = "ceres";  ///< ceres | global | nlopt:NAME
+  std::size_t starts = 1;           ///< > 1: from so many points of a low-discrepancy set as well
+  std::uint64_t seed = 1;
+  std::size_t max_evaluations = 2000;
+  double tolerance = 1e-12;  ///< relative, of parameters and misfit
+};
+
+/// [uncertainty]: what is computed besides the standard errors.
+struct UncertaintySpec {
+  bool profile = false;       ///< profile-likelihood intervals
+  std::size_t bootstrap = 0;  ///< replicates of the parametric bootstrap, 0: none
+  std::uint64_t seed = 1;
+  std::size_t threads = 0;  ///< 0: all cores
+};
+
+/// A whole fit, checked entry by entry by the reader; fit() checks what holds between them.
+struct FitSpec {
+  std::string name;
+  Scene<double> scene;
+  Observations observations;
+  UnknownSpec unknown;
+  ForwardSpec forward;
+  MisfitSpec misfit;
+  SearchSpec search;
+  UncertaintySpec uncertainty;
+};
+
+}  // namespace shearfront::fit
