@@ -36,9 +36,10 @@ struct ForwardSpec {
 
 /// [misfit]: what is compared, and how residuals count.
 struct MisfitSpec {
-  std::string quantity;              ///< name of MisfitList; empty: that of the data
-  std::string loss;                  ///< name of LossList; empty: squared, for point data huber
-  std::optional<double> loss_scale;  ///< residual (in units of sigma) where a robust loss bends; default per loss
+  std::string quantity;  ///< name of MisfitList; empty: that of the data
+  std::string loss;      ///< name of LossList; empty: squared, for point data huber
+  std::optional<double>
+      loss_scale;  ///< residual (in units of sigma) where a robust loss bends; default per loss
   /// Point data are first fitted through their sums over z, which vary smoothly, then as points without those
   /// a shock is passing. false: fitted as points at once. Empty: true if the search uses derivatives.
   std::optional<bool> two_stage;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/coordinates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shearfront::fit {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Coordinates::Coordinates(const Parameters& parameters) : shape_(parameters.shape()) {
+  const auto n = static_cast<Index>(parameters.size());
+  lower_.resize(n);
+  upper_.resize(n);
+  for (const Parameter& p : parameters) {
+    const auto i = static_cast<Index>(is_logarithmic_.size());
+    const bool is_positive = p.entry.range == Range::positive;
+    const bool is_shaped = shape_ != Shape::none && p.entry.field == "shear_rate.values";
+    is_logarithmic_.push_back(is_positive);
+    lower_[i] = is_positive ? std::log(p.lower) : p.lower;
+    upper_[i] = is_positive ? std::log(p.upper) : p.upper;
+    if (is_shaped) shaped_.push_back(i);
+  }
+  for (std::size_t k = 0; k + 1 < shaped_.size(); ++k) {
+    is_logarithmic_[static_cast<std::size_t>(shaped_[k])] = false;
+    lower_[shaped_[k]] = 0;
+    upper_[shaped_[k]] = std::numeric_limits<double>::infinity();
+  }
+}
+
+VectorXd Coordinates::values(const VectorXd& u) const {
+  VectorXd p(u.size());
+  for (Index i = 0; i < u.size(); ++i)
+    p[i] = is_logarithmic_[static_cast<std::size_t>(i)] ? std::exp(u[i]) : u[i];
+  double step = 0;
+  for (std::size_t k = shaped_.size(); k-- > 1;) {
+    const Index above = shaped_[k], below = shaped_[k - 1];
+    step = shape_ == Shape::convex ? step + u[below] : u[below];
+    p[below] = p[above] + step;
+  }
+  return p;
+}
+
+VectorXd Coordinates::coordinates(const VectorXd& p) const {
+  VectorXd u(p.size());
+  for (Index i = 0; i < p.size(); ++i)
+    u[i] = is_logarithmic_[static_cast<std::size_t>(i)] ? std::log(p[i]) : p[i];
+  double last_step = 0;
+  for (std::size_t k = shaped_.size(); k-- > 1;) {
+    const double step = p[shaped_[k - 1]] - p[shaped_[k]];
+    u[shaped_[k - 1]] = shape_ == Shape::convex ? step - last_step : step;
+    last_step = step;
+  }
+  return u.cwiseMax(lower_).cwiseMin(upper_);
+}
+
+MatrixXd Coordinates::derivative(const VectorXd& u) const {
+  MatrixXd d = MatrixXd::Zero(u.size(), u.size());
+  for (Index i = 0; i < u.size(); ++i)
+    d(i, i) = is_logarithmic_[static_cast<std::size_t>(i)] ? std::exp(u[i]) : 1;
+  Eigen::RowVectorXd step = Eigen::RowVectorXd::Zero(u.size());
+  for (std::size_t k = shaped_.size(); k-- > 1;) {
+    const Index above = shaped_[k], below = shaped_[k - 1];
+    if (shape_ != Shape::convex) step.setZero();
+    step[below] += 1;
+    d.row(below) = d.row(above) + step;
+  }
+  return d;
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/run_control.hpp"
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/summary.hpp"
+
+namespace shearfront::fit {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// What was found about one unknown. Error bars are empty where they would be invented: at a bound, not seen
+/// by the data, confounded with others, or no degrees of freedom left.
+struct ParameterEstimate {
+  std::string name;
+  double start = 0, estimate = 0;
+  std::optional<double> std_error;      ///< from the Jacobian
+  std::optional<Interval> ci95;         ///< estimate -+ q std_error; for positive entries in the logarithm
+  std::optional<Interval> profile95;    ///< profile likelihood, on request
+  std::optional<Interval> bootstrap95;  ///< parametric bootstrap, on request
+  bool at_bound = false;
+};
+
+/// How well the residuals look like independent noise (residual_structure.hpp); empty where there are too
+/// few.
+struct ResidualStructure {
+  double lag1_height = 0, lag1_time = 0;  ///< correlation of neighbours in z, and in t
+  double runs_z_score = 0;                ///< Wald-Wolfowitz runs of signs over z: negative for too few runs
+  bool is_structured = false;             ///< 1 % level
+};
+
+/// The result of a fit.
+struct Estimate {
+  std::string name;
+  std::string method, algorithm, quantity, loss;  ///< what was used, defaults resolved
+  std::vector<ParameterEstimate> parameters;
+  std::optional<Scene<double>> scene;  ///< with the estimates in place; empty if there is none
+
+  double misfit = 0;         ///< sum rho(r^2) / 2 of the last stage, r in units of sigma
+  double residual_norm = 0;  ///< sqrt(sum r^2), in the unit of the data
+  double sigma = 0;  ///< noise per observation: estimated from the residuals; 1 if the data have their own
+  bool sigma_is_given = false;
+  std::size_t observations = 0;  ///< used in the last stage
+  std::size_t left_out = 0;      ///< point data near a shock
+  std::size_t evaluations = 0, iterations = 0;
+  double wall_s = 0;
+  /// Correlation of the estimates; NaN for those without error bar.
+  Eigen::MatrixXd correlation;
+  std::optional<double> aic, bic;  ///< of all observations, Gaussian; smaller is better
+  std::optional<ResidualStructure> structure;
+
+  /// Of every observation in its own quantity, in the order of the data (NaN: no prediction).
+  std::vector<double> predicted;
+  std::vector<SearchStep> steps;
+
+  std::vector<std::string> warnings;
+  Status status = Status::not_run;
+  std::string message;
+  [[nodiscard]] bool usable() const { return scene.has_value(); }
+};
+
+}  // namespace shearfront::fit

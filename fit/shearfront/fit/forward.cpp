@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/forward.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/solver/all.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The part of a gradient that belongs to a field of the scene file; empty if there is none.
+std::span<const double> part_of(const Gradient<double>& gradient, std::string_view field) {
+  if (field == "shear_rate.values") return gradient.shear_rate_values();
+  if (field == "shear_rate.breaks") return gradient.shear_rate_breaks();
+  if (field == "shear_rate.amplitude") return {&gradient.amplitude, 1};
+  if (field == "shear_rate.decay") return {&gradient.decay, 1};
+  if (field == "shear_rate.scale") return {&gradient.scale, 1};
+  if (field == "initial.breaks") return gradient.initial_breaks();
+  if (field == "initial.values") return gradient.initial_values();
+  return {};
+}
+
+class ForwardModel : public Forward {
+ public:
+  ForwardModel(const Parameters& parameters, Field field, std::vector<Point> points)
+      : parameters_(parameters), field_(field), points_(std::move(points)) {}
+
+ protected:
+  [[nodiscard]] Index n_points() const { return static_cast<Index>(points_.size()); }
+
+  Parameters parameters_;
+  Field field_;
+  std::vector<Point> points_;
+};
+
+class ExactForward final : public ForwardModel {
+ public:
+  ExactForward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+               std::vector<Point> points)
+      : ForwardModel(parameters, field, std::move(points)), layers_(forward.options.layers) {
+    const ExactSolution<double> solution(parameters.scene(), {layers_});
+    const auto probe = sensitivities(solution, parameters.scene().bottom(), 0.0);
+    for (const Parameter& p : parameters)
+      has_derivatives_ = has_derivatives_ && p.entry.index < part_of(probe.M, p.entry.field).size();
+  }
+
+  [[nodiscard]] bool has_derivatives() const override { return has_derivatives_; }
+  [[nodiscard]] double smallest_step() const override { return 1e-6; }
+
+  [[nodiscard]] Prediction predict(const VectorXd& values, bool with_derivatives) const override {
+    Prediction prediction;
+    SceneSpec<double> spec = parameters_.scene_with(values);
+    if (const Problems problems = find_problems(spec); !problems.empty()) {
+      prediction.failure = problems.front().text();
+      return prediction;
+    }
+    const ExactSolution<double> solution(Scene<double>(std::move(spec)), {layers_});
+    prediction.values.resize(n_points());
+    if (with_derivatives) prediction.derivatives.resize(n_points(), values.size());
+    for (Index i = 0; i < n_points(); ++i) {
+      const Point& point = points_[static_cast<std::size_t>(i)];
+      if (!with_derivatives) {
+        const auto at = solution.at(point.z, point.t);
+        prediction.values[i] = field_ == Field::phi ? at.phi : at.M;
+        continue;
+      }
+      const auto at = sensitivities(solution, point.z, point.t);
+      prediction.values[i] = field_ == Field::phi ? at.value.phi : at.value.M;
+      const Gradient<double>& gradient = field_ == Field::phi ? at.phi : at.M;
+      Index column = 0;
+      for (const Parameter& p : parameters_)
+        prediction.derivatives(i, column++) = part_of(gradient, p.entry.field)[p.entry.index];
+    }
+    return prediction;
+  }
+
+ private:
+  std::size_t layers_;
+  bool has_derivatives_ = true;
+};
+
+class SolverForward final : public ForwardModel {
+ public:
+  using Solve = SolverResult (*)(const Scene<double>&, const SolverRequest&, const SolverOptions&);
+
+  SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Field field,
+                std::vector<Point> points)
+      : ForwardModel(parameters, field, std::move(points)), solve_(solve), options_(forward.options) {
+    const auto keep_distinct = [](std::vector<double>& xs) {
+      std::sort(xs.begin(), xs.end());
+      xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
+    };
+    for (const Point& point : points_) {
+      request_.times.push_back(point.t);
+      request_.depths.push_back(point.z);
+    }
+    keep_distinct(request_.times);
+    keep_distinct(request_.depths);
+    const auto position = [](const std::vector<double>& xs, double x) {
+      return static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
+    };
+    for (const Point& point : points_)
+      samples_.push_back(position(request_.times, point.t) * request_.depths.size() +
+                         position(request_.depths, point.z));
+  }
+
+  [[nodiscard]] bool has_derivatives() const override { return false; }
+  [[nodiscard]] double smallest_step() const override { return 1e-3; }
+
+  [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
+    Prediction prediction;
+    SceneSpec<double> spec = parameters_.scene_with(values);
+    if (const Problems problems = find_problems(spec); !problems.empty()) {
+      prediction.failure = problems.front().text();
+      return prediction;
+    }
+    const SolverResult result = solve_(Scene<double>(std::move(spec)), request_, options_);
+    if (!result.summary.usable()) {
+      prediction.failure = result.summary.message;
+      return prediction;
+    }
+    prediction.values.resize(n_points());
+    for (Index i = 0; i < n_points(); ++i) {
+      const Sample& sample = result.samples[samples_[static_cast<std::size_t>(i)]];
+      prediction.values[i] = field_ == Field::phi ? sample.phi : sample.M;
+    }
+    return prediction;
+  }
+
+ private:
+  Solve solve_;
+  SolverOptions options_;
+  SolverRequest request_;
+  std::vector<std::size_t> samples_;  ///< of each point among the samples of the solver
+};
+
+}  // namespace
+
+std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+                                      std::vector<Point> points) {
+  std::unique_ptr<Forward> model;
+  SolverList::for_each([&]<class S>() {
+    if (forward.method != S::kName) return;
+    if constexpr (std::is_same_v<S, ExactSolver>)
+      model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));
+    else
+      model = std::make_unique<SolverForward>(parameters, forward, &S::solve, field, std::move(points));
+  });
+  if (!model)
+    throw InputError("forward.method", quoted_text(forward.method), "must be one of: " + SolverList::names());
+  return model;
+}
+
+std::vector<std::string> forward_names() {
+  std::vector<std::string> names;
+  SolverList::for_each([&]<class S>() { names.emplace_back(S::kName); });
+  return names;
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "shearfront/fit/residual_rows.hpp"
+
+namespace shearfront::fit {
+
+/// Means over intervals: r = (M(hi, t) - M(lo, t)) / (hi - lo) - y. Continuous, with kinks where a shock
+/// enters or leaves a bin. Exact for bins. Cumulative data: the mean between neighbouring heights of a time.
+/// Point values are taken as the means between the midpoints to their neighbours.
+struct BinMisfit {
+  static constexpr std::string_view kName = "bin";
+  static constexpr std::string_view kDescription = "means of phi over bins; continuous";
+  static constexpr bool kIsSmooth = true;
+
+  static std::string refusal(const Observations& observations) {
+    if (observations.quantity == Quantity::bin) return "";
+    for (const MeasuredProfile& profile : measured_profiles(observations))
+      if (profile.rows.size() > 1) return "";
+    return "needs two heights at the same time";
+  }
+
+  static ResidualRows rows(const Observations& observations, double bottom, double top) {
+    RowBuilder builder(observations, Field::M);
+    const auto mean = [&](double t, double lo, double hi) {
+      builder.model(t, hi, 1 / (hi - lo));
+      builder.model(t, lo, -1 / (hi - lo));
+    };
+    if (observations.quantity == Quantity::bin) {
+      for (std::size_t k = 0; k < observations.rows.size(); ++k) {
+        const Observation& o = observations.rows[k];
+        mean(o.t, std::max(bottom, o.z - o.width / 2), std::min(top, o.z + o.width / 2));
+        builder.data(k, 1);
+        builder.finish_row();
+      }
+      return builder.take();
+    }
+    for (const MeasuredProfile& profile : measured_profiles(observations)) {
+      const auto z = [&](std::size_t j) { return observations.rows[profile.rows[j]].z; };
+      const std::size_t n = profile.rows.size();
+      for (std::size_t j = 0; n > 1 && j < n; ++j) {
+        if (observations.quantity == Quantity::point) {
+          const double lo = j > 0 ? (z(j - 1) + z(j)) / 2 : std::max(bottom, z(0) - (z(1) - z(0)) / 2);
+          const double hi =
+              j + 1 < n ? (z(j) + z(j + 1)) / 2 : std::min(top, z(n - 1) + (z(n - 1) - z(n - 2)) / 2);
+          mean(profile.t, lo, hi);
+          builder.data(profile.rows[j], 1);
+        } else {
+          if (j == 0) continue;
+          mean(profile.t, z(j - 1), z(j));
+          builder.data(profile.rows[j], 1 / (z(j) - z(j - 1)));
+          builder.data(profile.rows[j - 1], -1 / (z(j) - z(j - 1)));
+        }
+        builder.finish_row();
+      }
+    }
+    return builder.take();
+  }
+};
+
+}  // namespace shearfront::fit

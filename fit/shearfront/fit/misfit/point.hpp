@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "shearfront/fit/residual_rows.hpp"
+
+namespace shearfront::fit {
+
+/// Point values: r = phi(z, t) - y. Not smooth: a row jumps when a shock passes its place, so searches with
+/// derivatives need a start close by (two stages, FitSpec). Bins are taken as points at their middle, which
+/// is wrong by their curvature and at shocks.
+struct PointMisfit {
+  static constexpr std::string_view kName = "point";
+  static constexpr std::string_view kDescription = "phi at single heights; jumps when a shock passes";
+  static constexpr bool kIsSmooth = false;
+
+  /// Why these data cannot be compared in this way; empty if they can.
+  static std::string refusal(const Observations& observations) {
+    return observations.quantity == Quantity::cumulative ? "cumulative data have no point values; use bin"
+                                                         : "";
+  }
+  static ResidualRows rows(const Observations& observations, double /*bottom*/, double /*top*/) {
+    RowBuilder builder(observations, Field::phi);
+    for (std::size_t k = 0; k < observations.rows.size(); ++k) {
+      builder.model(observations.rows[k].t, observations.rows[k].z, 1);
+      builder.data(k, 1);
+      builder.finish_row();
+    }
+    return builder.take();
+  }
+};
+
+}  // namespace shearfront::fit

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/objective.hpp"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/numeric_step.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::fit {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Loss find_loss(std::string_view name, double scale) {
+  Loss loss;
+  LossList::for_each([&]<class L>() {
+    if (name == L::kName) loss = {&L::value, scale > 0 ? scale : L::kDefaultScale, L::kIsRobust};
+  });
+  if (!loss.function)
+    throw InputError("misfit.loss", quoted_text(name), "must be one of: " + LossList::names());
+  return loss;
+}
+
+Objective::Objective(const Parameters& parameters, const Coordinates& coordinates, const ForwardSpec& forward,
+                     ResidualRows rows, Loss loss, RunControl& control)
+    : parameters_(&parameters),
+      coordinates_(&coordinates),
+      rows_(std::move(rows)),
+      loss_(loss),
+      control_(&control),
+      forward_(make_forward(parameters, forward, rows_.field, rows_.points)) {}
+
+void Objective::set_loss(Loss loss) {
+  loss_ = loss;
+  last_u_.resize(0);
+}
+
+Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) const {
+  Evaluation at;
+  at.misfit = std::numeric_limits<double>::infinity();
+  if (!u.allFinite()) return at;
+  const VectorXd values = coordinates_->values(u);
+  if (!values.allFinite() || !parameters_->within_bounds(values)) return at;
+  const bool exact = with_jacobian && has_derivatives();
+  const Prediction prediction = forward_->predict(values, exact);
+  if (!prediction.is_valid()) return at;
+  at.residuals = rows_.residuals(prediction.values);
+  if (!at.residuals.allFinite()) return at;
+  at.is_valid = true;
+  at.misfit = 0;
+  for (Index i = 0; i < at.residuals.size(); ++i)
+    at.misfit += loss_(at.residuals[i] * at.residuals[i]).rho / 2;
+  if (exact) at.jacobian = rows_.jacobian(prediction.derivatives) * coordinates_->derivative(u);
+  return at;
+}
+
+void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* control) const {
+  const auto residuals = [&](const VectorXd& v) {
+    Evaluation there = run(v, false);
+    if (control) control->count(std::numeric_limits<double>::infinity());
+    return there.is_valid ? there.residuals : VectorXd();
+  };
+  if (step_.size() == 0) step_ = numeric_steps(residuals, u, at.residuals, forward_->smallest_step());
+  at.jacobian.resize(at.residuals.size(), u.size());
+  for (Index j = 0; j < u.size(); ++j)
+    at.jacobian.col(j) = difference(residuals, u, at.residuals, j, step_[j]);
+  at.is_valid = at.jacobian.allFinite();
+}
+
+const Objective::Evaluation& Objective::evaluate(const VectorXd& u, bool with_jacobian) {
+  const bool is_last = last_u_.size() == u.size() && last_u_ == u;
+  if (!is_last) {
+    last_ = run(u, has_derivatives());  // exact derivatives cost less than coming back for them
+    last_u_ = u;
+    control_->count(last_.misfit);
+  }
+  if (with_jacobian && last_.is_valid && last_.jacobian.size() == 0) differentiate(u, last_, control_);
+  return last_;
+}
+
+Objective::Evaluation Objective::inspect(const VectorXd& u, bool with_jacobian) const {
+  Evaluation at = run(u, with_jacobian);
+  if (with_jacobian && at.is_valid && at.jacobian.size() == 0) differentiate(u, at, nullptr);
+  return at;
+}
+
+}  // namespace shearfront::fit

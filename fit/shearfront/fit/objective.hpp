@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <string_view>
+
+#include "shearfront/fit/coordinates.hpp"
+#include "shearfront/fit/forward.hpp"
+#include "shearfront/fit/loss/loss.hpp"
+#include "shearfront/fit/residual_rows.hpp"
+#include "shearfront/fit/run_control.hpp"
+
+namespace shearfront::fit {
+
+/// A loss of LossList with the residual where it bends (in the unit of the residuals).
+struct Loss {
+  LossValue (*function)(double s, double scale) = nullptr;
+  double scale = 1;
+  bool is_robust = false;
+  [[nodiscard]] LossValue operator()(double s) const { return function(s, scale); }
+};
+
+/// The loss of this name; scale <= 0: its default. Errors: InputError if there is none.
+[[nodiscard]] Loss find_loss(std::string_view name, double scale);
+
+/// The misfit  F(u) = sum_i rho(r_i(u)^2) / 2  over the coordinates of a search, with r and its Jacobian.
+///
+/// Every call that needs the forward model is counted in the RunControl; the last point is kept, so asking
+/// for it again is free. Derivatives are exact if the forward model has them, otherwise central differences
+/// with the step chosen for the noise of the model (numeric_step.hpp); each of their 2 n runs is counted.
+class Objective {
+ public:
+  struct Evaluation {
+    bool is_valid = false;  ///< false: no solution there, or outside the bounds
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd jacobian;  ///< row = residual, column = coordinate; empty unless asked for
+    double misfit = 0;         ///< infinite if not valid
+  };
+
+  Objective(const Parameters& parameters, const Coordinates& coordinates, const ForwardSpec& forward,
+            ResidualRows rows, Loss loss, RunControl& control);
+
+  [[nodiscard]] const Evaluation& evaluate(const Eigen::VectorXd& u, bool with_jacobian);
+  /// The same without touching the count: for the report after a search.
+  [[nodiscard]] Evaluation inspect(const Eigen::VectorXd& u, bool with_jacobian) const;
+
+  [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }
+  [[nodiscard]] const ResidualRows& rows() const { return rows_; }
+  [[nodiscard]] const Loss& loss() const { return loss_; }
+  [[nodiscard]] const Forward& forward() const { return *forward_; }
+  [[nodiscard]] RunControl& control() const { return *control_; }
+  [[nodiscard]] bool has_derivatives() const { return forward_->has_derivatives(); }
+  void set_loss(Loss loss);
+
+ private:
+  [[nodiscard]] Evaluation run(const Eigen::VectorXd& u, bool with_jacobian) const;
+  void differentiate(const Eigen::VectorXd& u, Evaluation& at, RunControl* control) const;
+
+  const Parameters* parameters_;
+  const Coordinates* coordinates_;
+  ResidualRows rows_;
+  Loss loss_;
+  RunControl* control_;
+  std::unique_ptr<Forward> forward_;
+  mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
+  Eigen::VectorXd last_u_;
+  Evaluation last_;
+};
+
+}  // namespace shearfront::fit

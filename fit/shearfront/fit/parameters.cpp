@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/parameters.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string element(const char* key, std::size_t i) {
+  return std::string(key) + "[" + std::to_string(i) + "]";
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+std::vector<std::string> field_names(const std::vector<Entry>& all) {
+  std::vector<std::string> names;
+  for (const Entry& entry : all)
+    if (names.empty() || names.back() != entry.field) names.push_back(entry.field);
+  return names;
+}
+
+/// "2.5" or "(3 entries)" for the length of an array.
+std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entries)"; }
+
+}  // namespace
+
+Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
+    : scene_(scene), shape_(unknown.shape) {
+  Problems problems;
+  resolve(unknown, problems);
+  if (problems.empty()) set_defaults();
+  if (problems.empty()) set_numbers(unknown, problems);
+  if (problems.empty()) check_shape(problems);
+  if (problems.empty())
+    for (const Problem& problem : find_problems(scene_with(start())))
+      problems.push_back({"unknown.start", "", "makes an invalid scene: " + problem.text()});
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void Parameters::resolve(const UnknownSpec& unknown, Problems& problems) {
+  const std::vector<Entry> all = entries(scene_.spec());
+  std::set<std::size_t> taken;
+  if (unknown.parameters.empty())
+    problems.push_back({"unknown.parameters", count_text(0),
+                        "must name at least one entry of the scene: " + joined(field_names(all))});
+  for (std::size_t i = 0; i < unknown.parameters.size(); ++i) {
+    const std::string& name = unknown.parameters[i];
+    bool found = false, twice = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].field != name && all[k].name() != name) continue;
+      found = true;
+      twice = twice || !taken.insert(k).second;
+      places_.push_back(k);
+      parameters_.push_back({all[k]});
+    }
+    const std::string key = element("unknown.parameters", i);
+    if (twice) problems.push_back({key, quoted_text(name), "must not name an entry twice"});
+    if (found) continue;
+    std::string constraint = "must be one of: " + joined(field_names(all)) + ", or one entry such as " +
+                             (all.empty() ? "" : all[0].name());
+    if (const auto meant = nearest_name(name, field_names(all)))
+      constraint += " (did you mean " + *meant + "?)";
+    problems.push_back({key, quoted_text(name), constraint});
+  }
+}
+
+void Parameters::set_defaults() {
+  SceneSpec<double> spec = scene_.spec();
+  const std::vector<double*> places = entry_places(spec);
+  for (std::size_t i = 0; i < size(); ++i) {
+    Parameter& p = parameters_[i];
+    p.start = *places[places_[i]];
+    p.lower = -kInfinity;
+    p.upper = kInfinity;
+    if (p.entry.field == "initial.values") p.lower = 0, p.upper = 1;
+    if (p.entry.field == "initial.breaks" || p.entry.field == "shear_rate.breaks")
+      p.lower = scene_.bottom(), p.upper = scene_.top();
+  }
+}
+
+void Parameters::set_numbers(const UnknownSpec& unknown, Problems& problems) {
+  const auto take = [&](const char* key, const std::vector<double>& numbers, double Parameter::*member) {
+    if (numbers.empty()) return;
+    if (numbers.size() != size()) {
+      problems.push_back({key, count_text(numbers.size()),
+                          "must have one number per unknown (" + std::to_string(size()) + ")"});
+      return;
+    }
+    for (std::size_t i = 0; i < size(); ++i) parameters_[i].*member = numbers[i];
+  };
+  take("unknown.start", unknown.start, &Parameter::start);
+  for (Parameter& p : parameters_) {
+    if (p.entry.range != Range::positive || !(p.start > 0)) continue;
+    p.lower = p.start / kWidest;
+    p.upper = p.start * kWidest;
+  }
+  take("unknown.lower", unknown.lower, &Parameter::lower);
+  take("unknown.upper", unknown.upper, &Parameter::upper);
+  if (!problems.empty()) return;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Parameter& p = parameters_[i];
+    if (p.entry.range == Range::positive && !(p.start > 0))
+      problems.push_back(
+          {element("unknown.start", i), number_text(p.start), "must be > 0 (" + p.name() + ")"});
+    else if (p.entry.range == Range::positive && !(p.lower > 0))
+      problems.push_back(
+          {element("unknown.lower", i), number_text(p.lower), "must be > 0 (" + p.name() + ")"});
+    else if (!(p.lower < p.upper))
+      problems.push_back({element("unknown.lower", i), number_text(p.lower),
+                          "must be less than upper (" + number_text(p.upper) + ")"});
+    else if (!(p.start >= p.lower && p.start <= p.upper))
+      problems.push_back(
+          {element("unknown.start", i), number_text(p.start),
+           "must be between lower (" + number_text(p.lower) + ") and upper (" + number_text(p.upper) + ")"});
+  }
+}
+
+void Parameters::check_shape(Problems& problems) const {
+  if (shape_ == Shape::none) return;
+  const std::string name = shape_ == Shape::decreasing ? "\"decreasing\"" : "\"convex\"";
+  std::size_t n_values = 0;
+  for (const Entry& entry : entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
+  std::vector<double> values;
+  for (const Parameter& p : parameters_)
+    if (p.entry.field == "shear_rate.values") values.push_back(p.start);
+  if (n_values == 0 || values.size() != n_values) {
+    problems.push_back({"unknown.shape", name, "needs all of shear_rate.values among the unknowns"});
+    return;
+  }
+  // Decimal start values with equal steps (3.3, 2.5, 1.7) are not exactly so in binary.
+  const double slack = 1e-12 * values.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double step = values[i - 1] - values[i];
+    const bool shrinks = shape_ != Shape::convex || i < 2 || step <= values[i - 2] - values[i - 1] + slack;
+    if (!(step >= -slack) || !shrinks) {
+      problems.push_back(
+          {"unknown.start", "", "must have the shape " + name + " (value " + std::to_string(i) + ")"});
+      return;
+    }
+  }
+}
+
+Eigen::VectorXd Parameters::start() const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(size()));
+  for (std::size_t i = 0; i < size(); ++i) values[static_cast<Eigen::Index>(i)] = parameters_[i].start;
+  return values;
+}
+
+bool Parameters::within_bounds(const Eigen::VectorXd& values) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double x = values[static_cast<Eigen::Index>(i)];
+    // A coordinate at its bound may come back one rounding error beyond it.
+    const double slack = 1e-14 * std::max(std::abs(x), 1e-300);
+    if (!(x >= parameters_[i].lower - slack && x <= parameters_[i].upper + slack)) return false;
+  }
+  return true;
+}
+
+SceneSpec<double> Parameters::scene_with(const Eigen::VectorXd& values) const {
+  SceneSpec<double> spec = scene_.spec();
+  const std::vector<double*> places = entry_places(spec);
+  for (std::size_t i = 0; i < size(); ++i) *places[places_[i]] = values[static_cast<Eigen::Index>(i)];
+  return spec;
+}
+
+}  // namespace shearfront::fit

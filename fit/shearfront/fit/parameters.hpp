@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/scene/entries.hpp"
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront::fit {
+
+/// One unknown: an entry of the scene with its start value and bounds, in the unit of the entry.
+struct Parameter {
+  Entry entry;
+  double start = 0, lower = 0, upper = 0;
+  [[nodiscard]] std::string name() const { return entry.name(); }
+};
+
+/// The unknowns of a fit, resolved against a scene.
+///
+/// A name is a field ("shear_rate.values": all its entries) or one entry ("shear_rate.values[1]"). Start
+/// values default to those of the scene, bounds to kWidest times smaller and larger than the start for
+/// entries that must be positive, to the domain for heights, to 0..1 for concentrations, and to none
+/// (infinite) otherwise. Guaranteed: lower <= start <= upper, lower < upper, the scene is valid at the start,
+/// no entry twice; with a shape all entries of shear_rate.values are unknown and their start values have that
+/// shape. Errors: InputError with the keys of a fit file (unknown.parameters[0], unknown.start[2], ...).
+class Parameters {
+ public:
+  static constexpr double kWidest = 1e3;
+
+  Parameters(const Scene<double>& scene, const UnknownSpec& unknown);
+
+  [[nodiscard]] std::size_t size() const { return parameters_.size(); }
+  [[nodiscard]] const Parameter& operator[](std::size_t i) const { return parameters_[i]; }
+  [[nodiscard]] auto begin() const { return parameters_.begin(); }
+  [[nodiscard]] auto end() const { return parameters_.end(); }
+  [[nodiscard]] Shape shape() const { return shape_; }
+  [[nodiscard]] const Scene<double>& scene() const { return scene_; }
+  [[nodiscard]] Eigen::VectorXd start() const;
+  /// Whether all values keep their bounds.
+  [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
+  /// The scene with these values in place of its own; it may be invalid (breaks out of order).
+  [[nodiscard]] SceneSpec<double> scene_with(const Eigen::VectorXd& values) const;
+
+ private:
+  void resolve(const UnknownSpec& unknown, Problems& problems);
+  void set_defaults();
+  void set_numbers(const UnknownSpec& unknown, Problems& problems);
+  void check_shape(Problems& problems) const;
+
+  Scene<double> scene_;
+  std::vector<Parameter> parameters_;
+  std::vector<std::size_t> places_;  ///< of each parameter in entries(scene)
+  Shape shape_ = Shape::none;
+};
+
+}  // namespace shearfront::fit

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/report.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "shearfront/fit/covariance.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/residual_structure.hpp"
+#include "shearfront/fit/warnings.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTail = 0.975;
+
+/// A search ends at a bound exactly or within the step it still could make.
+bool at(double u, double bound) {
+  return std::isfinite(bound) && std::abs(u - bound) <= 1e-8 * std::max(1.0, std::abs(bound));
+}
+
+std::vector<bool> coordinates_at_bound(const Coordinates& coordinates, const VectorXd& u) {
+  std::vector<bool> held(static_cast<std::size_t>(u.size()));
+  for (Index j = 0; j < u.size(); ++j)
+    held[static_cast<std::size_t>(j)] = at(u[j], coordinates.lower()[j]) || at(u[j], coordinates.upper()[j]);
+  return held;
+}
+
+/// Observations predicted in their own quantity; empty if the forward model has no solution.
+std::vector<double> predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
+  ResidualRows rows;
+  MisfitList::for_each([&]<class M>() {
+    if (name_of(spec.observations.quantity) == M::kName)
+      rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
+  });
+  const auto forward = make_forward(parameters, spec.forward, rows.field, rows.points);
+  const Prediction at = forward->predict(values, false);
+  std::vector<double> predicted(spec.observations.rows.size(), kNaN);
+  if (!at.is_valid()) return predicted;
+  const VectorXd r = rows.residuals(at.values);
+  for (std::size_t i = 0; i < predicted.size(); ++i)
+    predicted[i] = rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
+  return predicted;
+}
+
+/// Gaussian log likelihood up to a constant that depends on the data alone.
+void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
+  double chi2 = 0;
+  for (std::size_t i = 0; i < estimate.predicted.size(); ++i) {
+    const Observation& o = spec.observations.rows[i];
+    const double r = (estimate.predicted[i] - o.value) / (o.sigma > 0 ? o.sigma : 1);
+    chi2 += r * r;
+  }
+  const auto n = static_cast<double>(estimate.predicted.size());
+  auto p = static_cast<double>(estimate.parameters.size());
+  if (!estimate.sigma_is_given) {
+    if (!(chi2 > 0)) return;
+    chi2 = n * std::log(chi2 / n);
+    p += 1;  // the noise is estimated as well
+  }
+  if (!std::isfinite(chi2)) return;
+  estimate.aic = chi2 + 2 * p;
+  estimate.bic = chi2 + p * std::log(n);
+}
+
+void set_error_bars(const Objective& objective, const Covariance& covariance, const SearchResult& found,
+                    double quantile, const Parameters& parameters, Estimate& estimate) {
+  const MatrixXd d = objective.coordinates().derivative(found.u);
+  // NaN times the zero derivative of an unrelated coordinate would spoil the others.
+  const auto n = found.u.size();
+  MatrixXd cov = MatrixXd::Zero(n, n);
+  for (Index a = 0; a < n; ++a)
+    for (Index b = 0; b < n; ++b)
+      for (Index j = 0; j < n; ++j)
+        for (Index k = 0; k < n; ++k)
+          if (d(a, j) != 0 && d(b, k) != 0) cov(a, b) += d(a, j) * covariance.matrix(j, k) * d(b, k);
+  estimate.correlation = MatrixXd::Constant(n, n, kNaN);
+  for (Index a = 0; a < n; ++a) {
+    ParameterEstimate& parameter = estimate.parameters[static_cast<std::size_t>(a)];
+    const double error = std::sqrt(cov(a, a));
+    if (!std::isfinite(error)) continue;
+    parameter.std_error = error;
+    if (parameters[static_cast<std::size_t>(a)].entry.range == Range::positive) {
+      const double factor = std::exp(quantile * error / parameter.estimate);
+      parameter.ci95 = {parameter.estimate / factor, parameter.estimate * factor};
+    } else {
+      parameter.ci95 = {parameter.estimate - quantile * error, parameter.estimate + quantile * error};
+    }
+    for (Index b = 0; b < n; ++b) estimate.correlation(a, b) = cov(a, b) / std::sqrt(cov(a, a) * cov(b, b));
+  }
+}
+
+}  // namespace
+
+Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+                const SearchResult& found) {
+  Estimate estimate;
+  estimate.name = spec.name;
+  estimate.method = spec.forward.method;
+  estimate.algorithm = spec.search.algorithm;
+  estimate.status = found.status;
+  estimate.message = found.message;
+  estimate.evaluations = objective.control().evaluations();
+  estimate.steps = objective.control().steps();
+  estimate.misfit = found.misfit;
+  const Objective::Evaluation best = objective.inspect(found.u, true);
+  for (const Parameter& p : parameters) {
+    ParameterEstimate& parameter = estimate.parameters.emplace_back();
+    parameter.name = p.name();
+    parameter.start = p.start;
+    parameter.estimate = kNaN;
+  }
+  if (!best.is_valid) return estimate;
+
+  const VectorXd values = objective.coordinates().values(found.u);
+  estimate.scene = Scene<double>(parameters.scene_with(values));
+  estimate.predicted = predictions(spec, parameters, values);
+  estimate.observations = static_cast<std::size_t>(best.residuals.size());
+  double squares = 0;
+  for (Index i = 0; i < best.residuals.size(); ++i)
+    squares += std::pow(best.residuals[i] / objective.rows().rows[static_cast<std::size_t>(i)].weight, 2);
+  estimate.residual_norm = std::sqrt(squares);
+  const std::vector<bool> held = coordinates_at_bound(objective.coordinates(), found.u);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = values[static_cast<Index>(i)];
+    estimate.parameters[i].estimate = value;
+    estimate.parameters[i].at_bound = held[i] || value <= parameters[i].lower || value >= parameters[i].upper;
+  }
+  estimate.sigma_is_given = spec.observations.has_sigma();
+  const double freedom = static_cast<double>(best.residuals.size()) -
+                         static_cast<double>(std::count(held.begin(), held.end(), false));
+  estimate.sigma = 1;
+  double quantile = boost::math::quantile(boost::math::normal(), kTail);
+  if (!estimate.sigma_is_given) {
+    estimate.sigma = freedom > 0 ? std::sqrt(best.residuals.squaredNorm() / freedom) : kNaN;
+    if (freedom > 0) quantile = boost::math::quantile(boost::math::students_t(freedom), kTail);
+  }
+  const Covariance errors =
+      covariance(objective.rows(), spec.observations, best, objective.loss(), estimate.sigma, held);
+  set_error_bars(objective, errors, found, quantile, parameters, estimate);
+  set_information_criteria(spec, estimate);
+  estimate.structure = residual_structure(spec.observations, estimate.predicted);
+  estimate.warnings = warnings(spec, parameters, objective, errors, best, estimate);
+  return estimate;
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/residual_rows.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace shearfront::fit {
+
+using Eigen::Index;
+
+Eigen::VectorXd ResidualRows::residuals(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd r(size());
+  for (Index i = 0; i < size(); ++i) {
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    double model = 0;
+    for (const Term& term : row.model) model += term.coefficient * values[static_cast<Index>(term.index)];
+    r[i] = row.weight * (model - row.target);
+  }
+  return r;
+}
+
+Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const {
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(size(), derivatives.cols());
+  for (Index i = 0; i < size(); ++i) {
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    for (const Term& term : row.model)
+      j.row(i) += row.weight * term.coefficient * derivatives.row(static_cast<Index>(term.index));
+  }
+  return j;
+}
+
+ResidualRows ResidualRows::selected(const std::vector<bool>& keep) const {
+  ResidualRows some{field, points, {}};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (keep[i]) some.rows.push_back(rows[i]);
+  return some;
+}
+
+std::size_t RowBuilder::place(double t, double z) {
+  const double slack = kSamePlace * std::max(std::abs(z), 1.0);
+  const auto near = places_.lower_bound({t, z - slack});
+  if (near != places_.end() && near->first.t == t && near->first.z <= z + slack) return near->second;
+  places_.emplace(Point{t, z}, rows_.points.size());
+  rows_.points.push_back({t, z});
+  return rows_.points.size() - 1;
+}
+
+/// Terms of one place added up; what cancels is left out.
+static void merge(std::vector<Term>& terms) {
+  std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.index < b.index; });
+  std::vector<Term> merged;
+  for (const Term& term : terms) {
+    if (!merged.empty() && merged.back().index == term.index)
+      merged.back().coefficient += term.coefficient;
+    else
+      merged.push_back(term);
+  }
+  std::erase_if(merged, [](const Term& term) { return term.coefficient == 0; });
+  terms = std::move(merged);
+}
+
+void RowBuilder::finish_row() {
+  merge(row_.model);
+  double variance = 0;
+  row_.target = 0;
+  for (const Term& term : row_.data) {
+    const Observation& observation = observations_->rows[term.index];
+    const double sigma = observation.sigma > 0 ? observation.sigma : 1;
+    row_.target += term.coefficient * observation.value;
+    variance += term.coefficient * term.coefficient * sigma * sigma;
+  }
+  row_.weight = 1 / std::sqrt(variance);
+  rows_.rows.push_back(std::move(row_));
+  row_ = {};
+}
+
+std::vector<MeasuredProfile> measured_profiles(const Observations& observations) {
+  const std::vector<Observation>& rows = observations.rows;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(rows[a].t, rows[a].z) < std::pair(rows[b].t, rows[b].z);
+  });
+  std::vector<MeasuredProfile> profiles;
+  for (const std::size_t i : order) {
+    if (profiles.empty() || profiles.back().t != rows[i].t) profiles.push_back({rows[i].t, {}});
+    profiles.back().rows.push_back(i);
+  }
+  return profiles;
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "shearfront/fit/forward.hpp"
+#include "shearfront/solution/observation.hpp"
+
+namespace shearfront::fit {
+
+/// A number times something counted elsewhere.
+struct Term {
+  std::size_t index = 0;
+  double coefficient = 0;
+};
+
+/// Residuals that are linear in the solution and in the data:
+///
+///     r_i = weight_i ( sum_j c_ij X(point_j) - sum_k d_ik y_k ),     X = phi or M, y_k the observations.
+///
+/// weight_i = 1 / sigma_i with sigma_i^2 = sum_k d_ik^2 sigma_k^2 from the noise of the observations, taken
+/// as independent; 1 in place of sigma_k where it is not known.
+struct ResidualRows {
+  struct Row {
+    std::vector<Term> model;  ///< c_ij, index into points
+    std::vector<Term> data;   ///< d_ik, index into the observations
+    double target = 0, weight = 1;
+  };
+  Field field = Field::phi;
+  std::vector<Point> points;
+  std::vector<Row> rows;
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
+  /// weight_i (model - target) for values at the points.
+  [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& values) const;
+  /// The same combination of derivatives at the points (row = point).
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::MatrixXd& derivatives) const;
+  /// Only the rows marked; the points stay.
+  [[nodiscard]] ResidualRows selected(const std::vector<bool>& keep) const;
+};
+
+/// Puts rows together; every place is asked of the solver once.
+class RowBuilder {
+ public:
+  RowBuilder(const Observations& observations, Field field) : observations_(&observations) {
+    rows_.field = field;
+  }
+
+  /// A coefficient of X(t, z) in the row being built.
+  void model(double t, double z, double coefficient) { row_.model.push_back({place(t, z), coefficient}); }
+  /// A coefficient of observation k.
+  void data(std::size_t k, double coefficient) { row_.data.push_back({k, coefficient}); }
+  void finish_row();
+  [[nodiscard]] ResidualRows take() { return std::move(rows_); }
+
+ private:
+  /// Edges of neighbouring bins, z + width / 2 and z' - width' / 2, agree up to rounding of decimal numbers.
+  static constexpr double kSamePlace = 1e-13;
+  [[nodiscard]] std::size_t place(double t, double z);
+
+  const Observations* observations_;
+  ResidualRows rows_;
+  ResidualRows::Row row_;
+  std::map<Point, std::size_t> places_;
+};
+
+/// The observations of one time, by ascending height.
+struct MeasuredProfile {
+  double t = 0;
+  std::vector<std::size_t> rows;
+};
+
+/// All observations as profiles, by ascending time.
+[[nodiscard]] std::vector<MeasuredProfile> measured_profiles(const Observations& observations);
+
+}  // namespace shearfront::fit

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/shock_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/fit/forward.hpp"
+#include "shearfront/fit/residual_rows.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+constexpr double kJump = 0.05;
+constexpr std::size_t kParts = 16;
+/// Two parts of kParts: a smooth change spreads over all of them.
+constexpr double kShare = 0.5;
+
+struct Neighbourhood {
+  std::size_t row = 0;
+  double t = 0, low = 0, high = 0;
+};
+
+std::vector<Neighbourhood> neighbourhoods(const Observations& observations, double bottom, double top) {
+  std::vector<Neighbourhood> all;
+  for (const MeasuredProfile& profile : measured_profiles(observations)) {
+    const std::size_t n = profile.rows.size();
+    const auto z = [&](std::size_t j) { return observations.rows[profile.rows[j]].z; };
+    for (std::size_t j = 0; n > 1 && j < n; ++j) {
+      const double below = j > 0 ? (z(j) - z(j - 1)) / 2 : (z(1) - z(0)) / 2;
+      const double above = j + 1 < n ? (z(j + 1) - z(j)) / 2 : (z(n - 1) - z(n - 2)) / 2;
+      all.push_back(
+          {profile.rows[j], profile.t, std::max(bottom, z(j) - below), std::min(top, z(j) + above)});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<bool> rows_without_jumps(const Parameters& parameters, const ForwardSpec& forward,
+                                     const Observations& observations, const Eigen::VectorXd& values) {
+  std::vector<bool> keep(observations.rows.size(), true);
+  const auto near = neighbourhoods(observations, parameters.scene().bottom(), parameters.scene().top());
+  std::vector<Point> ends;
+  for (const Neighbourhood& here : near) {
+    ends.push_back({here.t, here.low});
+    ends.push_back({here.t, here.high});
+  }
+  if (ends.empty()) return keep;
+  const Prediction at_ends = make_forward(parameters, forward, Field::phi, ends)->predict(values, false);
+  if (!at_ends.is_valid()) return keep;
+  std::vector<Neighbourhood> steep;
+  std::vector<Point> inside;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(2 * i);
+    if (!(std::abs(at_ends.values[k + 1] - at_ends.values[k]) > kJump)) continue;
+    steep.push_back(near[i]);
+    for (std::size_t part = 0; part <= kParts; ++part)
+      inside.push_back(
+          {near[i].t, near[i].low + (near[i].high - near[i].low) * static_cast<double>(part) / kParts});
+  }
+  if (inside.empty()) return keep;
+  const Prediction at = make_forward(parameters, forward, Field::phi, inside)->predict(values, false);
+  if (!at.is_valid()) return keep;
+  for (std::size_t i = 0; i < steep.size(); ++i) {
+    const auto phi = at.values.segment(static_cast<Eigen::Index>(i * (kParts + 1)), kParts + 1);
+    double total = 0, most = 0;
+    for (Eigen::Index part = 0; part + 1 < phi.size(); ++part) {
+      total += std::abs(phi[part + 1] - phi[part]);
+      if (part > 0) most = std::max(most, std::abs(phi[part + 1] - phi[part - 1]));
+    }
+    keep[steep[i].row] = !(most > kJump && most > kShare * total);
+  }
+  return keep;
+}
+
+}  // namespace shearfront::fit
