@@ -89,8 +89,17 @@ Position TextSource::position(std::size_t offset) const {
           static_cast<std::uint32_t>(characters + 1)};
 }
 
+void ProblemReport::sort(std::vector<Located>& located) {
+  std::stable_sort(located.begin(), located.end(),
+                   [](const Located& a, const Located& b) { return a.position < b.position; });
+}
+
 void ProblemReport::add(Position position, Position shown, Problem problem) {
   located_.push_back({position, shown, std::move(problem)});
+  if (located_.size() / 2 < most_) return;
+  sort(located_);
+  n_dropped_ += located_.size() - most_;
+  located_.resize(most_);
 }
 
 bool ProblemReport::is_spoiled(std::string_view key) const {
@@ -104,21 +113,24 @@ bool ProblemReport::is_spoiled(std::string_view key) const {
 
 void ProblemReport::throw_if_any() const {
   if (located_.empty()) return;
-  std::vector<const Located*> order;
-  order.reserve(located_.size());
-  for (const Located& l : located_) order.push_back(&l);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Located* a, const Located* b) { return a->position < b->position; });
+  std::vector<Located> order = located_;
+  sort(order);
   const std::string name = printable(file_);
   std::string report, last;
   Problems problems;
-  for (const Located* l : order) {
-    std::string line = fmt::format("{}:{}:{}: {}", name, l->shown.line, l->shown.column, l->problem.text());
+  std::size_t n_more = n_dropped_;
+  for (Located& l : order) {
+    std::string line = fmt::format("{}:{}:{}: {}", name, l.shown.line, l.shown.column, l.problem.text());
     if (line == last) continue;
+    if (problems.size() == most_) {
+      ++n_more;
+      continue;
+    }
     report += (report.empty() ? "" : "\n") + line;
-    problems.push_back(l->problem);
+    problems.push_back(std::move(l.problem));
     last = std::move(line);
   }
+  if (n_more > 0) report += fmt::format("\n{}: and {} more problem{}", name, n_more, n_more == 1 ? "" : "s");
   throw FileError(std::move(problems), std::move(report));
 }
 

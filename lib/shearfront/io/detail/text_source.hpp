@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <string>
 #include <string_view>
@@ -41,10 +42,12 @@ class TextSource {
   mutable std::size_t last_offset_ = 0;
 };
 
-/// Collects the problems of one file and reports them in the order of the file.
+/// Collects the problems of one file and reports them in the order of the file: all of them, or the first
+/// `most` and how many more there are. Memory: O(most).
 class ProblemReport {
  public:
-  explicit ProblemReport(std::string file) : file_(std::move(file)) {}
+  explicit ProblemReport(std::string file, std::size_t most = std::numeric_limits<std::size_t>::max())
+      : file_(std::move(file)), most_(most) {}
 
   void add(Position position, Problem problem) { add(position, position, std::move(problem)); }
   /// Ordered by `position` and printed with `shown`.
@@ -53,7 +56,8 @@ class ProblemReport {
   void spoil(std::string key) { spoiled_.insert(std::move(key)); }
   /// Whether this entry or a table or array around it could not be read.
   [[nodiscard]] bool is_spoiled(std::string_view key) const;
-  /// Errors: FileError with all problems, sorted by place, each line once; nothing if there are none.
+  [[nodiscard]] bool is_empty() const { return located_.empty(); }
+  /// Errors: FileError with the problems, sorted by place, each line once; nothing if there are none.
   void throw_if_any() const;
 
  private:
@@ -61,7 +65,11 @@ class ProblemReport {
     Position position, shown;
     Problem problem;
   };
+  static void sort(std::vector<Located>& located);
+
   std::string file_;
+  std::size_t most_;
+  std::size_t n_dropped_ = 0;  ///< problems beyond the first most_
   std::vector<Located> located_;
   std::set<std::string, std::less<>> spoiled_;
 };

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/io/observations_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront {
+namespace {
+
+using detail::Column;
+using detail::CsvField;
+using detail::ObservationColumns;
+using detail::Position;
+using detail::ProblemReport;
+using detail::TextSource;
+
+constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent
+
+bool is_missing(std::string_view text) { return text.empty() || text == "NA"; }
+
+/// Why parse_number() refuses the text.
+std::string_view why_no_number(std::string_view text) {
+  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (text.empty() || end != text.data() + text.size()) return "must be a number";
+  return error == std::errc::result_out_of_range
+             ? "must be 0 or between 5e-324 and 1.7976931348623157e308 in size"
+             : "must be a finite number";
+}
+
+auto place_of(const Observation& o) { return std::tie(o.t, o.z, o.width); }
+
+class ObservationsReader {
+ public:
+  ObservationsReader(const TextSource& source, double bottom, double top)
+      : source_(source), report_(source.name(), kMostProblems), bottom_(bottom), top_(top) {}
+
+  Observations read() {
+    const std::string_view text = source_.text();
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      read_line(begin, text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    if (!columns_) {
+      report_.add({1, 1}, {"header", "", "missing; must name the columns, such as t,z,phi"});
+    } else if (n_rows_ == 0) {
+      report_.add({1, 1}, {"rows", "", "missing; must follow the header"});
+    } else if (result_.n_missing == n_rows_) {
+      report_.add(columns_->position(columns_->value()),
+                  {std::string(name_of(columns_->value())), "",
+                   fmt::format("missing in every row ({}); must be there in one at least", n_rows_)});
+    }
+    check_sigma();
+    check_places();
+    report_.throw_if_any();
+    note_range();
+    return std::move(result_);
+  }
+
+ private:
+  /// A row of the result: where it came from.
+  struct Origin {
+    std::size_t row, offset;
+  };
+
+  void read_line(std::size_t offset, std::string_view line) {
+    const std::string_view content = detail::trimmed(line);
+    if (content.empty()) return;
+    if (content[0] == '#') {
+      result_.comments.emplace_back(content.substr(content.starts_with("# ") ? 2 : 1));
+      return;
+    }
+    const auto bad_quotes = detail::split_csv(line, fields_);
+    if (bad_quotes)
+      report_.add(source_.position(offset + *bad_quotes),
+                  {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
+                   "must close its quotes on the same line, before a comma"});
+    if (columns_) {
+      if (!bad_quotes) read_row(offset);
+      ++n_rows_;
+      return;
+    }
+    if (!bad_quotes) columns_.emplace(source_, offset, fields_, report_);
+    report_.throw_if_any();  // without a header nothing is known about the rows
+    result_.quantity = columns_->quantity();
+    result_.units = columns_->units();
+    result_.notes = columns_->notes();
+  }
+
+  void read_row(std::size_t offset) {
+    if (fields_.size() != columns_->n_fields()) {
+      add(offset, "row", fmt::format("({} field{})", fields_.size(), fields_.size() == 1 ? "" : "s"),
+          fmt::format("must have {} ({})", columns_->n_fields(), columns_->names()));
+      return;
+    }
+    Observation o;
+    bool is_good = read_number(offset, Column::t, o.t, "");
+    if (is_good && !(o.t >= 0)) is_good = refuse(offset, Column::t, "must be >= 0");
+    is_good = read_height(offset, o) && is_good;
+    const bool has_value = !is_missing(fields_[columns_->field(columns_->value())].text);
+    if (has_value)
+      is_good =
+          read_number(offset, columns_->value(), o.value, ", or empty or NA if it is missing") && is_good;
+    is_good = read_sigma(offset, o) && is_good;
+    if (!has_value) {
+      ++result_.n_missing;
+    } else if (is_good) {
+      result_.rows.push_back(o);
+      origins_.push_back({n_rows_, offset});
+    }
+  }
+
+  bool read_height(std::size_t offset, Observation& o) {
+    bool is_good = read_number(offset, Column::z, o.z, "");
+    if (is_good && !(o.z >= bottom_ && o.z <= top_))
+      is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
+    if (!columns_->has(Column::width)) return is_good;
+    if (!read_number(offset, Column::width, o.width, "")) return false;
+    if (!(o.width > 0)) return refuse(offset, Column::width, "must be > 0");
+    if (is_good && !is_bin_resolved(o.z, o.width))
+      return refuse(offset, Column::width,
+                    fmt::format("must be at least {} of z", number_text(kLeastBinWidth)));
+    if (!is_good || is_bin_inside(o.z, o.width, bottom_, top_)) return is_good;
+    return refuse(offset, Column::width,
+                  fmt::format("must leave the bin z -+ width/2 = [{}, {}] inside the domain {}",
+                              number_text(o.z - o.width / 2), number_text(o.z + o.width / 2), domain()));
+  }
+
+  bool read_sigma(std::size_t offset, Observation& o) {
+    if (!columns_->has(Column::sigma) || is_missing(fields_[columns_->field(Column::sigma)].text))
+      return true;
+    if (!read_number(offset, Column::sigma, o.sigma, "")) return false;
+    return o.sigma > 0 || refuse(offset, Column::sigma, "must be > 0");
+  }
+
+  bool read_number(std::size_t offset, Column column, double& x, std::string_view alternative) {
+    const std::string_view text = fields_[columns_->field(column)].text;
+    if (const auto number = parse_number(text)) {
+      x = *number;
+      return true;
+    }
+    return refuse(offset, column,
+                  std::string(text.empty() ? "missing; " : "") + std::string(why_no_number(text)) +
+                      std::string(alternative));
+  }
+
+  /// Notes what is wrong with a field of the row that is being read; false for convenience.
+  bool refuse(std::size_t offset, Column column, std::string constraint) {
+    const CsvField& field = fields_[columns_->field(column)];
+    add(offset + field.offset, std::string(name_of(column)), shown(field.text), std::move(constraint));
+    return false;
+  }
+
+  void add(std::size_t offset, const std::string& key, std::string value, std::string constraint) {
+    report_.add(source_.position(offset),
+                {fmt::format("{}[{}]", key, n_rows_), std::move(value), std::move(constraint)});
+  }
+
+  static std::string shown(std::string_view text) {
+    if (text.empty()) return {};
+    return why_no_number(text) == "must be a number" ? quoted_text(text) : printable(text, kLongestShown);
+  }
+
+  [[nodiscard]] std::string domain() const {
+    return fmt::format("[{}, {}]", number_text(bottom_), number_text(top_));
+  }
+
+  /// Where a field of a row of the result stands.
+  [[nodiscard]] Position position_of(const Origin& origin, Column column) {
+    const std::string_view text = source_.text();
+    const std::size_t end = std::min(text.find('\n', origin.offset), text.size());
+    (void)detail::split_csv(text.substr(origin.offset, end - origin.offset), fields_);
+    return source_.position(origin.offset + fields_[columns_->field(column)].offset);
+  }
+
+  void check_sigma() {
+    if (std::none_of(result_.rows.begin(), result_.rows.end(),
+                     [](const Observation& o) { return o.sigma > 0; }))
+      return;
+    for (std::size_t i = 0; i < result_.rows.size(); ++i)
+      if (!(result_.rows[i].sigma > 0))
+        report_.add(position_of(origins_[i], Column::sigma),
+                    {fmt::format("sigma[{}]", origins_[i].row), "",
+                     "missing; must be given in every row that has a value, or in none"});
+  }
+
+  /// Finds places that occur twice; a file in ascending order needs no sorting.
+  void check_places() {
+    const std::vector<Observation>& rows = result_.rows;
+    const auto is_descent = [&](const Observation& a, const Observation& b) {
+      return !(place_of(a) < place_of(b));
+    };
+    if (std::adjacent_find(rows.begin(), rows.end(), is_descent) == rows.end()) return;
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      if (place_of(rows[a]) == place_of(rows[b])) return a < b;
+      return place_of(rows[a]) < place_of(rows[b]);
+    });
+    for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
+      if (place_of(rows[order[i]]) != place_of(rows[order[first]])) {
+        first = i;
+        continue;
+      }
+      const Origin& again = origins_[order[i]];
+      report_.add(position_of(again, Column::z),
+                  {fmt::format("z[{}]", again.row), number_text(rows[order[i]].z),
+                   fmt::format("must differ from z of line {}, which has the same t{}",
+                               source_.position(origins_[order[first]].offset).line,
+                               columns_->has(Column::width) ? " and width" : "")});
+    }
+  }
+
+  void note_range() {
+    if (result_.quantity == Quantity::cumulative) return;
+    const auto largest =
+        std::max_element(result_.rows.begin(), result_.rows.end(),
+                         [](const Observation& a, const Observation& b) { return a.value < b.value; });
+    if (largest->value > kPlausiblePhi)
+      result_.notes.push_back(fmt::format(
+          "{}: phi goes up to {}; it must be a fraction, 1 where all grains are small (is it in percent?)",
+          printable(source_.name()), number_text(largest->value)));
+  }
+
+  static constexpr std::size_t kLongestShown = 40;
+
+  const TextSource& source_;
+  ProblemReport report_;
+  double bottom_, top_;
+  std::optional<ObservationColumns> columns_;
+  std::vector<CsvField> fields_;  ///< of the line that is being read
+  std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
+  Observations result_;
+  std::vector<Origin> origins_;  ///< of result_.rows
+};
+
+}  // namespace
+
+Observations read_observations(const std::string& path, double bottom, double top) {
+  return ObservationsReader(TextSource::read(path), bottom, top).read();
+}
+
+Observations parse_observations(std::string text, const std::string& file, double bottom, double top) {
+  return ObservationsReader(TextSource(file, std::move(text)), bottom, top).read();
+}
+
+}  // namespace shearfront

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/solution/observe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront {
+namespace {
+
+/// Depths that were meant to be equally spaced are off by 4 u |z| at most, u = eps/2: one u each for both
+/// ends of the range, for the step and for the sum. A difference of two is then off by 5 eps |z| at most,
+/// with the rounding of the difference itself, and so is the mean spacing it is compared with.
+constexpr double kSpacingRounding = 10 * std::numeric_limits<double>::epsilon();
+
+std::string element(std::string_view key, std::size_t i) {
+  return std::string(key) + "[" + std::to_string(i) + "]";
+}
+
+/// Every number that has occurred before, at its later place.
+void find_repeated(std::string_view key, const std::vector<double>& xs, Problems& problems) {
+  std::vector<std::size_t> order(xs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return xs[a] < xs[b]; });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (xs[order[i]] == xs[order[i - 1]])
+      problems.push_back({element(key, order[i]), number_text(xs[order[i]]), "must not be given twice"});
+}
+
+std::uint64_t splitmix64(std::uint64_t state) {
+  std::uint64_t z = state + 0x9E3779B97F4A7C15U;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
+Problems find_problems(const ObservationPlan& plan, double bottom, double top) {
+  Problems problems;
+  const auto add = [&](std::string key, double x, std::string constraint) {
+    problems.push_back({std::move(key), number_text(x), std::move(constraint)});
+  };
+  const std::string domain = "inside the domain [" + number_text(bottom) + ", " + number_text(top) + "]";
+  for (std::size_t i = 0; i < plan.times.size(); ++i)
+    if (!(plan.times[i] >= 0) || !std::isfinite(plan.times[i]))
+      add(element("times", i), plan.times[i], "must be a finite number >= 0");
+  const bool is_bin = plan.quantity == Quantity::bin;
+  const bool is_width_good = is_bin ? plan.width > 0 && std::isfinite(plan.width) : plan.width == 0;
+  for (std::size_t i = 0; i < plan.depths.size(); ++i) {
+    const double z = plan.depths[i];
+    if (!(z >= bottom && z <= top))
+      add(element("depths", i), z, "must be " + domain);
+    else if (is_bin && is_width_good && !is_bin_inside(z, plan.width, bottom, top))
+      add(element("depths", i), z, "must leave its bin of width " + number_text(plan.width) + " " + domain);
+  }
+  if (!problems.empty()) return problems;
+  const auto is_too_narrow = [&](double z) { return !is_bin_resolved(z, plan.width); };
+  if (is_bin && is_width_good && std::any_of(plan.depths.begin(), plan.depths.end(), is_too_narrow))
+    add("width", plan.width, "must be at least " + number_text(kLeastBinWidth) + " of every depth");
+  if (!is_width_good) add("width", plan.width, is_bin ? "must be > 0" : "must be 0 unless bins are observed");
+  find_repeated("times", plan.times, problems);
+  find_repeated("depths", plan.depths, problems);
+  return problems;
+}
+
+std::optional<double> equal_spacing(std::vector<double> depths) {
+  if (depths.size() < 2) return std::nullopt;
+  std::sort(depths.begin(), depths.end());
+  const double spacing = (depths.back() - depths.front()) / static_cast<double>(depths.size() - 1);
+  const double rounding = kSpacingRounding * std::max(std::abs(depths.front()), std::abs(depths.back()));
+  for (std::size_t i = 1; i < depths.size(); ++i)
+    if (!(std::abs(depths[i] - depths[i - 1] - spacing) <= rounding)) return std::nullopt;
+  return spacing > 0 ? std::optional(spacing) : std::nullopt;
+}
+
+SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene) {
+  if (Problems problems = find_problems(plan, scene.bottom(), scene.top()); !problems.empty())
+    throw InputError(std::move(problems));
+  SolverRequest request;
+  request.times = plan.times;
+  if (plan.quantity != Quantity::bin) {
+    request.depths = plan.depths;
+    return request;
+  }
+  for (const double z : plan.depths) {
+    const BinEdges edges = bin_edges(z, plan.width, scene.bottom(), scene.top());
+    request.depths.push_back(edges.below);
+    request.depths.push_back(edges.above);
+  }
+  return request;
+}
+
+Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
+                     const std::vector<Sample>& samples) {
+  const bool is_bin = plan.quantity == Quantity::bin;
+  SHEARFRONT_EXPECTS(samples.size() == plan.times.size() * plan.depths.size() * (is_bin ? 2 : 1),
+                     "samples of request_of()");
+  Observations observations;
+  observations.quantity = plan.quantity;
+  observations.rows.reserve(plan.times.size() * plan.depths.size());
+  auto sample = samples.begin();
+  for (const double t : plan.times) {
+    for (const double z : plan.depths) {
+      Observation o{t, z, 0, plan.width};
+      if (is_bin) {
+        const double below = (sample++)->M, above = (sample++)->M;
+        o.value = (above - below) / bin_edges(z, plan.width, scene.bottom(), scene.top()).width();
+      } else {
+        o.value = plan.quantity == Quantity::cumulative ? sample->M : sample->phi;
+        ++sample;
+      }
+      observations.rows.push_back(o);
+    }
+  }
+  return observations;
+}
+
+std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t replicate) {
+  return splitmix64(splitmix64(seed) + replicate);
+}
+
+void add_noise(Observations& observations, double sigma, std::uint64_t seed, std::uint64_t replicate) {
+  SHEARFRONT_EXPECTS(sigma >= 0 && std::isfinite(sigma), "a standard deviation");
+  if (sigma == 0) return;
+  boost::random::mt19937_64 engine(stream_seed(seed, replicate));
+  boost::random::normal_distribution<double> normal;
+  for (Observation& o : observations.rows) {
+    o.value += sigma * normal(engine);
+    o.sigma = sigma;
+  }
+}
+
+void clip(Observations& observations, const Scene<double>& scene) {
+  const auto range = std::visit([](const auto& flux) { return flux.kRange; }, scene.flux());
+  for (Observation& o : observations.rows) {
+    const double height = observations.quantity == Quantity::cumulative ? o.z - scene.bottom() : 1;
+    o.value = std::clamp(o.value, range[0] * height, range[1] * height);
+  }
+}
+
+}  // namespace shearfront

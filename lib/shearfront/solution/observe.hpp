@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/observation.hpp"
+#include "shearfront/solver/solver.hpp"
+
+/// Synthetic observations: what an instrument would have read where a solver has computed.
+///
+///     const ObservationPlan plan{{0.5, 1}, {0.25, 0.75}, Quantity::cumulative, 0};
+///     auto result = ExactSolver::solve(scene, request_of(plan, scene), options);
+///     auto observations = observe(plan, scene, result.samples);
+///     add_noise(observations, 0.01, 1);
+namespace shearfront {
+
+/// Where and what to observe: every time with every depth.
+struct ObservationPlan {
+  std::vector<double> times, depths;
+  Quantity quantity = Quantity::point;
+  double width = 0;  ///< of every bin; 0 for the other quantities
+};
+
+/// What is wrong with a plan; empty if nothing is. Keys: times[i], depths[i], width. Times must be finite and
+/// >= 0, depths inside the domain, neither twice, bins inside the domain (is_bin_inside()).
+/// Cost: O(n log n) in the number of times and of depths.
+[[nodiscard]] Problems find_problems(const ObservationPlan& plan, double bottom, double top);
+
+/// The spacing of the depths, in whatever order, if it is the same everywhere up to the rounding of the
+/// depths; nothing otherwise and for fewer than two depths.
+[[nodiscard]] std::optional<double> equal_spacing(std::vector<double> depths);
+
+/// What a solver has to compute: the depths of the plan, for bins their edges.
+/// Errors: InputError with find_problems().
+[[nodiscard]] SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene);
+
+/// The samples of request_of() as observations, one row per time and depth, depths running fastest:
+///     point phi(z, t)      cumulative M(z, t)      bin (M(z + w/2, t) - M(z - w/2, t)) / w
+/// without noise and without sigma. A bin is as exact as M is, up to a rounding of about eps top / w.
+/// Precondition: samples are those of request_of(plan, scene).
+[[nodiscard]] Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
+                                   const std::vector<Sample>& samples);
+
+/// The seed of an independent stream of random numbers: h(h(seed) + replicate), where h(x) is the output of
+/// Splitmix64 in state x (Steele, Lea & Flood 2014). h is a bijection, so two replicates of one seed never
+/// have the same stream.
+[[nodiscard]] std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t replicate);
+
+/// Adds sigma times independent standard normal numbers to the values, in the order of the rows, and sets
+/// sigma in every row. Two calls with the same arguments give the same bits. The numbers come from
+/// Boost.Random (mt19937_64 seeded with stream_seed(seed, replicate), normal_distribution) and not from the
+/// standard library, whose distributions differ between implementations. sigma = 0 changes nothing.
+/// Precondition: sigma >= 0, finite. Cost: about 10 ns per row.
+void add_noise(Observations& observations, double sigma, std::uint64_t seed, std::uint64_t replicate = 0);
+
+/// Clips every value to what the quantity can be: phi to the range of the flux [lo, hi], usually [0, 1], and
+/// M to [lo, hi] * (z - bottom). The noise is then no longer normal where it would have led outside: it has a
+/// mean towards the inside and a standard deviation below sigma, which is left as it is.
+void clip(Observations& observations, const Scene<double>& scene);
+
+}  // namespace shearfront
