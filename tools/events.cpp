@@ -172,6 +172,10 @@ int events(const EventsArguments& arguments) {
   const int digits = arguments.digits.empty()
                          ? 0
                          : static_cast<int>(count_option("--digits", arguments.digits, 1, kMostDigits));
+  if (!guarantees_of(method).has_timeline)
+    refuse(
+        "--method", method,
+        fmt::format("computes no event times; must be one of: {}", fmt::join(methods_with_timeline(), ", ")));
   if (digits > kDoubleDigits && method != ExactSolver::kName)
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits, method,

@@ -37,6 +37,7 @@ std::string described(const Guarantees& g) {
   say(g.conservative, "conservative");
   say(g.bounded, "bounded");
   say(g.any_scene, "any scene");
+  say(g.has_timeline, "event times");
   say(g.has_fronts, "fronts");
   return all;
 }

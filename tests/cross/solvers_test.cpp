@@ -32,6 +32,7 @@ struct SolverName {
 TYPED_TEST_SUITE(EverySolver, typename AsTypes<SolverList>::Types, SolverName);
 
 constexpr double kResolution = 0.02;
+constexpr std::size_t kCells = 100;
 
 SolverRequest request_for(const Scene<double>& scene) {
   SolverRequest request;
@@ -52,6 +53,7 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
     const SolverRequest request = request_for(scene);
     SolverOptions options;
     options.resolution = kResolution;
+    options.cells = kCells;
     const SolverResult result = TypeParam::solve(scene, request, options);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
     ASSERT_EQ(result.samples.size(), request.times.size() * request.depths.size());
@@ -71,7 +73,8 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
         }
         EXPECT_NEAR(s.M, exact.M(z, t), slack) << "z = " << z << ", t = " << t;
       }
-    ASSERT_TRUE(result.timeline.has_value());
+    ASSERT_EQ(result.timeline.has_value(), promised.has_timeline);
+    if (!promised.has_timeline) continue;
     EXPECT_TRUE(result.timeline->t_star.has_value());
     EXPECT_NEAR(result.timeline->mass, scene.mass(), 1e-15);
   }
@@ -88,6 +91,7 @@ TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
       SolverRequest request{{0.3}, {0, 0.25, 0.5, 0.75, 1}, false, false};
       SolverOptions options;
       options.resolution = kResolution;
+      options.cells = 1000;
       const SolverResult result = TypeParam::solve(scene, request, options);
       ASSERT_TRUE(result.summary.usable()) << Model::kName << ": " << result.summary.message;
       const ExactSolution<double> exact(scene);

@@ -80,6 +80,7 @@ TEST_F(Results, EventsAsJson) {
             "  \"t0\": 0.5,\n  \"t1\": null,\n  \"t_star\": null,\n  \"interfaces\": [\n"
             "    {\"z\": 0.29, \"first\": 0.25, \"last\": null}\n  ],\n"
             "  \"summary\": {\"collisions\": 18446744073709551615, \"fronts_max\": 0, \"levels\": 0, "
+            "\"cell_updates\": 0, "
             "\"wall_s\": 0, "
             "\"status\": \"steady\", \"message\": \"a \\\"quoted\\\" \\\\ message\\n\"}\n}\n");
 }

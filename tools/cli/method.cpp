@@ -10,10 +10,18 @@
 namespace shearfront::tools {
 namespace {
 
-std::vector<std::string> solver_names() {
+/// Names of the solvers with the property.
+template <class Has>
+std::vector<std::string> solver_names(Has&& has) {
   std::vector<std::string> names;
-  SolverList::for_each([&]<class S>() { names.emplace_back(S::kName); });
+  SolverList::for_each([&]<class S>() {
+    if (has(S::guarantees())) names.emplace_back(S::kName);
+  });
   return names;
+}
+
+std::vector<std::string> solver_names() {
+  return solver_names([](const Guarantees&) { return true; });
 }
 
 std::string join(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, "|")); }
@@ -45,6 +53,8 @@ void MethodArguments::add_to(CLI::App& app) {
       ->type_name("N");
   app.add_option("--max-collisions", max_collisions_, "front tracking: stop after so many collisions")
       ->type_name("N");
+  app.add_option("--cells", cells_, "finite volumes: number of equal cells, default 400")->type_name("N");
+  app.add_option("--cfl", cfl_, "finite volumes: Courant number; > 0 and <= 1, default 1")->type_name("C");
 }
 
 std::string_view MethodArguments::method() const {
@@ -66,6 +76,10 @@ SolverOptions MethodArguments::options() const {
     options.layers = static_cast<std::size_t>(count_option("--layers", layers_, 1, kMostLayers));
   if (!max_collisions_.empty())
     options.max_collisions = count_option("--max-collisions", max_collisions_, 1, kMostCollisions);
+  constexpr unsigned long long kMostCells = 100'000'000;
+  if (!cells_.empty())
+    options.cells = static_cast<std::size_t>(count_option("--cells", cells_, 1, kMostCells));
+  if (!cfl_.empty()) options.cfl = number_option("--cfl", cfl_, {0, 1, true}, "> 0 and <= 1");
   return options;
 }
 
@@ -92,11 +106,11 @@ Guarantees guarantees_of(std::string_view method) {
 }
 
 std::vector<std::string> methods_with_fronts() {
-  std::vector<std::string> names;
-  SolverList::for_each([&]<class S>() {
-    if (S::guarantees().has_fronts) names.emplace_back(S::kName);
-  });
-  return names;
+  return solver_names([](const Guarantees& g) { return g.has_fronts; });
+}
+
+std::vector<std::string> methods_with_timeline() {
+  return solver_names([](const Guarantees& g) { return g.has_timeline; });
 }
 
 }  // namespace shearfront::tools

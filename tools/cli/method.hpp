@@ -22,7 +22,7 @@ class MethodArguments {
   [[nodiscard]] bool has_layers() const { return !layers_.empty(); }
 
  private:
-  std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_;
+  std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_;
 };
 
 /// Says that --layers changes nothing where the shear rate is piecewise constant already.
@@ -33,6 +33,8 @@ void note_unused_layers(const MethodArguments& arguments, const Scene<double>& s
 [[nodiscard]] Guarantees guarantees_of(std::string_view method);
 /// Names of the solvers that can return front segments.
 [[nodiscard]] std::vector<std::string> methods_with_fronts();
+/// Names of the solvers that can return event times.
+[[nodiscard]] std::vector<std::string> methods_with_timeline();
 
 [[nodiscard]] const std::vector<std::string>& grid_names();            ///< in the order of GridKind
 [[nodiscard]] const std::vector<std::string>& reconstruction_names();  ///< in the order of Reconstruction

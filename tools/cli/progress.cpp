@@ -22,18 +22,18 @@ ProgressLine::~ProgressLine() {
 
 std::function<bool(double, std::uint64_t)> ProgressLine::callback() {
   if (!is_terminal_) return {};
-  return [this](double t, std::uint64_t collisions) {
-    show(t, collisions);
+  return [this](double t, std::uint64_t work) {
+    show(t, work);
     return true;
   };
 }
 
-void ProgressLine::show(double t, std::uint64_t collisions) {
+void ProgressLine::show(double t, std::uint64_t work) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < kPeriod) return;
   last_ = now;
   is_shown_ = true;
-  fmt::print(stderr, "\r\x1b[Kt = {:.6g}, {} collisions", t, collisions);
+  fmt::print(stderr, "\r\x1b[Kt = {:.6g}, {} events or cell updates", t, work);
   std::fflush(stderr);
 }
 

@@ -18,7 +18,7 @@ class ProgressLine {
   [[nodiscard]] std::function<bool(double, std::uint64_t)> callback();
 
  private:
-  void show(double t, std::uint64_t collisions);
+  void show(double t, std::uint64_t work);
   bool is_terminal_;
   bool is_shown_ = false;
   std::chrono::steady_clock::time_point last_;

@@ -10,7 +10,7 @@ struct ExactSolver {
   static constexpr std::string_view kDescription = "Lax-Hopf formula, exact to rounding";
   static Guarantees guarantees() {
     Guarantees g;
-    g.exact = g.conservative = g.bounded = true;
+    g.exact = g.conservative = g.bounded = g.has_timeline = true;
     return g;
   }
   static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,

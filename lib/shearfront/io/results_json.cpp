@@ -33,8 +33,9 @@ std::string text(std::string_view s) {
 
 std::string summary_text(const Summary& s) {
   return fmt::format(
-      R"({{"collisions": {}, "fronts_max": {}, "levels": {}, "wall_s": {}, "status": {}, "message": {}}})",
-      s.collisions, s.fronts_max, s.levels, number(s.wall_s), text(name_of(s.status)), text(s.message));
+      R"({{"collisions": {}, "fronts_max": {}, "levels": {}, "cell_updates": {}, "wall_s": {}, "status": {}, "message": {}}})",
+      s.collisions, s.fronts_max, s.levels, s.cell_updates, number(s.wall_s), text(name_of(s.status)),
+      text(s.message));
 }
 
 std::string array(const std::vector<double>& xs) {

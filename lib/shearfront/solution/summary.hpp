@@ -12,7 +12,7 @@ enum class Status {
   not_run,         ///< solve() was not called
   ok,              ///< reached the time asked for
   steady,          ///< reached the steady state; nothing changes afterwards
-  budget_reached,  ///< stopped at the largest number of collisions allowed
+  budget_reached,  ///< stopped at the largest amount of work allowed
   not_converged,   ///< an iteration did not reach its tolerance
   unsupported,     ///< the method does not apply to this scene; the message says which does
   interrupted      ///< the caller asked to stop
@@ -42,11 +42,12 @@ enum class Status {
 struct Summary {
   Status status = Status::not_run;
   std::string message = "solve() was not called";
-  std::uint64_t collisions = 0;  ///< front tracking: Riemann problems solved after t = 0
-  std::uint64_t fronts_max = 0;  ///< front tracking: most fronts alive at one time
-  std::uint64_t levels = 0;      ///< front tracking: flux levels of the grid
-  std::uint64_t layers = 0;      ///< layers used (a staircase for smooth a)
-  double wall_s = 0;             ///< wall time in seconds
+  std::uint64_t collisions = 0;    ///< front tracking: Riemann problems solved after t = 0
+  std::uint64_t fronts_max = 0;    ///< front tracking: most fronts alive at one time
+  std::uint64_t levels = 0;        ///< front tracking: flux levels of the grid
+  std::uint64_t cell_updates = 0;  ///< finite volumes: cells times time steps
+  std::uint64_t layers = 0;        ///< layers used (a staircase for smooth a)
+  double wall_s = 0;               ///< wall time in seconds
 
   /// Whether the numbers that came with this summary may be used.
   [[nodiscard]] bool usable() const { return status == Status::ok || status == Status::steady; }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "shearfront/fv/engquist_osher_solver.hpp"
+#include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/hopf_lax/solver.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/solver/solver.hpp"
@@ -9,6 +11,6 @@ namespace shearfront {
 
 /// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
 /// list.
-using SolverList = TypeList<ExactSolver, FrontTrackingSolver>;
+using SolverList = TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver>;
 
 }  // namespace shearfront

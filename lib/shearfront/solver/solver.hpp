@@ -28,7 +28,10 @@ struct SolverOptions {
   Reconstruction reconstruct = Reconstruction::constant;
   std::size_t layers = 0;                        ///< smooth a(z): number of layers; 0 lets the solver choose
   std::uint64_t max_collisions = 4'000'000'000;  ///< stop with Status::budget_reached after so many
-  /// Called now and then with (t, collisions so far); return false to stop with Status::interrupted.
+  std::size_t cells = 400;                       ///< finite volumes: number of equal cells, 1 to 1e8
+  double cfl = 1.0;  ///< finite volumes: Courant number s max a max |f'| dt / dz, (0, 1]
+  /// Called now and then with (t, collisions or cell updates so far); return false to stop with
+  /// Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
 };
 
@@ -62,6 +65,7 @@ struct Guarantees {
   double order_M = 0;         ///< order of M in the resolution, 0 if exact
   bool any_scene = false;     ///< every scene of the toolkit
   bool has_fronts = false;    ///< can return front segments
+  bool has_timeline = false;  ///< can return event times
 };
 
 template <class S>

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fv/grid.hpp"
+
+#include <algorithm>
+
+#include "shearfront/numeric/sum.hpp"
+
+namespace shearfront::fv {
+namespace {
+
+/// Calls visit(lo, hi) for the pieces into which the cuts (ascending) divide [begin, end], bottom to top.
+/// `next` is the first cut that may lie above begin; it moves on with ascending intervals.
+template <class Visit>
+void for_pieces(const std::vector<double>& cuts, std::size_t& next, double begin, double end, Visit&& visit) {
+  while (next < cuts.size() && cuts[next] <= begin) ++next;
+  double lo = begin;
+  for (; next < cuts.size() && cuts[next] < end; ++next) {
+    visit(lo, cuts[next]);
+    lo = cuts[next];
+  }
+  visit(lo, end);
+}
+
+/// s (end - begin) / int dz / a.
+class MeanRate {
+ public:
+  explicit MeanRate(const Scene<double>& scene)
+      : scene_(scene), knots_(std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate())) {}
+
+  double operator()(double begin, double end) {
+    double travel_time = 0;
+    double rate = 0;
+    std::size_t n_pieces = 0;
+    std::visit(
+        [&](const auto& a) {
+          for_pieces(knots_, next_, begin, end, [&](double lo, double hi) {
+            rate = a.harmonic_mean(lo, hi);
+            travel_time += (hi - lo) / rate;
+            ++n_pieces;
+          });
+        },
+        scene_.shear_rate());
+    // One piece: without the rounding of a division and its inverse, cells of a layer are equal to the bit.
+    return scene_.scale() * (n_pieces == 1 ? rate : (end - begin) / travel_time);
+  }
+
+ private:
+  const Scene<double>& scene_;
+  std::vector<double> knots_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid) {
+  std::vector<double> averages(grid.n_cells);
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < grid.n_cells; ++j) {
+    const double begin = grid.edge(j), end = grid.edge(j + 1);
+    CompensatedSum<double> sum;
+    std::size_t n_pieces = 0;
+    double phi = 0;
+    for_pieces(scene.initial_breaks(), next, begin, end, [&](double lo, double hi) {
+      phi = scene.initial_phi(lo);
+      sum += (hi - lo) * phi;
+      ++n_pieces;
+    });
+    averages[j] = n_pieces == 1 ? phi : sum.value() / (end - begin);
+  }
+  return averages;
+}
+
+std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid) {
+  std::vector<double> rates(grid.n_cells);
+  MeanRate mean(scene);
+  for (std::size_t j = 0; j < grid.n_cells; ++j) rates[j] = mean(grid.edge(j), grid.edge(j + 1));
+  return rates;
+}
+
+std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid) {
+  std::vector<double> rates(grid.n_cells + 1, 0.0);
+  MeanRate mean(scene);
+  for (std::size_t j = 1; j < grid.n_cells; ++j) rates[j] = mean(grid.middle(j - 1), grid.middle(j));
+  return rates;
+}
+
+}  // namespace shearfront::fv

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront::fv {
+
+/// A uniform grid of n_cells >= 1 cells over [bottom, top]; cell j is [edge(j), edge(j + 1)].
+struct Grid {
+  double bottom = 0, top = 1;
+  std::size_t n_cells = 1;
+
+  /// Ascending in j; edge(0) == bottom and edge(n_cells) == top exactly.
+  [[nodiscard]] double edge(std::size_t j) const {
+    if (j == n_cells) return top;
+    return bottom + (top - bottom) * (static_cast<double>(j) / static_cast<double>(n_cells));
+  }
+  [[nodiscard]] double middle(std::size_t j) const {
+    return bottom + (top - bottom) * ((static_cast<double>(j) + 0.5) / static_cast<double>(n_cells));
+  }
+  [[nodiscard]] double cell_width() const { return (top - bottom) / static_cast<double>(n_cells); }
+};
+
+/// Mean of phi(z, 0) over every cell, exact to rounding, so the grid starts with the mass of the scene.
+/// Continuous in the heights of the initial jumps. Cost: O(n_cells + jumps).
+[[nodiscard]] std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid);
+
+/// s times the harmonic mean of a over every cell: result[j] belongs to cell j.
+///
+/// The harmonic mean (width / int dz / a) keeps the travel time of pure grains (phi = 0 or 1) across a cell
+/// exact. For smooth a it is a(middle) up to O(width^2); in a cell cut by an interface it depends
+/// continuously on the height of the interface, which the value at the middle would not: a fit that moves an
+/// interface needs that. Cost: O(n_cells + knots).
+[[nodiscard]] std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid);
+
+/// s times the harmonic mean of a from the middle of cell j - 1 to the middle of cell j: result[j] belongs to
+/// the face below cell j, 1 <= j < n_cells; result[0] and result[n_cells], the walls, are 0.
+///
+/// For smooth a this is a(face) up to O(width^2). Cost: O(n_cells + knots).
+[[nodiscard]] std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid);
+
+}  // namespace shearfront::fv

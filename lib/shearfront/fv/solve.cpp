@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fv/solve.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "shearfront/fv/march.hpp"
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/numeric/sum.hpp"
+
+namespace shearfront::fv {
+namespace {
+
+constexpr std::size_t kMostCells = 100'000'000;  // 4 GB
+constexpr double kMostUpdates = 1e15;            // some days
+// The caller is asked for leave to go on after so many cell updates, some hundredths of a second.
+constexpr std::uint64_t kUpdatesPerCall = 1 << 24;
+// A march at rest this near to the steady state (M, relative to the height) has reached it.
+constexpr double kSteadyTolerance = 1e-9;
+
+std::string refusal(const UnimodalFlux& flux, const SolverOptions& options) {
+  if (options.cells < 1) return "cells = 0; must be >= 1";
+  if (options.cells > kMostCells)
+    return "cells = " + std::to_string(options.cells) + "; must be <= " + std::to_string(kMostCells);
+  if (!(options.cfl > 0 && options.cfl <= 1))
+    return "cfl = " + number_text(options.cfl) + "; must be > 0 and <= 1";
+  return flux.refusal;
+}
+
+double sum_of(std::span<const double> xs) {
+  CompensatedSum<double> sum;
+  for (const double x : xs) sum += x;
+  return sum.value();
+}
+
+/// A march through the times of a request.
+class Run {
+ public:
+  Run(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
+      const SolverOptions& options)
+      : options_(options),
+        grid_{scene.bottom(), scene.top(), options.cells},
+        march_(kernel, flux, initial_averages(scene, grid_),
+               scheme == Scheme::godunov ? cell_rates(scene, grid_) : face_rates(scene, grid_), options.cfl),
+        steps_per_time_(march_.speed() / (options.cfl * grid_.cell_width())),
+        lost_per_step_(kernel.numbers().quantum / 4 / static_cast<double>(options.cells)),
+        steady_(steady_state(scheme, flux, sum_of(march_.states(0)), options.cells)) {}
+
+  [[nodiscard]] const Grid& grid() const { return grid_; }
+  [[nodiscard]] std::uint64_t n_updates() const { return n_updates_; }
+  [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
+
+  /// The states at time t; times must not descend. Empty, with the status changed, if there are none.
+  std::span<const double> at(double t, Status& status) {
+    if (!std::isfinite(t)) {
+      is_at_rest_ = true;
+      return steady_;
+    }
+    const double steps = t * steps_per_time_, whole = std::floor(steps);
+    if (status = march_to(whole, t); status != Status::ok) return {};
+    if (is_at_rest_) return march_.states(0);
+    n_updates_ += steps > whole ? options_.cells : 0;
+    return march_.states(steps - whole);
+  }
+
+ private:
+  Status march_to(double steps, double t) {
+    while (!is_at_rest_) {
+      const auto done = static_cast<double>(march_.n_steps());
+      if (!(done < steps)) return Status::ok;
+      if (options_.progress && !options_.progress(t * (done / steps), n_updates_)) return Status::interrupted;
+      if (static_cast<double>(n_updates_) > kMostUpdates) return Status::budget_reached;
+      const std::uint64_t call = std::max<std::uint64_t>(1, kUpdatesPerCall / options_.cells);
+      const auto n = static_cast<std::uint64_t>(std::min(static_cast<double>(call), steps - done));
+      march_.advance(n);
+      n_updates_ += n * options_.cells;
+      if (march_.n_steps() >= next_check_) check_rest();
+    }
+    // What rounding has stopped or will have taken by then is too much if the bed is not steady.
+    return is_steady_ || steps * lost_per_step_ < kSteadyTolerance ? Status::ok : Status::not_converged;
+  }
+
+  void check_rest() {
+    // One step in so many costs nothing; a wave crosses the bed in as many steps at least.
+    next_check_ = march_.n_steps() + options_.cells;
+    is_at_rest_ = march_.is_at_rest();
+    if (!is_at_rest_) return;
+    double amount = 0, largest = 0;
+    const auto phi = march_.states(0);
+    for (std::size_t j = 0; j < phi.size(); ++j)
+      largest = std::max(largest, std::abs(amount += phi[j] - steady_[j]));
+    is_steady_ = largest <= kSteadyTolerance * static_cast<double>(phi.size());
+  }
+
+  const SolverOptions& options_;
+  Grid grid_;
+  March march_;
+  double steps_per_time_;
+  double lost_per_step_;  ///< bound for what rounding takes from M / height in a step
+  std::vector<double> steady_;
+  std::uint64_t n_updates_ = 0, next_check_ = 0;
+  bool is_at_rest_ = false, is_steady_ = false;
+};
+
+std::string message_of(Status status, std::uint64_t n_updates) {
+  switch (status) {
+    case Status::steady:
+      return "steady state reached";
+    case Status::interrupted:
+      return "interrupted after " + std::to_string(n_updates) + " cell updates";
+    case Status::budget_reached:
+      return "stopped at " + std::to_string(n_updates) + " cell updates; use fewer cells or another method";
+    case Status::not_converged:
+      return "the shear rates differ so much that rounding stops the slow cells; use another method";
+    default:
+      return "reached the last time";
+  }
+}
+
+}  // namespace
+
+std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
+                                 const std::vector<double>& depths) {
+  std::vector<std::size_t> order(depths.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depths[a] < depths[b]; });
+  std::vector<Sample> samples(depths.size());
+  CompensatedSum<double> below;
+  std::size_t cell = 0;
+  for (const std::size_t i : order) {
+    for (; cell + 1 < grid.n_cells && grid.edge(cell + 1) <= depths[i]; ++cell)
+      below += (grid.edge(cell + 1) - grid.edge(cell)) * phi[cell];
+    samples[i] = {phi[cell], below.value() + (depths[i] - grid.edge(cell)) * phi[cell]};
+  }
+  return samples;
+}
+
+SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
+                   const SolverRequest& request, const SolverOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  SolverResult result;
+  Status status = Status::ok;
+  if (std::string why = refusal(flux, options); !why.empty()) {
+    result.summary.status = Status::unsupported;
+    result.summary.message = std::move(why);
+    return result;
+  }
+  Run run(scheme, flux, kernel, scene, options);
+  std::vector<std::size_t> order(request.times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
+  const std::size_t n = request.depths.size();
+  result.samples.resize(request.times.size() * n);
+  for (const std::size_t i : order) {
+    const auto phi = run.at(request.times[i], status);
+    if (status != Status::ok) break;
+    const auto samples = sample_cells(run.grid(), phi, request.depths);
+    std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
+  }
+  if (status == Status::ok && run.is_at_rest()) status = Status::steady;
+  if (status != Status::ok && status != Status::steady) result.samples.clear();
+  result.summary.status = status;
+  result.summary.message = message_of(status, run.n_updates());
+  result.summary.cell_updates = run.n_updates();
+  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
+                   const SolverOptions& options) {
+  const UnimodalFlux flux = std::visit([](const auto& f) { return unimodal_flux(f); }, scene.flux());
+  const auto kernel = flux.is_quadratic ? quadratic_kernel(scheme) : unimodal_kernel(scheme, flux);
+  return solve(scheme, flux, *kernel, scene, request, options);
+}
+
+}  // namespace shearfront::fv

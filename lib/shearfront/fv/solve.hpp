@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <span>
+#include <vector>
+
+#include "shearfront/fv/grid.hpp"
+#include "shearfront/fv/kernel.hpp"
+#include "shearfront/fv/unimodal_flux.hpp"
+#include "shearfront/solver/solver.hpp"
+
+namespace shearfront::fv {
+
+/// Both finite-volume solvers: u_j -= dt / dz (F_{j+1/2} - F_{j-1/2}) on options.cells equal cells, with no
+/// flux through the walls.
+///
+/// Time steps: dt = cfl dz / (s max a max |f'|), the same for the whole run. The state at a time t between
+/// n dt and (n + 1) dt comes from one shorter step that starts at n dt; the march itself goes on from n dt.
+/// So (1) what comes out at t does not depend on the other times asked for; (2) it is a continuous function
+/// of t and of the numbers of the scene: where n changes, the shorter step has become a whole one, or
+/// nothing (equal steps, n = ceil(t / dt), would jump there).
+/// phi is constant in a cell, M is linear and consistent with it. t = infinity gives the steady state of the
+/// grid (fv/march.hpp) without a march, and a march that has come to rest stops.
+///
+/// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one extremum),
+/// interrupted (options.progress said so), not_converged (the rates differ so much that rounding stopped the
+/// slow cells), budget_reached (1e15 cell updates).
+/// Cost: cells * (t / dt) cell updates; tests/bench/fv_bench.cpp. Memory: 40 bytes per cell.
+[[nodiscard]] SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
+                                 const SolverOptions& options);
+
+/// The same with a flux and a kernel of the caller's choice, in place of the scene's flux.
+[[nodiscard]] SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel,
+                                 const Scene<double>& scene, const SolverRequest& request,
+                                 const SolverOptions& options);
+
+/// Samples of cell averages phi at heights in any order; see Sample. Cost: O(cells + n log n).
+[[nodiscard]] std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
+                                               const std::vector<double>& depths);
+
+}  // namespace shearfront::fv
