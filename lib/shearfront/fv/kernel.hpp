@@ -48,11 +48,12 @@ class Kernel {
   Kernel& operator=(const Kernel&) = delete;
   virtual ~Kernel() = default;
 
-  /// Advances v[0 .. n-1] by one step. Reads v[n] (the cell above) and h[0] (the flux from below); leaves the
-  /// fluxes of the upper faces in h[1 .. n]. Coefficients: for engquist_osher c[i + 1] belongs to the face
-  /// above cell i, for godunov c[i] to cell i, c[n] to the cell above. A face with c = 0 (godunov: on one
-  /// side) carries no flux: the walls. Precondition: n is a multiple of kLanes; the arrays do not overlap.
-  virtual void step(double* v, const double* c, double* h, std::size_t n) const = 0;
+  /// Advances v[0 .. n-1] by one step. Reads v[n] (the cell above) and h_below, the flux through the lowest
+  /// face; returns the flux through the uppermost. Coefficients: for engquist_osher c[i + 1] belongs to the
+  /// face above cell i, for godunov c[i] to cell i, c[n] to the cell above. A face with c = 0 (godunov: on
+  /// one side) carries no flux: the walls. Precondition: n is a multiple of kLanes; the arrays do not
+  /// overlap.
+  virtual double step(double* v, const double* c, double h_below, std::size_t n) const = 0;
   [[nodiscard]] virtual KernelNumbers numbers() const = 0;
 };
 
@@ -67,7 +68,7 @@ enum class Simd { portable, avx2, avx512 };
 
 /// Kernel for f = phi (phi - 1) on [0, 1]. With v = 2 phi - 1 the flux is G = c (max(v_l, 0)^2 +
 /// min(v_r, 0)^2 - 1) for Engquist-Osher, c half the Courant number, and G = max(c_l (max(v_l, 0)^2 - 1),
-/// c_r (min(v_r, 0)^2 - 1)) for Godunov. Cost per cell: 10 and 12 additions, multiplications or comparisons.
+/// c_r (min(v_r, 0)^2 - 1)) for Godunov. Cost per cell: 10 and 13 additions, multiplications or comparisons.
 /// Precondition: the processor has `simd`.
 [[nodiscard]] std::unique_ptr<Kernel> quadratic_kernel(Scheme scheme, Simd simd = widest_simd());
 

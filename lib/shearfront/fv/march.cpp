@@ -9,7 +9,7 @@
 namespace shearfront::fv {
 namespace {
 
-// States, coefficients and fluxes of one block take 3 * 8 * 1024 bytes: half of a first-level cache.
+// States and coefficients of one block take 2 * 8 * 1024 bytes: they stay in any first-level cache.
 constexpr std::size_t kBlock = 1024;
 // Each step of a block lies kLanes cells lower than the one before, so a block can take so many at once.
 constexpr std::size_t kDepth = 64;
@@ -39,7 +39,6 @@ March::March(const Kernel& kernel, const UnimodalFlux& flux, const std::vector<d
     const double v = 2 * ((phi[j] - lo_) / (hi_ - lo_)) - 1;
     v_[j] = std::nearbyint(v / numbers.quantum) * numbers.quantum;
   }
-  h_.resize(2 * kBlock + kDepth * kLanes + 1);
 }
 
 void March::sweep(std::vector<double>& v, const std::vector<double>& c, std::size_t steps) {
@@ -54,9 +53,7 @@ void March::sweep(std::vector<double>& v, const std::vector<double>& c, std::siz
     for (std::size_t k = 0; k < steps; ++k) {
       const std::size_t begin = block == 0 ? 0 : block * kBlock - k * kLanes;
       const std::size_t end = is_last ? n_padded_ : (block + 1) * kBlock - k * kLanes;
-      h_[0] = flux_from_below[k];
-      kernel_.step(v.data() + begin, c.data() + begin, h_.data(), end - begin);
-      flux_from_below[k] = h_[end - begin];
+      flux_from_below[k] = kernel_.step(v.data() + begin, c.data() + begin, flux_from_below[k], end - begin);
     }
   }
 }

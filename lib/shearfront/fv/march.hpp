@@ -43,7 +43,7 @@ class March {
   std::uint64_t n_steps_ = 0;
   double speed_;
   double rest_;
-  std::vector<double> v_, c_, h_;
+  std::vector<double> v_, c_;
   std::vector<double> side_v_, side_c_;  ///< the last, shortened step
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <utility>
 
 #include "shearfront/fv/kernel.hpp"
@@ -15,19 +16,18 @@ class UnimodalKernel final : public Kernel {
   UnimodalKernel(Scheme scheme, UnimodalFlux flux)
       : scheme_(scheme), flux_(std::move(flux)), at_extremum_(flux_.value(flux_.extremum)) {}
 
-  void step(double* v, const double* c, double* h, std::size_t n) const override {
+  double step(double* v, const double* c, double h_below, std::size_t n) const override {
     for (std::size_t i = 0; i < n; ++i) {
       const double l = phi(v[i]), r = phi(v[i + 1]);
       const double m = flux_.extremum;
       const double rising = flux_.value(flux_.is_minimum == (l > m) ? l : m);
       const double falling = flux_.value(flux_.is_minimum == (r < m) ? r : m);
-      h[i + 1] = kRest + face(rising, falling, c[i], c[i + 1]);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
+      const double h_above = kRest + face(rising, falling, c[i], c[i + 1]);
       // A model's rounding near the ends of its range is unknown here: keep the bounds by force.
-      const double next = v[i] - (h[i + 1] - h[i]);
-      v[i] = next < -1 ? -1 : next > 1 ? 1 : next;
+      v[i] = std::clamp(v[i] - (h_above - h_below), -1.0, 1.0);
+      h_below = h_above;
     }
+    return h_below;
   }
   [[nodiscard]] KernelNumbers numbers() const override {
     return {kRest, kQuantum, 2 / ((flux_.hi - flux_.lo) * flux_.largest_slope)};
