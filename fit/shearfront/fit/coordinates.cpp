@@ -57,6 +57,12 @@ VectorXd Coordinates::coordinates(const VectorXd& p) const {
   return u.cwiseMax(lower_).cwiseMin(upper_);
 }
 
+std::vector<Index> Coordinates::bound_together(Index j) const {
+  const auto place = std::find(shaped_.begin(), shaped_.end(), j);
+  if (place == shaped_.end() || place + 1 == shaped_.end()) return {j};
+  return {place, place + std::min<std::ptrdiff_t>(shaped_.end() - place, shape_ == Shape::convex ? 3 : 2)};
+}
+
 MatrixXd Coordinates::derivative(const VectorXd& u) const {
   MatrixXd d = MatrixXd::Zero(u.size(), u.size());
   for (Index i = 0; i < u.size(); ++i)

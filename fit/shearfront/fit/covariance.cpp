@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/covariance.hpp"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace shearfront::fit {
@@ -17,66 +14,101 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A residual vector with a constant Jacobian, for ceres::Covariance.
-class LinearCost final : public ceres::CostFunction {
- public:
-  explicit LinearCost(const MatrixXd& jacobian) : jacobian_(jacobian) {
-    set_num_residuals(static_cast<int>(jacobian.rows()));
-    mutable_parameter_block_sizes()->assign(1, static_cast<std::int32_t>(jacobian.cols()));
-  }
-  bool Evaluate(double const* const* /*u*/, double* residuals, double** jacobians) const override {
-    std::fill(residuals, residuals + jacobian_.rows(), 0.0);
-    if (jacobians && jacobians[0])
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], jacobian_.rows(), jacobian_.cols()) = jacobian_;
-    return true;
-  }
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Null directions are known this well, relative to their entries.
+constexpr double kCancelled = 1e-4;
 
- private:
-  const MatrixXd& jacobian_;
+/// A numeric column with a larger relative error than this is noise of the forward model.
+constexpr double kNoise = 0.5;
+
+/// Singular values of the free columns of a Jacobian, scaled to norm one.
+struct Decomposition {
+  std::vector<Index> free;  ///< coordinate of each column
+  VectorXd norm;            ///< of each column; 0: unseen
+  MatrixXd pseudo_inverse;  ///< of the free columns, not scaled: column x row
+  MatrixXd null;            ///< basis over the columns, not scaled: a step along it leaves the residuals
 };
 
-/// (J^T J)^-1 for a Jacobian of full rank, by the singular values of Ceres.
-MatrixXd inverse_normal_matrix(const MatrixXd& jacobian) {
-  const Index n = jacobian.cols();
-  VectorXd u = VectorXd::Zero(n);
-  ceres::Problem::Options options;
-  LinearCost cost(jacobian);
-  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem linear(options);
-  linear.AddResidualBlock(&cost, nullptr, u.data());
-  ceres::Covariance::Options how;
-  how.algorithm_type = ceres::DENSE_SVD;
-  how.min_reciprocal_condition_number = 1e-18;
-  ceres::Covariance covariance(how);
-  MatrixXd inverse = MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
-  const std::vector<std::pair<const double*, const double*>> blocks{{u.data(), u.data()}};
-  if (!covariance.Compute(blocks, &linear)) return inverse;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(n, n);
-  if (covariance.GetCovarianceBlock(u.data(), u.data(), block.data())) inverse = block;
-  return inverse;
+/// A basis of the same space in which every vector has an entry 1 where all others have 0: directions that
+/// involve few coordinates, each vector on its own. Complete pivoting.
+MatrixXd sparse_basis(MatrixXd basis) {
+  std::vector<bool> done(static_cast<std::size_t>(basis.cols()), false);
+  for (Index step = 0; step < basis.cols(); ++step) {
+    Index row = 0, column = -1;
+    for (Index c = 0; c < basis.cols(); ++c)
+      for (Index r = 0; r < basis.rows(); ++r)
+        if (!done[static_cast<std::size_t>(c)] &&
+            (column < 0 || std::abs(basis(r, c)) > std::abs(basis(row, column))))
+          row = r, column = c;
+    done[static_cast<std::size_t>(column)] = true;
+    basis.col(column) /= basis(row, column);
+    for (Index c = 0; c < basis.cols(); ++c)
+      if (c != column) basis.col(c) -= basis(row, c) * VectorXd(basis.col(column));
+  }
+  for (double& entry : basis.reshaped())
+    if (std::abs(entry) < kNullEntry) entry = 0;
+  return basis;
 }
 
-/// sum over rows of J^T W D S D^T W J, with r = W (C X - D y).
-MatrixXd noise_in_gradient(const ResidualRows& rows, const Observations& observations,
-                           const MatrixXd& jacobian) {
-  MatrixXd by_observation = MatrixXd::Zero(static_cast<Index>(observations.rows.size()), jacobian.cols());
+Decomposition decompose(const Objective::Evaluation& at, const std::vector<bool>& held) {
+  Decomposition parts;
+  for (Index j = 0; j < at.jacobian.cols(); ++j)
+    if (!held[static_cast<std::size_t>(j)]) parts.free.push_back(j);
+  const auto n = static_cast<Index>(parts.free.size());
+  const Index n_rows = at.jacobian.rows();
+  parts.norm.resize(n);
+  // At least as many rows as columns, so that V is complete.
+  MatrixXd scaled = MatrixXd::Zero(std::max(n_rows, n), n);
+  for (Index c = 0; c < n; ++c)
+    parts.norm[c] = at.jacobian.col(parts.free[static_cast<std::size_t>(c)]).norm();
+  const double largest = n > 0 ? parts.norm.maxCoeff() : 0;
+  double error2 = 0;
+  for (Index c = 0; c < n; ++c) {
+    const Index j = parts.free[static_cast<std::size_t>(c)];
+    const double error = at.column_error.size() > 0 ? at.column_error[j] : 0;
+    if (!(parts.norm[c] > kUnseen * largest) || error > kNoise) parts.norm[c] = 0;
+    if (!(parts.norm[c] > 0)) continue;
+    scaled.col(c).head(n_rows) = at.jacobian.col(j) / parts.norm[c];
+    error2 += error * error;
+  }
+  parts.pseudo_inverse = MatrixXd::Zero(n, n_rows);
+  if (n == 0) return parts;
+  const Eigen::JacobiSVD<MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const VectorXd& singular = svd.singularValues();
+  const double smallest = std::max(kRankTolerance, std::sqrt(error2)) * singular[0];
+  const VectorXd unscale = (parts.norm.array() > 0).select(parts.norm.cwiseInverse(), 1.0);
+  const Index rank = (singular.array() > smallest).count();
+  for (Index c = 0; c < rank; ++c)
+    parts.pseudo_inverse += unscale.cwiseProduct(svd.matrixV().col(c)) / singular[c] *
+                            svd.matrixU().col(c).head(n_rows).transpose();
+  parts.null = unscale.asDiagonal() * sparse_basis(svd.matrixV().rightCols(n - rank));
+  return parts;
+}
+
+/// K B: how the noise of each observation, in units of sigma_k, moves the coordinates (column x observation).
+MatrixXd noise_to_coordinates(const ResidualRows& rows, const Observations& observations,
+                              const MatrixXd& pseudo_inverse) {
+  MatrixXd moved = MatrixXd::Zero(pseudo_inverse.rows(), static_cast<Index>(observations.rows.size()));
   for (Index i = 0; i < rows.size(); ++i) {
     const ResidualRows::Row& row = rows.rows[static_cast<std::size_t>(i)];
     for (const Term& term : row.data)
-      by_observation.row(static_cast<Index>(term.index)) += row.weight * term.coefficient * jacobian.row(i);
+      moved.col(static_cast<Index>(term.index)) += row.weight * term.coefficient * pseudo_inverse.col(i);
   }
-  for (Index k = 0; k < by_observation.rows(); ++k) {
+  for (Index k = 0; k < moved.cols(); ++k) {
     const double sigma = observations.rows[static_cast<std::size_t>(k)].sigma;
-    if (sigma > 0) by_observation.row(k) *= sigma;
+    if (sigma > 0) moved.col(k) *= sigma;
   }
-  return by_observation.transpose() * by_observation;
+  return moved;
 }
 
-/// Variance of one residual as it enters the estimate: noise^2 for least squares, mean psi^2 / (mean psi')^2
-/// for a robust loss, psi(r) = r rho'(r^2).
-double effective_variance(const VectorXd& residuals, const Loss& loss, double noise, Index n_coordinates) {
-  if (!loss.is_robust) return noise * noise;
+/// A loss at the minimum: mean psi' (how much flatter it makes the misfit) and the variance of one residual
+/// as it enters the estimate; psi(r) = r rho'(r^2).
+struct LossEffect {
+  double slope = 1, variance = 1;
+};
+
+LossEffect effect_of(const Loss& loss, const VectorXd& residuals, double noise, Index n_coordinates) {
+  if (!loss.is_robust) return {1, noise * noise};
   double psi2 = 0, slope = 0;
   for (const double r : residuals) {
     const LossValue rho = loss(r * r);
@@ -84,8 +116,10 @@ double effective_variance(const VectorXd& residuals, const Loss& loss, double no
     slope += rho.first + 2 * r * r * rho.second;
   }
   const auto n = static_cast<double>(residuals.size());
-  const double freedom = n / std::max(1.0, n - static_cast<double>(n_coordinates));
-  return freedom * (psi2 / n) / std::pow(slope / n, 2);
+  const double freedom = n - static_cast<double>(n_coordinates);
+  if (!(slope > 0) || !(freedom > 0)) return {kNaN, kNaN};
+  slope /= n;
+  return {slope, psi2 / freedom / (slope * slope)};
 }
 
 }  // namespace
@@ -94,57 +128,47 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
                       const Objective::Evaluation& at, const Loss& loss, double noise,
                       const std::vector<bool>& held) {
   const Index n = at.jacobian.cols();
+  const Decomposition parts = decompose(at, held);
+  const auto n_free = static_cast<Index>(parts.free.size());
+  const LossEffect effect = effect_of(loss, at.residuals, noise, n_free);
+  const MatrixXd moved = noise_to_coordinates(rows, observations, parts.pseudo_inverse);
+  const MatrixXd cov = effect.variance * moved * moved.transpose();
+  const VectorXd curvature = parts.pseudo_inverse.rowwise().squaredNorm() / effect.slope;
+
   Covariance result;
-  result.matrix = MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+  result.held = held;
+  result.matrix = MatrixXd::Zero(n, n);
+  result.null_directions = MatrixXd::Zero(n, parts.null.cols());
   result.determined.assign(static_cast<std::size_t>(n), false);
-  result.null_directions.resize(n, 0);
-  std::vector<Index> free, seen;
-  for (Index j = 0; j < n; ++j)
-    if (!held[static_cast<std::size_t>(j)]) free.push_back(j);
-  MatrixXd scaled(at.jacobian.rows(), static_cast<Index>(free.size()));
-  VectorXd norm(scaled.cols());
-  for (Index c = 0; c < scaled.cols(); ++c) {
-    norm[c] = at.jacobian.col(free[static_cast<std::size_t>(c)]).norm();
-    scaled.col(c) = norm[c] > 0 ? VectorXd(at.jacobian.col(free[static_cast<std::size_t>(c)]) / norm[c])
-                                : VectorXd(VectorXd::Zero(scaled.rows()));
+  result.misfit_scale = VectorXd::Constant(n, kNaN);
+  for (Index a = 0; a < n_free; ++a) {
+    const Index j = parts.free[static_cast<std::size_t>(a)];
+    for (Index b = 0; b < n_free; ++b) result.matrix(j, parts.free[static_cast<std::size_t>(b)]) = cov(a, b);
+    if (parts.null.cols() > 0) result.null_directions.row(j) = parts.null.row(a);
+    const bool determined = (parts.null.row(a).array() == 0).all();
+    result.determined[static_cast<std::size_t>(j)] = determined;
+    if (determined) result.misfit_scale[j] = cov(a, a) / curvature[a];
   }
-  if (scaled.cols() == 0 || scaled.rows() == 0) return result;
-  const Eigen::JacobiSVD<MatrixXd> svd(scaled, Eigen::ComputeFullV);
-  const VectorXd& singular = svd.singularValues();
-  std::vector<bool> touched(free.size(), false);
-  for (Index c = 0; c < scaled.cols(); ++c) {
-    const double value = c < singular.size() ? singular[c] : 0;
-    if (value > kRankTolerance * singular[0]) continue;
-    const VectorXd direction = svd.matrixV().col(c);
-    VectorXd whole = VectorXd::Zero(n);
-    for (Index k = 0; k < scaled.cols(); ++k) {
-      touched[static_cast<std::size_t>(k)] =
-          touched[static_cast<std::size_t>(k)] || std::abs(direction[k]) > 1e-4;
-      whole[free[static_cast<std::size_t>(k)]] = norm[k] > 0 ? direction[k] / norm[k] : direction[k];
-    }
-    result.null_directions.conservativeResize(n, result.null_directions.cols() + 1);
-    result.null_directions.rightCols(1) = whole.normalized();
-  }
-  std::vector<Index> columns;
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    if (touched[k]) continue;
-    result.determined[static_cast<std::size_t>(free[k])] = true;
-    columns.push_back(free[k]);
-  }
-  if (columns.empty()) return result;
-  // What cannot be determined stays fixed at its estimate; the others do not depend on it (to first order).
-  MatrixXd jacobian(at.jacobian.rows(), static_cast<Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    jacobian.col(static_cast<Index>(k)) = at.jacobian.col(columns[k]);
-  const VectorXd scale = jacobian.colwise().norm().cwiseInverse();
-  const MatrixXd inverse =
-      scale.asDiagonal() * inverse_normal_matrix(jacobian * scale.asDiagonal()) * scale.asDiagonal();
-  const MatrixXd cov = effective_variance(at.residuals, loss, noise, jacobian.cols()) * inverse *
-                       noise_in_gradient(rows, observations, jacobian) * inverse;
-  for (std::size_t a = 0; a < columns.size(); ++a)
-    for (std::size_t b = 0; b < columns.size(); ++b)
-      result.matrix(columns[a], columns[b]) = cov(static_cast<Index>(a), static_cast<Index>(b));
+  for (auto direction : result.null_directions.colwise()) direction /= direction.lpNorm<Eigen::Infinity>();
   return result;
+}
+
+MatrixXd parameter_covariance(const Covariance& covariance, const MatrixXd& derivative) {
+  MatrixXd cov = derivative * covariance.matrix * derivative.transpose();
+  for (Index a = 0; a < derivative.rows(); ++a) {
+    const VectorXd gradient = derivative.row(a);
+    bool is_free = false, is_determined = true;
+    for (Index j = 0; j < gradient.size(); ++j)
+      is_free = is_free || (gradient[j] != 0 && !covariance.held[static_cast<std::size_t>(j)]);
+    for (const auto direction : covariance.null_directions.colwise()) {
+      const VectorXd changes = gradient.cwiseProduct(direction);
+      is_determined = is_determined && !(std::abs(changes.sum()) > kCancelled * changes.cwiseAbs().sum());
+    }
+    if (is_free && is_determined) continue;
+    cov.row(a).setConstant(kNaN);
+    cov.col(a).setConstant(kNaN);
+  }
+  return cov;
 }
 
 }  // namespace shearfront::fit

@@ -28,8 +28,7 @@ struct ParameterEstimate {
   bool at_bound = false;
 };
 
-/// How well the residuals look like independent noise (residual_structure.hpp); empty where there are too
-/// few.
+/// How well the residuals look like independent noise (residual_structure.hpp); NaN where there are too few.
 struct ResidualStructure {
   double lag1_height = 0, lag1_time = 0;  ///< correlation of neighbours in z, and in t
   double runs_z_score = 0;                ///< Wald-Wolfowitz runs of signs over z: negative for too few runs

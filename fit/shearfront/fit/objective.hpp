@@ -33,15 +33,17 @@ class Objective {
   struct Evaluation {
     bool is_valid = false;  ///< false: no solution there, or outside the bounds
     Eigen::VectorXd residuals;
-    Eigen::MatrixXd jacobian;  ///< row = residual, column = coordinate; empty unless asked for
-    double misfit = 0;         ///< infinite if not valid
+    Eigen::MatrixXd jacobian;      ///< row = residual, column = coordinate; empty unless asked for
+    double misfit = 0;             ///< infinite if not valid
+    Eigen::VectorXd column_error;  ///< of a numeric jacobian from inspect(), relative; empty: rounding only
   };
 
   Objective(const Parameters& parameters, const Coordinates& coordinates, const ForwardSpec& forward,
             ResidualRows rows, Loss loss, RunControl& control);
 
   [[nodiscard]] const Evaluation& evaluate(const Eigen::VectorXd& u, bool with_jacobian);
-  /// The same without touching the count: for the report after a search.
+  /// The same without touching the count: for the report after a search. A numeric Jacobian costs twice as
+  /// much here, to know its error.
   [[nodiscard]] Evaluation inspect(const Eigen::VectorXd& u, bool with_jacobian) const;
 
   [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }

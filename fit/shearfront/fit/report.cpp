@@ -51,6 +51,38 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   return predicted;
 }
 
+double root_mean_square(const VectorXd& x, double freedom) { return std::sqrt(x.squaredNorm() / freedom); }
+
+/// From residuals of which most are noise, a few gross.
+double median_noise(const VectorXd& x, double freedom) {
+  std::vector<double> sizes;
+  for (const double r : x) sizes.push_back(std::abs(r));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  constexpr double kOfGaussian = 1.4826;
+  return kOfGaussian * *middle * std::sqrt(static_cast<double>(x.size()) / freedom);
+}
+
+/// Standard deviation of the noise of one observation. Rows made of several observations have correlated
+/// residuals, so there the residuals of the observations themselves are taken; those of points are gross
+/// where a shock is a little off.
+double estimated_noise(const FitSpec& spec, const Objective& objective, const VectorXd& residuals,
+                       const std::vector<double>& predicted, double freedom) {
+  if (!(freedom > 0)) return kNaN;
+  const bool is_robust = objective.loss().is_robust;
+  const auto& rows = objective.rows().rows;
+  if (std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.data.size() == 1; }))
+    return is_robust ? median_noise(residuals, freedom) : root_mean_square(residuals, freedom);
+  std::vector<double> own;
+  for (std::size_t k = 0; k < predicted.size(); ++k)
+    if (std::isfinite(predicted[k])) own.push_back(predicted[k] - spec.observations.rows[k].value);
+  const VectorXd e = VectorXd::Map(own.data(), static_cast<Index>(own.size()));
+  const double own_freedom = freedom + static_cast<double>(e.size() - residuals.size());
+  if (!(own_freedom > 0)) return kNaN;
+  return is_robust || spec.observations.quantity == Quantity::point ? median_noise(e, own_freedom)
+                                                                    : root_mean_square(e, own_freedom);
+}
+
 /// Gaussian log likelihood up to a constant that depends on the data alone.
 void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
   double chi2 = 0;
@@ -71,22 +103,19 @@ void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
   estimate.bic = chi2 + p * std::log(n);
 }
 
-void set_error_bars(const Objective& objective, const Covariance& covariance, const SearchResult& found,
+void set_error_bars(const Objective& objective, const Covariance& errors, const SearchResult& found,
                     double quantile, const Parameters& parameters, Estimate& estimate) {
-  const MatrixXd d = objective.coordinates().derivative(found.u);
-  // NaN times the zero derivative of an unrelated coordinate would spoil the others.
+  const MatrixXd cov = parameter_covariance(errors, objective.coordinates().derivative(found.u));
   const auto n = found.u.size();
-  MatrixXd cov = MatrixXd::Zero(n, n);
-  for (Index a = 0; a < n; ++a)
-    for (Index b = 0; b < n; ++b)
-      for (Index j = 0; j < n; ++j)
-        for (Index k = 0; k < n; ++k)
-          if (d(a, j) != 0 && d(b, k) != 0) cov(a, b) += d(a, j) * covariance.matrix(j, k) * d(b, k);
   estimate.correlation = MatrixXd::Constant(n, n, kNaN);
+  const auto has_error = [&](Index a) {
+    return !estimate.parameters[static_cast<std::size_t>(a)].at_bound && cov(a, a) > 0 &&
+           std::isfinite(cov(a, a));
+  };
   for (Index a = 0; a < n; ++a) {
+    if (!has_error(a)) continue;
     ParameterEstimate& parameter = estimate.parameters[static_cast<std::size_t>(a)];
     const double error = std::sqrt(cov(a, a));
-    if (!std::isfinite(error)) continue;
     parameter.std_error = error;
     if (parameters[static_cast<std::size_t>(a)].entry.range == Range::positive) {
       const double factor = std::exp(quantile * error / parameter.estimate);
@@ -94,7 +123,9 @@ void set_error_bars(const Objective& objective, const Covariance& covariance, co
     } else {
       parameter.ci95 = {parameter.estimate - quantile * error, parameter.estimate + quantile * error};
     }
-    for (Index b = 0; b < n; ++b) estimate.correlation(a, b) = cov(a, b) / std::sqrt(cov(a, a) * cov(b, b));
+    for (Index b = 0; b < n; ++b)
+      if (has_error(b))
+        estimate.correlation(a, b) = a == b ? 1 : cov(a, b) / std::sqrt(cov(a, a) * cov(b, b));
   }
 }
 
@@ -132,15 +163,19 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = values[static_cast<Index>(i)];
     estimate.parameters[i].estimate = value;
-    estimate.parameters[i].at_bound = held[i] || value <= parameters[i].lower || value >= parameters[i].upper;
+    estimate.parameters[i].at_bound = value <= parameters[i].lower || value >= parameters[i].upper;
   }
+  for (Index j = 0; j < found.u.size(); ++j)
+    if (held[static_cast<std::size_t>(j)])
+      for (const Index i : objective.coordinates().bound_together(j))
+        estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
   estimate.sigma_is_given = spec.observations.has_sigma();
   const double freedom = static_cast<double>(best.residuals.size()) -
                          static_cast<double>(std::count(held.begin(), held.end(), false));
   estimate.sigma = 1;
   double quantile = boost::math::quantile(boost::math::normal(), kTail);
   if (!estimate.sigma_is_given) {
-    estimate.sigma = freedom > 0 ? std::sqrt(best.residuals.squaredNorm() / freedom) : kNaN;
+    estimate.sigma = estimated_noise(spec, objective, best.residuals, estimate.predicted, freedom);
     if (freedom > 0) quantile = boost::math::quantile(boost::math::students_t(freedom), kTail);
   }
   const Covariance errors =
