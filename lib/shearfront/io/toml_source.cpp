@@ -157,6 +157,61 @@ std::optional<std::string> TableReader::text(std::string_view key, Need need, st
   return std::nullopt;
 }
 
+std::optional<std::string> TableReader::choice(std::string_view key, Need need,
+                                               const std::vector<std::string>& names) {
+  const std::string what = "must be one of: " + listed(names);
+  std::optional<std::string> name = text(key, need, what);
+  if (!name || std::find(names.begin(), names.end(), *name) != names.end()) return name;
+  const auto meant = nearest_name(*name, names);
+  add(*node(key), path(key), meant ? what + " (did you mean " + *meant + "?)" : what);
+  report_->spoil(path(key));
+  return std::nullopt;
+}
+
+std::optional<bool> TableReader::boolean(std::string_view key, Need need) {
+  constexpr std::string_view kWhat = "must be true or false";
+  const toml::node* node = request(key, need, kWhat);
+  if (!node) return std::nullopt;
+  if (const auto* value = node->as_boolean()) return value->get();
+  wrong_type(*node, path(key), kWhat);
+  return std::nullopt;
+}
+
+std::optional<unsigned long long> TableReader::count(std::string_view key, Need need, unsigned long long low,
+                                                     unsigned long long high) {
+  const std::string what =
+      "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  const toml::node* node = request(key, need, what);
+  if (!node) return std::nullopt;
+  std::optional<unsigned long long> n;
+  std::string literal(source_->literal(*node));
+  std::erase(literal, '_');
+  if (parse_decimal(literal))
+    n = parse_count(literal);
+  else if (const auto* integer = node->as_integer(); integer && integer->get() >= 0)  // 0x1f
+    n = static_cast<unsigned long long>(integer->get());
+  if (node->is_number() && n && *n >= low && *n <= high) return n;
+  wrong_type(*node, path(key), what);
+  return std::nullopt;
+}
+
+std::vector<std::string> TableReader::texts(std::string_view key, Need need, std::string_view what) {
+  std::vector<std::string> all;
+  const toml::node* node = request(key, need, what);
+  if (!node) return all;
+  const toml::array* array = node->as_array();
+  if (!array || is_array_of_tables(*array)) {
+    wrong_type(*node, path(key), what);
+    return all;
+  }
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (!text) wrong_type(element, path(key) + "[" + std::to_string(all.size()) + "]", "must be text", array);
+    all.push_back(text ? text->get() : "");
+  }
+  return all;
+}
+
 void TableReader::finish() {
   for (const auto& [key, node] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +20,9 @@ namespace shearfront {
 
 enum class GridKind { levels, singular_mapping };
 enum class Reconstruction { constant, linear };
+/// Their names in files and on the command line, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 2> kGridNames{"levels", "singular-mapping"};
+inline constexpr std::array<std::string_view, 2> kReconstructionNames{"constant", "linear"};
 
 /// Settings of all solvers; each reads those it knows.
 struct SolverOptions {

@@ -54,6 +54,15 @@ class TableReader {
   /// A table inside this one; `what` tells what it must be, for the message.
   [[nodiscard]] std::optional<TableReader> table(std::string_view key, Need need, std::string_view what);
   [[nodiscard]] std::optional<std::string> text(std::string_view key, Need need, std::string_view what);
+  /// One of these names; nothing if it is missing or wrong.
+  [[nodiscard]] std::optional<std::string> choice(std::string_view key, Need need,
+                                                  const std::vector<std::string>& names);
+  [[nodiscard]] std::optional<bool> boolean(std::string_view key, Need need);
+  /// A whole number from `low` to `high`; 1e6 is one, too. Nothing if it is missing or wrong.
+  [[nodiscard]] std::optional<unsigned long long> count(std::string_view key, Need need,
+                                                        unsigned long long low, unsigned long long high);
+  /// An array of text, with "" for each element that is wrong.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key, Need need, std::string_view what);
   /// A number; NaN if it is missing or wrong (the report then has its key), untouched if optional and
   /// missing.
   template <Real S>
@@ -91,6 +100,10 @@ class TableReader {
   void add(const toml::node& node, const std::string& key, std::string_view constraint,
            const toml::node* around = nullptr);
   [[nodiscard]] const toml::node* node(std::string_view key) const { return table_->get(key); }
+  /// Whether the entry is there and nothing was wrong with it so far.
+  [[nodiscard]] bool is_good(std::string_view key) const {
+    return node(key) && !report_->is_spoiled(path(key));
+  }
 
  private:
   static bool is_array_of_tables(const toml::array& array);

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/fit_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shearfront/fit/forward.hpp"
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/parameters.hpp"
+#include "shearfront/fit/search/search.hpp"
+#include "shearfront/io/detail/toml_source.hpp"
+#include "shearfront/io/observations_csv.hpp"
+#include "shearfront/io/scene_file.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using detail::ProblemReport;
+using detail::TableReader;
+using detail::TomlSource;
+using Need = TableReader::Need;
+
+constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'000'000,
+                             kMostReplicates = 1'000'000, kMostThreads = 1024, kMostLayers = 1'000'000,
+                             kLargestSeed = std::numeric_limits<long long>::max();
+
+/// The stopping rule of Buerger, Martinez & Villada (2023): both tolerances 1e-3.
+constexpr double kPaperTolerance = 1e-3;
+constexpr std::size_t kPaperEvaluations = 2000;
+
+template <class Names>
+std::vector<std::string> strings(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
+template <class List>
+std::vector<std::string> names_in() {
+  std::vector<std::string> names;
+  List::for_each([&]<class Member>() { names.emplace_back(Member::kName); });
+  return names;
+}
+
+/// Puts a problem where its entry stands in the file, with the number as it is written there.
+void add_located(const TomlSource& source, ProblemReport& report, Problem problem) {
+  const TomlSource::Found found = source.find(problem.key);
+  if (found.is_exact && found.node->is_number()) problem.value = source.shown(*found.node);
+  report.add(TomlSource::position(*found.node), TomlSource::shown_position(*found.node, found.around),
+             std::move(problem));
+}
+
+class FitReader {
+ public:
+  explicit FitReader(const TomlSource& source) : source_(source), report_(source.name()) {}
+
+  FitFile read() {
+    TableReader root(source_, report_, "", source_.root());
+    const auto name = root.text("name", Need::optional, "must be text");
+    const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
+    const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
+    if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
+      unknown(*table);
+    if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
+    if (auto table = root.table("misfit", Need::optional, "must be a table with quantity and loss"))
+      misfit(*table);
+    if (auto table = root.table("search", Need::optional, "must be a table with algorithm")) search(*table);
+    if (auto table = root.table("uncertainty", Need::optional, "must be a table with profile and bootstrap"))
+      uncertainty(*table);
+    root.finish();
+
+    if (scene_path) load("scene", *scene_path, [&] { scene_ = read_scene<double>(*scene_path); });
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
+    if (data_path)
+      load("observations", *data_path, [&] { data_ = read_observations(*data_path, bottom, top); });
+    check_unknown();
+    check_quantity();
+    throw_if_any();
+    return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
+                    std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
+                    std::move(search_), uncertainty_},
+            *scene_path, *data_path};
+  }
+
+ private:
+  std::optional<std::string> file_name(TableReader& root, std::string_view key, std::string_view what) {
+    const auto name = root.text(key, Need::required, what);
+    if (!name) return std::nullopt;
+    if (name->empty() || name->find('\0') != std::string::npos) {
+      root.add(*root.node(key), root.path(key), what);
+      return std::nullopt;
+    }
+    return (std::filesystem::path(source_.name()).parent_path() / *name).string();
+  }
+
+  void unknown(TableReader& table) {
+    unknown_.parameters = table.texts("parameters", Need::required, "must be an array of names of entries");
+    numbers(table, "start", unknown_.start, false);
+    numbers(table, "lower", unknown_.lower, true);
+    numbers(table, "upper", unknown_.upper, true);
+    const std::vector<std::string> shapes{"none", "decreasing", "convex"};
+    if (const auto name = table.choice("shape", Need::optional, shapes))
+      unknown_.shape = static_cast<Shape>(std::find(shapes.begin(), shapes.end(), *name) - shapes.begin());
+    table.finish();
+  }
+
+  /// One number per unknown; bounds may be infinite.
+  void numbers(TableReader& table, std::string_view key, std::vector<double>& values, bool may_be_infinite) {
+    table.number(key, Need::optional, values);
+    const std::string path = table.path(key);
+    if (!table.is_good(key)) {
+      if (table.node(key)) has_bad_numbers_ = true;
+      return;
+    }
+    if (values.empty())
+      add({path, "(0 entries)", "must have one number per unknown, or be left out"});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string element = path + "[" + std::to_string(i) + "]";
+      const bool is_spoiled = report_.is_spoiled(element);
+      const bool is_bad = std::isnan(values[i]) || (std::isinf(values[i]) && !may_be_infinite);
+      if (is_bad && !is_spoiled)
+        add({element, "", may_be_infinite ? "must be a number or inf" : "must be a finite number"});
+      has_bad_numbers_ = has_bad_numbers_ || is_spoiled || is_bad;
+    }
+  }
+
+  void forward(TableReader& table) {
+    SolverOptions& options = forward_.options;
+    if (auto name = table.choice("method", Need::optional, forward_names())) forward_.method = *name;
+    number_from_0_to_1(table, "resolution", options.resolution);
+    if (const auto n = table.count("layers", Need::optional, 1, kMostLayers))
+      options.layers = static_cast<std::size_t>(*n);
+    choose(table, "grid", kGridNames, options.grid);
+    choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
+    table.finish();
+  }
+
+  /// An enumerator by its name; `names` are in the order of the enumerators.
+  template <class Names, class Enum>
+  void choose(TableReader& table, std::string_view key, const Names& names, Enum& value) {
+    if (const auto name = table.choice(key, Need::optional, strings(names)))
+      value = static_cast<Enum>(std::find(names.begin(), names.end(), *name) - names.begin());
+  }
+
+  void number_from_0_to_1(TableReader& table, std::string_view key, double& value) {
+    table.number(key, Need::optional, value);
+    if (table.is_good(key) && !(value > 0 && value <= 1)) add({table.path(key), "", "must be > 0 and <= 1"});
+  }
+
+  void misfit(TableReader& table) {
+    misfit_.quantity = table.choice("quantity", Need::optional, names_in<MisfitList>()).value_or("");
+    misfit_.loss = table.choice("loss", Need::optional, names_in<LossList>()).value_or("");
+    double scale = 0;
+    table.number("loss_scale", Need::optional, scale);
+    if (table.is_good("loss_scale")) {
+      misfit_.loss_scale = scale;
+      if (!(scale > 0 && std::isfinite(scale)))
+        add({table.path("loss_scale"), "", "must be > 0 (in units of sigma)"});
+    }
+    misfit_.two_stage = table.boolean("two_stage", Need::optional);
+    table.finish();
+  }
+
+  void search(TableReader& table) {
+    if (auto name = table.choice("algorithm", Need::optional, algorithm_names())) search_.algorithm = *name;
+    if (table.choice("settings", Need::optional, {"default", "paper"}).value_or("") == "paper") {
+      search_.tolerance = kPaperTolerance;
+      search_.max_evaluations = kPaperEvaluations;
+    }
+    if (const auto n = table.count("starts", Need::optional, 1, kMostStarts))
+      search_.starts = static_cast<std::size_t>(*n);
+    if (const auto n = table.count("seed", Need::optional, 0, kLargestSeed)) search_.seed = *n;
+    if (const auto n = table.count("max_evaluations", Need::optional, 1, kMostEvaluations))
+      search_.max_evaluations = static_cast<std::size_t>(*n);
+    table.number("tolerance", Need::optional, search_.tolerance);
+    if (table.is_good("tolerance") && !(search_.tolerance > 0 && search_.tolerance < 1))
+      add({table.path("tolerance"), "", "must be > 0 and < 1"});
+    table.finish();
+  }
+
+  void uncertainty(TableReader& table) {
+    uncertainty_.profile = table.boolean("profile", Need::optional).value_or(false);
+    if (const auto n = table.count("bootstrap", Need::optional, 0, kMostReplicates))
+      uncertainty_.bootstrap = static_cast<std::size_t>(*n);
+    if (const auto n = table.count("seed", Need::optional, 0, kLargestSeed)) uncertainty_.seed = *n;
+    if (const auto n = table.count("threads", Need::optional, 0, kMostThreads))
+      uncertainty_.threads = static_cast<std::size_t>(*n);
+    table.finish();
+  }
+
+  /// Reads another file. One that cannot be read at all is a problem of the entry that names it; problems
+  /// inside it are its own.
+  template <class Read>
+  void load(const char* key, const std::string& path, Read&& read) {
+    try {
+      read();
+    } catch (const FileError& error) {
+      const Problem& first = error.problems().front();
+      if (first.key != printable(path) || !first.value.empty())
+        others_.push_back(error);
+      else
+        add({key, source_.shown(*source_.find(key).node), first.constraint});
+    }
+  }
+
+  /// Unknowns against the scene. Numbers that could not be read are left out, and so is what follows from it.
+  void check_unknown() {
+    if (!scene_ || report_.is_spoiled("unknown.parameters") || !source_.find("unknown.parameters").is_exact)
+      return;
+    UnknownSpec unknown = unknown_;
+    if (has_bad_numbers_) unknown.start = unknown.lower = unknown.upper = {};
+    try {
+      (void)Parameters(*scene_, unknown);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) {
+        if (report_.is_spoiled(problem.key)) continue;
+        if (has_bad_numbers_ && problem.key.find("unknown.parameters") == std::string::npos) continue;
+        add(problem);
+      }
+    }
+  }
+
+  void check_quantity() {
+    if (!data_) return;
+    MisfitList::for_each([&]<class M>() {
+      if (misfit_.quantity != M::kName) return;
+      if (const std::string refusal = M::refusal(*data_); !refusal.empty())
+        add({"misfit.quantity", quoted_text(M::kName), refusal});
+    });
+  }
+
+  void throw_if_any() {
+    Problems problems;
+    std::string text;
+    const auto take = [&](const FileError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      text += (text.empty() ? "" : "\n") + std::string(error.what());
+    };
+    try {
+      report_.throw_if_any();
+    } catch (const FileError& error) {
+      take(error);
+    }
+    for (const FileError& error : others_) take(error);
+    if (!problems.empty()) throw FileError(std::move(problems), std::move(text));
+  }
+
+  void add(Problem problem) { add_located(source_, report_, std::move(problem)); }
+
+  const TomlSource& source_;
+  ProblemReport report_;
+  std::vector<FileError> others_;  ///< of the scene and of the observations
+  std::optional<Scene<double>> scene_;
+  std::optional<Observations> data_;
+  UnknownSpec unknown_;
+  ForwardSpec forward_;
+  MisfitSpec misfit_;
+  SearchSpec search_;
+  UncertaintySpec uncertainty_;
+  bool has_bad_numbers_ = false;  ///< in start, lower or upper
+};
+
+}  // namespace
+
+FitFile parse_fit(std::string text, const std::string& file) {
+  return FitReader(TomlSource(detail::TextSource(file, std::move(text)))).read();
+}
+
+FitFile read_fit_file(const std::string& path) {
+  return FitReader(TomlSource(detail::TextSource::read(path))).read();
+}
+
+FitSpec read_fit(const std::string& path) { return read_fit_file(path).spec; }
+
+std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path) {
+  detail::TextSource text = detail::TextSource::read(path);
+  const TomlSource source(text);
+  for (const char* key : {"scene", "observations", "unknown"})
+    if (source.root().contains(key)) return FitReader(source).read();
+  return parse_scene<double>(text.text(), path);
+}
+
+FileError located(const InputError& error, const std::string& path) {
+  try {
+    const TomlSource source(detail::TextSource::read(path));
+    ProblemReport report(path);
+    for (const Problem& problem : error.problems()) add_located(source, report, problem);
+    report.throw_if_any();
+  } catch (const FileError& with_places) {
+    return with_places;
+  }
+  return {error.problems(), error.what()};
+}
+
+}  // namespace shearfront::fit

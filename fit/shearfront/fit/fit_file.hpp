@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <variant>
+
+#include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/io/file_error.hpp"
+
+/// Fit files (TOML; the format is described in docs/formats).
+namespace shearfront::fit {
+
+/// A fit file with the names of the files it refers to, as they are opened.
+struct FitFile {
+  FitSpec spec;
+  std::string scene, observations;
+};
+
+/// Reads a fit file, its scene and its observations; their names are relative to the fit file.
+///
+/// Guaranteed:
+///   (1) every problem is reported, one line each: those of the fit file in its order, then those of the
+///       scene and of the observations, each with the name of its file, line and column;
+///   (2) what holds between the files is checked as well: unknowns exist in the scene, start values lie
+///       between their bounds and make a valid scene, the observations can be compared as asked.
+/// A fit without a name gets that of the file. Errors: FileError (an InputError). Cost: that of the files.
+[[nodiscard]] FitFile read_fit_file(const std::string& path);
+[[nodiscard]] FitSpec read_fit(const std::string& path);
+
+/// The same from a text; `file` is the name used in messages, its folder that of the other files.
+[[nodiscard]] FitFile parse_fit(std::string text, const std::string& file);
+
+/// A scene file or a fit file, told apart by the keys at the top: only a fit file has scene, observations or
+/// unknown. Errors: FileError.
+[[nodiscard]] std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path);
+
+/// A refusal of fit() with the places of its entries in the fit file it was read from.
+[[nodiscard]] FileError located(const InputError& error, const std::string& path);
+
+}  // namespace shearfront::fit
