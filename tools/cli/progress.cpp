@@ -29,12 +29,23 @@ std::function<bool(double, std::uint64_t)> ProgressLine::callback() {
 }
 
 void ProgressLine::show(double t, std::uint64_t work) {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < kPeriod) return;
-  last_ = now;
-  is_shown_ = true;
+  if (!is_due()) return;
   fmt::print(stderr, "\r\x1b[Kt = {:.6g}, {} events or cell updates", t, work);
   std::fflush(stderr);
+}
+
+void ProgressLine::show_search(std::size_t evaluations, double misfit) {
+  if (!is_terminal_ || !is_due()) return;
+  fmt::print(stderr, "\r\x1b[K{} evaluations, best misfit {:.6g}", evaluations, misfit);
+  std::fflush(stderr);
+}
+
+bool ProgressLine::is_due() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kPeriod) return false;
+  last_ = now;
+  is_shown_ = true;
+  return true;
 }
 
 }  // namespace shearfront::tools

@@ -57,10 +57,8 @@ class Run {
         parameters_(spec.scene, spec.unknown),
         coordinates_(parameters_),
         control_(spec.search.max_evaluations, progress),
-        quantity_(spec.misfit.quantity.empty() ? name_of(spec.observations.quantity) : spec.misfit.quantity),
-        loss_name_(!spec.misfit.loss.empty() ? spec.misfit.loss
-                   : quantity_ == "point"    ? HuberLoss::kName
-                                             : SquaredLoss::kName),
+        quantity_(quantity_of(spec)),
+        loss_name_(loss_of(spec)),
         loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))) {
     const auto names = algorithm_names();
     if (std::find(names.begin(), names.end(), spec.search.algorithm) == names.end())
@@ -166,6 +164,16 @@ class Run {
 };
 
 }  // namespace
+
+std::string_view quantity_of(const FitSpec& spec) {
+  if (spec.misfit.quantity.empty()) return name_of(spec.observations.quantity);
+  return spec.misfit.quantity;
+}
+
+std::string_view loss_of(const FitSpec& spec) {
+  if (!spec.misfit.loss.empty()) return spec.misfit.loss;
+  return quantity_of(spec) == PointMisfit::kName ? HuberLoss::kName : SquaredLoss::kName;
+}
 
 Estimate fit(const FitSpec& spec, const Progress& progress) { return Run(spec, progress)(); }
 

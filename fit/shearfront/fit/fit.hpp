@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string_view>
+
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/fit/run_control.hpp"
@@ -18,5 +20,9 @@ namespace shearfront::fit {
 /// InputError for what holds between entries of the specification (keys as in a fit file). Cost: evaluations
 /// x one run of the forward model; exact engine, 2000 observations: about 1 ms each.
 [[nodiscard]] Estimate fit(const FitSpec& spec, const Progress& progress = {});
+
+/// What a fit compares and how residuals count: names of MisfitList and LossList, defaults resolved.
+[[nodiscard]] std::string_view quantity_of(const FitSpec& spec);
+[[nodiscard]] std::string_view loss_of(const FitSpec& spec);
 
 }  // namespace shearfront::fit

@@ -29,7 +29,7 @@ using Need = TableReader::Need;
 
 constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'000'000,
                              kMostReplicates = 1'000'000, kMostThreads = 1024, kMostLayers = 1'000'000,
-                             kLargestSeed = std::numeric_limits<long long>::max();
+                             kMostCells = 100'000'000, kLargestSeed = std::numeric_limits<long long>::max();
 
 /// The stopping rule of Buerger, Martinez & Villada (2023): both tolerances 1e-3.
 constexpr double kPaperTolerance = 1e-3;
@@ -118,8 +118,7 @@ class FitReader {
       if (table.node(key)) has_bad_numbers_ = true;
       return;
     }
-    if (values.empty())
-      add({path, "(0 entries)", "must have one number per unknown, or be left out"});
+    if (values.empty()) add({path, "(0 entries)", "must have one number per unknown, or be left out"});
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string element = path + "[" + std::to_string(i) + "]";
       const bool is_spoiled = report_.is_spoiled(element);
@@ -136,6 +135,9 @@ class FitReader {
     number_from_0_to_1(table, "resolution", options.resolution);
     if (const auto n = table.count("layers", Need::optional, 1, kMostLayers))
       options.layers = static_cast<std::size_t>(*n);
+    if (const auto n = table.count("cells", Need::optional, 1, kMostCells))
+      options.cells = static_cast<std::size_t>(*n);
+    number_from_0_to_1(table, "cfl", options.cfl);
     choose(table, "grid", kGridNames, options.grid);
     choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
     table.finish();

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/fit_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/table.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+/// Enough digits to see two of the standard error.
+int digits_of(const fit::ParameterEstimate& p) {
+  constexpr int kWithoutError = 6, kFewest = 4, kMost = 16;
+  if (!p.std_error || !(*p.std_error > 0) || p.estimate == 0) return kWithoutError;
+  const double places =
+      std::floor(std::log10(std::abs(p.estimate))) - std::floor(std::log10(*p.std_error)) + 2;
+  return static_cast<int>(std::clamp<double>(places, kFewest, kMost));
+}
+
+std::string interval_text(const std::optional<fit::Interval>& i, int digits) {
+  return i ? fmt::format("{:.{}g} to {:.{}g}", i->low, digits, i->high, digits) : "";
+}
+
+std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::string(); }
+
+}  // namespace
+
+std::string estimate_text(const fit::Estimate& estimate) {
+  std::string text =
+      fmt::format("{} ({}, {})\n\n", printable(estimate.name, 100), estimate.method, estimate.algorithm);
+  TextTable table({"parameter", "start", "estimate", "std error", "95 % interval", "profile 95 %",
+                   "bootstrap 95 %", "remark"});
+  for (const fit::ParameterEstimate& p : estimate.parameters) {
+    const int digits = digits_of(p);
+    table.add({p.name, number_text(p.start), fmt::format("{:.{}g}", p.estimate, digits),
+               p.std_error ? fmt::format("{:.2g}", *p.std_error) : "none", interval_text(p.ci95, digits),
+               interval_text(p.profile95, digits), interval_text(p.bootstrap95, digits),
+               p.at_bound ? "at bound" : ""});
+  }
+  text += table.text();
+  text += fmt::format("\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {:.3g} ({})\n", estimate.misfit,
+                      estimate.quantity, estimate.loss, estimate.residual_norm, estimate.sigma,
+                      estimate.sigma_is_given ? "in units of the given sigma" : "estimated");
+  if (estimate.aic && estimate.bic)
+    text += fmt::format("AIC {:.6g}, BIC {:.6g}\n", *estimate.aic, *estimate.bic);
+  text += fmt::format("{} observations", estimate.observations);
+  if (estimate.left_out > 0) text += fmt::format(" ({} more near shocks left out)", estimate.left_out);
+  return text + fmt::format(", {} evaluations, {} iterations, {:.3g} s\n", estimate.evaluations,
+                            estimate.iterations, estimate.wall_s);
+}
+
+void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate) {
+  constexpr std::size_t kBlock = 1 << 16;
+  const bool has_sigma = observations.has_sigma();
+  std::string rows =
+      has_sigma ? "t,z,observed,predicted,residual,sigma\n" : "t,z,observed,predicted,residual\n";
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    const Observation& o = observations.rows[i];
+    const double predicted = estimate.predicted[i];
+    rows += field(o.t);
+    for (const double x : {o.z, o.value, predicted, o.value - predicted}) (rows += ',') += field(x);
+    if (has_sigma) (rows += ',') += field(o.sigma);
+    rows += '\n';
+    if (rows.size() < kBlock) continue;
+    file.write(rows);
+    rows.clear();
+  }
+  file.write(rows);
+}
+
+}  // namespace shearfront::tools

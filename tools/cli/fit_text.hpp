@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/io/output_file.hpp"
+
+/// Estimates for people and spreadsheets.
+namespace shearfront::tools {
+
+/// Table of the parameters and lines about the whole fit. Estimates have the digits that their standard
+/// errors leave, the errors two.
+[[nodiscard]] std::string estimate_text(const fit::Estimate& estimate);
+
+/// Header t,z,observed,predicted,residual, with sigma if the data have it: residual = observed - predicted in
+/// the unit of the data. One row per observation in the order of the data; empty without prediction.
+void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate);
+
+}  // namespace shearfront::tools

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/comparison.hpp"
+#include "cli/fit_text.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "shearfront/fit/estimate_json.hpp"
+#include "shearfront/fit/fit_file.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+struct FitArguments {
+  std::vector<std::string> files;
+  std::string output;
+  bool json = false;
+};
+
+/// All files, with the problems of all of them.
+std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
+  std::vector<fit::FitFile> files;
+  Problems problems;
+  std::string report;
+  for (const std::string& path : paths) {
+    try {
+      files.push_back(fit::read_fit_file(path));
+    } catch (const FileError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      report += (report.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!problems.empty()) throw FileError(std::move(problems), std::move(report));
+  return files;
+}
+
+fit::Estimate run(const fit::FitSpec& spec, const std::string& path) {
+  ProgressLine line;
+  try {
+    return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
+      line.show_search(evaluations, misfit);
+      return !InterruptGuard::is_interrupted();
+    });
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw fit::located(error, path);
+  }
+}
+
+/// Remarks on standard error; `who` tells several fits apart.
+int report_outcome(const fit::Estimate& estimate, const std::string& who) {
+  if (!estimate.usable()) {
+    fmt::print(stderr, "shearfront: {}no result ({}): {}\n", who, name_of(estimate.status),
+               printable(estimate.message));
+    return kNoResult;
+  }
+  if (estimate.status != Status::ok)
+    note(fmt::format("{}{}: {}", who, name_of(estimate.status), printable(estimate.message)));
+  for (const std::string& warning : estimate.warnings) note(who + printable(warning, 500));
+  return kDone;
+}
+
+/// Names that tell the models apart: their own, or those of the files.
+std::vector<std::string> model_names(const std::vector<std::string>& paths,
+                                     const std::vector<fit::Estimate>& estimates) {
+  std::vector<std::string> names;
+  for (const fit::Estimate& estimate : estimates) names.push_back(estimate.name);
+  std::vector<std::string> sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? names : paths;
+}
+
+int print_one(const fit::Estimate& estimate, bool json) {
+  OutputFile out("-");
+  if (json)
+    out.write(estimate_json(estimate) + "\n");
+  else if (estimate.usable())
+    out.write(estimate_text(estimate));
+  out.commit();
+  return report_outcome(estimate, "");
+}
+
+int print_several(const std::vector<std::string>& names, const std::vector<fit::Estimate>& estimates,
+                  bool json) {
+  OutputFile out("-");
+  const auto models = compare_models(names, estimates);
+  if (json) {
+    std::string all;
+    for (const fit::Estimate& estimate : estimates)
+      all += (all.empty() ? "" : ",\n") + estimate_json(estimate, "    ");
+    out.write(fmt::format("{{\n  \"fits\": [\n{}\n  ],\n  \"comparison\": {}\n}}\n", all,
+                          comparison_json(models, "  ")));
+  } else {
+    for (const fit::Estimate& estimate : estimates)
+      if (estimate.usable()) out.write(estimate_text(estimate) + "\n");
+    out.write(comparison_text(models));
+  }
+  out.commit();
+  int code = kDone;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    code = std::max(code, report_outcome(estimates[i], printable(names[i], 100) + ": "));
+  return code;
+}
+
+int fit_files(const FitArguments& arguments) {
+  const bool is_one = arguments.files.size() == 1;
+  if (!is_one && !arguments.output.empty()) refuse("-o", arguments.output, "needs a single fit file");
+  const std::vector<fit::FitFile> files = read_files(arguments.files);
+  std::vector<fit::FitSpec> specs;
+  for (const fit::FitFile& file : files) specs.push_back(file.spec);
+  check_comparable(arguments.files, specs);
+  for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
+    check_outputs(input, {{"", "-"}, {"-o", arguments.output}});
+  std::optional<OutputFile> output;
+  if (!arguments.output.empty()) output.emplace(arguments.output);
+  for (const fit::FitSpec& spec : specs)
+    for (const std::string& remark : spec.observations.notes) fmt::print(stderr, "{}\n", remark);
+
+  const InterruptGuard guard;
+  std::vector<fit::Estimate> estimates;
+  for (std::size_t i = 0; i < specs.size(); ++i) estimates.push_back(run(specs[i], arguments.files[i]));
+  if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
+  const fit::Estimate& estimate = estimates.front();
+  if (output && estimate.usable()) {
+    write_residuals_csv(*output, specs[0].observations, estimate);
+    output->commit();
+  }
+  return print_one(estimate, arguments.json);
+}
+
+}  // namespace
+
+Command add_fit(CLI::App& program) {
+  const auto arguments = std::make_shared<FitArguments>();
+  CLI::App* app = program.add_subcommand(
+      "fit", "Find entries of a scene from observations; several fit files are compared as models");
+  app->add_option("FIT", arguments->files, "fit files")->type_name("")->required();
+  app->add_option("-o", arguments->output, "observed and predicted values and residuals as CSV")
+      ->type_name("FILE");
+  app->add_flag("--json", arguments->json, "print JSON");
+  app->footer(
+      "Ctrl-C ends the search with the best point so far (status interrupted); a second one ends the "
+      "program.");
+  return {app, "FIT...", [arguments] { return fit_files(*arguments); }};
+}
+
+}  // namespace shearfront::tools
