@@ -23,16 +23,29 @@ using Eigen::VectorXd;
 
 /// Residuals at rounding level say nothing about noise: no scale is taken from them.
 constexpr double kRounding = 1e-11;
+/// Every row agrees: no jump is on the wrong side of an observation.
+constexpr double kExact = 1e-9;
 constexpr int kMostRenewals = 6;
+/// Relative tolerance of the first stages: only a start for the last one.
+constexpr double kNear = 1e-2;
+/// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
+constexpr double kForgiven = 0.1;
+/// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
+/// robust fit goes through some of the data.
+constexpr int kMostScales = 3;
 /// The scale of a robust loss need not be better known than this.
 constexpr double kScaleTolerance = 0.05;
 
-double median_noise(const VectorXd& residuals) {
-  std::vector<double> sizes(residuals.begin(), residuals.end());
-  for (double& r : sizes) r = std::abs(r);
+/// Standard deviation of a Gaussian with the median absolute residual of the rows that depend on the
+/// coordinates; the others (beds at rest, all of one kind) may fit exactly and say nothing.
+double median_noise(const Objective::Evaluation& at) {
+  std::vector<double> sizes;
+  for (Eigen::Index i = 0; i < at.residuals.size(); ++i)
+    if ((at.jacobian.row(i).array() != 0).any()) sizes.push_back(std::abs(at.residuals[i]));
+  if (sizes.empty()) return 0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;  // of a Gaussian
+  return 1.4826 * *middle;
 }
 
 ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
@@ -47,6 +60,21 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
   return rows;
+}
+
+void set_weights(ResidualRows& rows, double weight) {
+  for (ResidualRows::Row& row : rows.rows) row.weight = weight;
+}
+
+/// Mean distance of neighbouring heights of one time.
+double mean_spacing(const Observations& observations) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const MeasuredProfile& profile : measured_profiles(observations)) {
+    sum += observations.rows[profile.rows.back()].z - observations.rows[profile.rows.front()].z;
+    n += profile.rows.size() - 1;
+  }
+  return n > 0 ? sum / static_cast<double>(n) : 1;
 }
 
 /// One fit from start to minimum; the report is made elsewhere.
@@ -67,40 +95,19 @@ class Run {
 
   Estimate operator()() {
     const auto begin = std::chrono::steady_clock::now();
-    ResidualRows all = rows_of(quantity_, spec_);
-    VectorXd u = coordinates_.coordinates(parameters_.start());
-    std::unique_ptr<Objective> objective;
-    SearchResult result;
-    std::size_t iterations = 0, left_out = 0;
-    if (is_two_stage()) {
-      Objective sums(parameters_, coordinates_, spec_.forward, rows_of(CumulativeMisfit::kName, spec_),
-                     find_loss(SquaredLoss::kName, 0), control_);
-      SearchSpec near = spec_.search;
-      near.tolerance = std::max(near.tolerance, 1e-6);  // sums of points are not exact anyway
-      result = search(sums, u, near);
-      iterations += result.iterations;
-      u = result.u;
-      std::vector<bool> keep;
-      for (int round = 0; round < kMostRenewals && !control_.must_stop(); ++round) {
-        std::vector<bool> now =
-            rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u));
-        if (now == keep) break;
-        keep = std::move(now);
-        objective = make_objective(all.selected(keep));
-        result = minimise(*objective, u, round == 0 ? SearchSpec(spec_.search) : local());
-        iterations += result.iterations;
-        u = result.u;
-      }
-      left_out = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
+    u_ = coordinates_.coordinates(parameters_.start());
+    const bool stages = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm));
+    if (stages && quantity_ != CumulativeMisfit::kName) approach();
+    ResidualRows rows = rows_of(quantity_, spec_);
+    if (stages && quantity_ == PointMisfit::kName) {
+      fit_without_jumps(rows);
+    } else {
+      objective_ = make_objective(std::move(rows), loss_);
+      minimise();
     }
-    if (!objective) {
-      objective = make_objective(std::move(all));
-      result = minimise(*objective, u, spec_.search);
-      iterations += result.iterations;
-    }
-    Estimate estimate = report(spec_, parameters_, *objective, result);
-    estimate.iterations = iterations;
-    estimate.left_out = left_out;
+    Estimate estimate = report(spec_, parameters_, *objective_, result_);
+    estimate.iterations = iterations_;
+    estimate.left_out = left_out_;
     estimate.quantity = quantity_;
     estimate.loss = loss_name_;
     estimate.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -113,46 +120,77 @@ class Run {
     for (const std::string& name : algorithm_names()) all += (all.empty() ? "" : ", ") + name;
     throw InputError("search.algorithm", quoted_text(spec_.search.algorithm), "must be one of: " + all);
   }
-  [[nodiscard]] bool is_two_stage() const {
-    return quantity_ == PointMisfit::kName && CumulativeMisfit::refusal(spec_.observations).empty() &&
-           spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm));
-  }
-  [[nodiscard]] std::unique_ptr<Objective> make_objective(ResidualRows rows) {
+  [[nodiscard]] std::unique_ptr<Objective> make_objective(ResidualRows rows, const Loss& loss) {
     control_.new_stage();
-    return std::make_unique<Objective>(parameters_, coordinates_, spec_.forward, std::move(rows), loss_,
+    return std::make_unique<Objective>(parameters_, coordinates_, spec_.forward, std::move(rows), loss,
                                        control_);
   }
-  [[nodiscard]] SearchSpec local() const {
-    SearchSpec local = spec_.search;
-    if (local.algorithm == "global") local.algorithm = "ceres";
-    local.starts = 1;
-    return local;
+
+  /// The search asked for the first time, afterwards only its local part from where it ended.
+  void search_from_here(Objective& objective, double tolerance) {
+    SearchSpec how = spec_.search;
+    how.tolerance = std::max(how.tolerance, tolerance);
+    if (has_searched_) {
+      if (how.algorithm == "global") how.algorithm = "ceres";
+      how.starts = 1;
+    }
+    has_searched_ = true;
+    result_ = search(objective, u_, how);
+    iterations_ += result_.iterations;
+    u_ = result_.u;
+  }
+
+  /// Comes near the minimum through misfits that vary more smoothly with the parameters than the one asked
+  /// for.
+  void approach() {
+    if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
+    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_);
+    const bool is_point = spec_.observations.quantity == Quantity::point;
+    // Sums of points are wrong by about the spacing at every shock, whatever the noise.
+    if (is_point) set_weights(sums, 1 / mean_spacing(spec_.observations));
+    const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
+    if (is_point) first->set_tether(u_, 1);
+    search_from_here(*first, kNear);
+    if (!is_point || control_.must_stop()) return;
+    // Wrong in the cells of a shock only, where the loss forgives it.
+    ResidualRows means = rows_of(BinMisfit::kName, spec_);
+    set_weights(means, 1);
+    search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
+  }
+
+  /// The point misfit without the rows that a jump is near, renewed until these stay.
+  void fit_without_jumps(const ResidualRows& rows) {
+    std::vector<bool> keep;
+    for (int round = 0; round < kMostRenewals; ++round) {
+      std::vector<bool> now =
+          rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
+      if (now == keep || (round > 0 && control_.must_stop())) break;
+      keep = std::move(now);
+      objective_ = make_objective(rows.selected(keep), loss_);
+      minimise();
+      const Objective::Evaluation& at = objective_->evaluate(u_, true);
+      if (at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact) break;
+    }
+    left_out_ = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
   }
 
   /// A robust loss needs the noise to know what is gross: if the data do not give it, it is taken from the
   /// residuals and renewed until it stays.
-  [[nodiscard]] SearchResult minimise(Objective& objective, const VectorXd& start, const SearchSpec& how) {
-    if (!loss_.is_robust || spec_.observations.has_sigma()) return search(objective, start, how);
-    SearchResult result;
-    VectorXd u = start;
+  void minimise() {
+    if (!loss_.is_robust || spec_.observations.has_sigma()) return search_from_here(*objective_, 0);
     double noise = 0;
-    std::size_t iterations = 0;
-    for (int round = 0; round < kMostRenewals; ++round) {
-      const Objective::Evaluation& at = objective.evaluate(u, false);
-      const double now = at.is_valid ? std::max(median_noise(at.residuals), kRounding) : 1;
+    for (int round = 0; round < kMostScales; ++round) {
+      const Objective::Evaluation& at = objective_->evaluate(u_, true);
+      const double now = at.is_valid ? std::max(median_noise(at), kRounding) : 1;
       if (round > 0 && (now <= kRounding || std::abs(now - noise) <= kScaleTolerance * noise)) break;
       noise = now;
       Loss loss = loss_;
       loss.scale *= noise;
-      objective.set_loss(loss);
+      objective_->set_loss(loss);
       control_.new_stage();
-      result = search(objective, u, round == 0 ? how : local());
-      iterations += result.iterations;
-      u = result.u;
+      search_from_here(*objective_, 0);
       if (control_.must_stop()) break;
     }
-    result.iterations = iterations;
-    return result;
   }
 
   const FitSpec& spec_;
@@ -161,6 +199,11 @@ class Run {
   RunControl control_;
   std::string quantity_, loss_name_;
   Loss loss_;
+  std::unique_ptr<Objective> objective_;
+  Eigen::VectorXd u_;
+  SearchResult result_;
+  bool has_searched_ = false;
+  std::size_t iterations_ = 0, left_out_ = 0;
 };
 
 }  // namespace

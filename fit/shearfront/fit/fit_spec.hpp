@@ -40,8 +40,9 @@ struct MisfitSpec {
   std::string loss;      ///< name of LossList; empty: squared, for point data huber
   std::optional<double>
       loss_scale;  ///< residual (in units of sigma) where a robust loss bends; default per loss
-  /// Point data are first fitted through their sums over z, which vary smoothly, then as points without those
-  /// a shock is passing. false: fitted as points at once. Empty: true if the search uses derivatives.
+  /// Points and bins are first fitted through sums over z, which vary smoothly with the parameters; points
+  /// then through means with a forgiving loss, and at last as points without those a jump is near. false: at
+  /// once as asked. Empty: true if the search uses derivatives.
   std::optional<bool> two_stage;
 };
 
@@ -51,7 +52,7 @@ struct SearchSpec {
   std::size_t starts = 1;           ///< > 1: from so many points of a low-discrepancy set as well
   std::uint64_t seed = 1;
   std::size_t max_evaluations = 2000;
-  double tolerance = 1e-12;  ///< relative, of parameters and misfit
+  double tolerance = 1e-10;  ///< relative, of parameters and misfit
 };
 
 /// [uncertainty]: what is computed besides the standard errors.

@@ -38,6 +38,12 @@ void Objective::set_loss(Loss loss) {
   last_u_.resize(0);
 }
 
+void Objective::set_tether(VectorXd centre, double tether) {
+  centre_ = std::move(centre);
+  tether_ = tether;
+  last_u_.resize(0);
+}
+
 Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) const {
   Evaluation at;
   at.misfit = std::numeric_limits<double>::infinity();
@@ -54,7 +60,18 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   for (Index i = 0; i < at.residuals.size(); ++i)
     at.misfit += loss_(at.residuals[i] * at.residuals[i]).rho / 2;
   if (exact) at.jacobian = rows_.jacobian(prediction.derivatives) * coordinates_->derivative(u);
+  if (centre_.size() > 0) add_tether(u, at);
   return at;
+}
+
+void Objective::add_tether(const VectorXd& u, Evaluation& at) const {
+  const Index n = rows_.size(), p = u.size();
+  at.residuals.conservativeResize(n + p);
+  at.residuals.tail(p) = tether_ * (u - centre_);
+  at.misfit += at.residuals.tail(p).squaredNorm() / 2;
+  if (at.jacobian.size() == 0) return;
+  at.jacobian.conservativeResize(n + p, p);
+  at.jacobian.bottomRows(p) = tether_ * Eigen::MatrixXd::Identity(p, p);
 }
 
 void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* control) const {

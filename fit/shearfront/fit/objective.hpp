@@ -53,9 +53,13 @@ class Objective {
   [[nodiscard]] RunControl& control() const { return *control_; }
   [[nodiscard]] bool has_derivatives() const { return forward_->has_derivatives(); }
   void set_loss(Loss loss);
+  /// Adds the residuals tether * (u - centre): keeps directions the data hardly see near the centre.
+  void set_tether(Eigen::VectorXd centre, double tether);
+  [[nodiscard]] Eigen::Index n_residuals() const { return rows_.size() + centre_.size(); }
 
  private:
   [[nodiscard]] Evaluation run(const Eigen::VectorXd& u, bool with_jacobian) const;
+  void add_tether(const Eigen::VectorXd& u, Evaluation& at) const;
   void differentiate(const Eigen::VectorXd& u, Evaluation& at, RunControl* control) const;
 
   const Parameters* parameters_;
@@ -63,6 +67,8 @@ class Objective {
   ResidualRows rows_;
   Loss loss_;
   RunControl* control_;
+  Eigen::VectorXd centre_;
+  double tether_ = 0;
   std::unique_ptr<Forward> forward_;
   mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
   Eigen::VectorXd last_u_;

@@ -10,10 +10,10 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr double kJump = 0.05;
+constexpr double kJump = 0.005;
 constexpr std::size_t kParts = 16;
-/// Two parts of kParts: a smooth change spreads over all of them.
-constexpr double kShare = 0.5;
+/// A jump changes phi within two parts by so many times what two ordinary parts do.
+constexpr double kSteeper = 5;
 
 struct Neighbourhood {
   std::size_t row = 0;
@@ -33,6 +33,17 @@ std::vector<Neighbourhood> neighbourhoods(const Observations& observations, doub
     }
   }
   return all;
+}
+
+/// Values at the ends of equal parts of an interval.
+bool has_jump(const Eigen::VectorXd& phi) {
+  std::vector<double> changes;  // over two parts: a grid spreads a jump over an edge
+  for (Eigen::Index part = 2; part < phi.size(); ++part)
+    changes.push_back(std::abs(phi[part] - phi[part - 2]));
+  const double most = *std::max_element(changes.begin(), changes.end());
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  return most > kJump && most > kSteeper * *middle;
 }
 
 }  // namespace
@@ -63,13 +74,8 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
   const Prediction at = make_forward(parameters, forward, Field::phi, inside)->predict(values, false);
   if (!at.is_valid()) return keep;
   for (std::size_t i = 0; i < steep.size(); ++i) {
-    const auto phi = at.values.segment(static_cast<Eigen::Index>(i * (kParts + 1)), kParts + 1);
-    double total = 0, most = 0;
-    for (Eigen::Index part = 0; part + 1 < phi.size(); ++part) {
-      total += std::abs(phi[part + 1] - phi[part]);
-      if (part > 0) most = std::max(most, std::abs(phi[part + 1] - phi[part - 1]));
-    }
-    keep[steep[i].row] = !(most > kJump && most > kShare * total);
+    keep[steep[i].row] =
+        !has_jump(at.values.segment(static_cast<Eigen::Index>(i * (kParts + 1)), kParts + 1));
   }
   return keep;
 }

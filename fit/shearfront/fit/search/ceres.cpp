@@ -140,7 +140,7 @@ SearchResult search_ceres(Objective& objective, const VectorXd& start, const Sea
   ceres::Problem problem(problem_options);
   std::vector<double*> blocks;
   for (Index j = 0; j < start.size(); ++j) blocks.push_back(batch.coordinate(j));
-  for (Index i = 0; i < objective.rows().size(); ++i)
+  for (Index i = 0; i < objective.n_residuals(); ++i)
     problem.AddResidualBlock(new RowCost(batch, i, start.size()), loss.is_robust ? &row_loss : nullptr,
                              blocks);
   set_bounds(problem, batch, objective.coordinates(), fixed);
