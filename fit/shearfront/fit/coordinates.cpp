@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace shearfront::fit {
 
@@ -15,11 +14,17 @@ Coordinates::Coordinates(const Parameters& parameters) : shape_(parameters.shape
   const auto n = static_cast<Index>(parameters.size());
   lower_.resize(n);
   upper_.resize(n);
+  lowest_values_.resize(n);
+  highest_values_.resize(n);
   for (const Parameter& p : parameters) {
     const auto i = static_cast<Index>(is_logarithmic_.size());
     const bool is_positive = p.entry.range == Range::positive;
     const bool is_shaped = shape_ != Shape::none && p.entry.field == "shear_rate.values";
+    names_.push_back(p.name());
+    is_positive_.push_back(is_positive);
     is_logarithmic_.push_back(is_positive);
+    lowest_values_[i] = p.lower;
+    highest_values_[i] = p.upper;
     lower_[i] = is_positive ? std::log(p.lower) : p.lower;
     upper_[i] = is_positive ? std::log(p.upper) : p.upper;
     if (is_shaped) shaped_.push_back(i);
@@ -27,7 +32,7 @@ Coordinates::Coordinates(const Parameters& parameters) : shape_(parameters.shape
   for (std::size_t k = 0; k + 1 < shaped_.size(); ++k) {
     is_logarithmic_[static_cast<std::size_t>(shaped_[k])] = false;
     lower_[shaped_[k]] = 0;
-    upper_[shaped_[k]] = std::numeric_limits<double>::infinity();
+    upper_[shaped_[k]] = highest_values_[shaped_[k]] - lowest_values_[shaped_.back()];
   }
 }
 
@@ -45,6 +50,10 @@ VectorXd Coordinates::values(const VectorXd& u) const {
 }
 
 VectorXd Coordinates::coordinates(const VectorXd& p) const {
+  return unbounded(p).cwiseMax(lower_).cwiseMin(upper_);
+}
+
+VectorXd Coordinates::unbounded(const VectorXd& p) const {
   VectorXd u(p.size());
   for (Index i = 0; i < p.size(); ++i)
     u[i] = is_logarithmic_[static_cast<std::size_t>(i)] ? std::log(p[i]) : p[i];
@@ -54,7 +63,7 @@ VectorXd Coordinates::coordinates(const VectorXd& p) const {
     u[shaped_[k - 1]] = shape_ == Shape::convex ? step - last_step : step;
     last_step = step;
   }
-  return u.cwiseMax(lower_).cwiseMin(upper_);
+  return u;
 }
 
 std::vector<Index> Coordinates::bound_together(Index j) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "shearfront/fit/parameters.hpp"
@@ -17,7 +18,8 @@ namespace shearfront::fit {
 ///
 /// so every point of the box lower() <= u <= upper() has the shape, and its faces are the limits of the
 /// shape. Bounds of the parameters become bounds of the coordinates where one follows from the other (no
-/// shape; v_n); the others are left to Parameters::within_bounds. u -> p is smooth and one-to-one.
+/// shape; v_n; a step is no larger than upper(v_k) - lower(v_n)); the others are left to
+/// Parameters::within_bounds. u -> p is smooth and one-to-one, also outside the box, where p lacks the shape.
 class Coordinates {
  public:
   explicit Coordinates(const Parameters& parameters);
@@ -30,14 +32,28 @@ class Coordinates {
   /// The parameters that lose their freedom when u_j is at a bound: j itself; with a shape the values made
   /// equal (u_j = v_j - v_{j+1} = 0) or put on a straight line.
   [[nodiscard]] std::vector<Eigen::Index> bound_together(Eigen::Index j) const;
+  [[nodiscard]] Eigen::VectorXd unbounded(const Eigen::VectorXd& p) const;  ///< u(p), wherever it is
   /// dp/du: column j belongs to u_j.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& u) const;
 
+  [[nodiscard]] const std::string& name(Eigen::Index j) const { return names_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] bool is_logarithmic(Eigen::Index j) const {
+    return is_logarithmic_[static_cast<std::size_t>(j)];
+  }
+  [[nodiscard]] bool is_positive(Eigen::Index j) const { return is_positive_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] Shape shape() const { return shape_; }
+  /// Positions of v_0..v_n if there is a shape, otherwise empty; all but the last are steps u_k >= 0.
+  [[nodiscard]] const std::vector<Eigen::Index>& shaped() const { return shaped_; }
+  /// Bounds of the parameters themselves.
+  [[nodiscard]] const Eigen::VectorXd& lowest_values() const { return lowest_values_; }
+  [[nodiscard]] const Eigen::VectorXd& highest_values() const { return highest_values_; }
+
  private:
-  std::vector<bool> is_logarithmic_;
+  std::vector<std::string> names_;
+  std::vector<bool> is_logarithmic_, is_positive_;
   std::vector<Eigen::Index> shaped_;  ///< positions of v_0..v_n if there is a shape
   Shape shape_;
-  Eigen::VectorXd lower_, upper_;
+  Eigen::VectorXd lower_, upper_, lowest_values_, highest_values_;
 };
 
 }  // namespace shearfront::fit

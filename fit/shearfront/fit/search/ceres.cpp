@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/fit/search/allowance.hpp"
 #include "shearfront/fit/search/search.hpp"
 
 namespace shearfront::fit {
@@ -77,15 +78,21 @@ class RowLoss final : public ceres::LossFunction {
   Loss loss_;
 };
 
-class StopOnRequest final : public ceres::IterationCallback {
+/// Ends the search where nothing is left to find, or when told to.
+class Stop final : public ceres::IterationCallback {
  public:
-  explicit StopOnRequest(const RunControl& control) : control_(&control) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return control_->must_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  Stop(const Allowance& allowance, double rounding) : allowance_(&allowance), rounding_(rounding) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
+    if (at.cost <= rounding_) is_at_rounding_ = true;
+    return is_at_rounding_ || allowance_->must_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                      : ceres::SOLVER_CONTINUE;
   }
+  [[nodiscard]] bool is_at_rounding() const { return is_at_rounding_; }
 
  private:
-  const RunControl* control_;
+  const Allowance* allowance_;
+  double rounding_;
+  bool is_at_rounding_ = false;
 };
 
 void set_bounds(ceres::Problem& problem, Batch& batch, const Coordinates& coordinates,
@@ -102,12 +109,12 @@ void set_bounds(ceres::Problem& problem, Batch& batch, const Coordinates& coordi
   }
 }
 
-ceres::Solver::Options options_of(const SearchSpec& spec, const RunControl& control,
+ceres::Solver::Options options_of(const SearchSpec& spec, const Allowance& allowance,
                                   ceres::IterationCallback& callback) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = static_cast<int>(std::min<std::size_t>(control.left(), 100'000));
+  options.max_num_iterations = static_cast<int>(std::min<std::size_t>(allowance.left(), 100'000));
   options.parameter_tolerance = spec.tolerance;
   options.function_tolerance = spec.tolerance;
   options.gradient_tolerance = 1e-16;
@@ -122,6 +129,7 @@ ceres::Solver::Options options_of(const SearchSpec& spec, const RunControl& cont
 
 SearchResult search_ceres(Objective& objective, const VectorXd& start, const SearchSpec& spec,
                           const std::vector<bool>& fixed) {
+  const Allowance allowance(objective.control(), spec.max_evaluations);
   SearchResult result;
   result.u = start;
   result.misfit = objective.evaluate(start, false).misfit;
@@ -144,9 +152,9 @@ SearchResult search_ceres(Objective& objective, const VectorXd& start, const Sea
     problem.AddResidualBlock(new RowCost(batch, i, start.size()), loss.is_robust ? &row_loss : nullptr,
                              blocks);
   set_bounds(problem, batch, objective.coordinates(), fixed);
-  StopOnRequest stop(objective.control());
+  Stop stop(allowance, rounding_misfit(objective));
   ceres::Solver::Summary summary;
-  ceres::Solve(options_of(spec, objective.control(), stop), &problem, &summary);
+  ceres::Solve(options_of(spec, allowance, stop), &problem, &summary);
 
   if (batch.best_misfit() <= result.misfit) {
     result.u = batch.best_u();
@@ -154,15 +162,13 @@ SearchResult search_ceres(Objective& objective, const VectorXd& start, const Sea
   }
   result.iterations = static_cast<std::size_t>(summary.num_successful_steps + summary.num_unsuccessful_steps);
   result.message = summary.message;
-  if (objective.control().is_interrupted()) {
-    result.status = Status::interrupted;
-    result.message = "interrupted; the best point so far is given";
-  } else if (objective.control().is_exhausted() || summary.termination_type == ceres::NO_CONVERGENCE) {
-    result.status = Status::budget_reached;
-    result.message = "the largest number of evaluations was reached";
-  } else {
-    result.status = summary.termination_type == ceres::CONVERGENCE ? Status::ok : Status::not_converged;
+  if (stop.is_at_rounding()) {
+    result.status = Status::ok;
+    result.message = "the misfit is at rounding level";
+    return result;
   }
+  result.status = summary.termination_type == ceres::CONVERGENCE ? Status::ok : Status::not_converged;
+  allowance.report(result);
   return result;
 }
 

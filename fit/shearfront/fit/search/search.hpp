@@ -22,20 +22,30 @@ struct SearchResult {
 };
 
 /// The search named by `spec.algorithm` ("ceres", "global", "nlopt:NAME"), from `start` inside the box of the
-/// coordinates. The outcome is a Status, never an exception; bad names throw InputError (search.algorithm).
+/// coordinates; with spec.starts > 1 also from so many more points of the box less one, each with an equal
+/// share of the evaluations left. It ends early when the misfit is at rounding level. The outcome is a
+/// Status, never an exception; bad names throw InputError (search.algorithm).
 [[nodiscard]] SearchResult search(Objective& objective, const Eigen::VectorXd& start, const SearchSpec& spec);
 
 /// Levenberg-Marquardt of Ceres with bounds; coordinates marked in `fixed` (empty: none) keep their start.
 [[nodiscard]] SearchResult search_ceres(Objective& objective, const Eigen::VectorXd& start,
                                         const SearchSpec& spec, const std::vector<bool>& fixed = {});
 
-/// An algorithm of NLopt by its name here ("sbplx"). Needs finite bounds where the algorithm does.
+/// An algorithm of NLopt by its name here ("sbplx"; all in nlopt_algorithm.hpp). The best point evaluated is
+/// returned whatever NLopt says of its end; its failures become a Status with its message. A shape is the box
+/// of the coordinates, for COBYLA, SLSQP, MMA, CCSA and ISRES inequalities between the parameters
+/// (nlopt_space.hpp). Tolerance: relative change of the misfit and of the parameters. The same seed gives the
+/// same search. Errors: InputError (search.algorithm) if a global algorithm lacks finite bounds or there are
+/// too few unknowns for it.
 [[nodiscard]] SearchResult search_nlopt(Objective& objective, const Eigen::VectorXd& start,
                                         const SearchSpec& spec, std::string_view name);
 
 /// Many Ceres searches from a low-discrepancy set over the box, the best one finished.
 [[nodiscard]] SearchResult search_global(Objective& objective, const Eigen::VectorXd& start,
                                          const SearchSpec& spec);
+
+/// The complaint about a name that is not one of algorithm_names().
+[[nodiscard]] InputError unknown_algorithm(std::string_view algorithm);
 
 /// "ceres", "global", "nlopt:sbplx", ...: what search.algorithm may be.
 [[nodiscard]] std::vector<std::string> algorithm_names();
