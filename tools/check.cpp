@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "cli/command.hpp"
+#include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -22,15 +26,60 @@ std::string layers_text(const Scene<double>& scene) {
   return counted(n + 1, "layer");
 }
 
-int check(const std::vector<std::string>& files) {
+std::string summary_text(const Scene<double>& scene) {
+  return fmt::format("{}, {}, {}, mass {}", quoted_text(scene.name(), 80), layers_text(scene),
+                     counted(scene.initial_breaks().size(), "jump"), number_text(scene.mass()));
+}
+
+/// "t 0 to 6 [s]"
+std::string range_text(std::string_view name, const std::vector<Observation>& rows,
+                       double Observation::*member, const std::string& unit) {
+  const auto [least, most] = std::minmax_element(
+      rows.begin(), rows.end(),
+      [member](const Observation& a, const Observation& b) { return a.*member < b.*member; });
+  return fmt::format("{} {} to {}{}", name, number_text((*least).*member), number_text((*most).*member),
+                     unit.empty() ? "" : " [" + printable(unit, 40) + "]");
+}
+
+std::string summary_text(const Observations& data) {
+  const bool is_cumulative = data.quantity == Quantity::cumulative;
+  return fmt::format(
+      "{} ({}), {}, {}, {}{}{}", counted(data.rows.size(), "observation"), name_of(data.quantity),
+      range_text("t", data.rows, &Observation::t, data.units.t),
+      range_text("z", data.rows, &Observation::z, data.units.z),
+      range_text(is_cumulative ? "M" : "phi", data.rows, &Observation::value, data.units.value),
+      data.has_sigma() ? ", sigma" : "",
+      data.n_missing > 0 ? fmt::format(", {} missing", data.n_missing) : "");
+}
+
+bool is_csv(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension == ".csv";
+}
+
+/// What there is to say about a good file.
+std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
+  if (!is_csv(file)) return summary_text(read_scene<double>(file));
+  const Observations data =
+      scene ? read_observations(file, scene->bottom(), scene->top()) : read_observations(file);
+  for (const std::string& remark : data.notes) fmt::print(stderr, "{}\n", remark);
+  return summary_text(data);
+}
+
+struct CheckArguments {
+  std::vector<std::string> files;
+  std::string scene;
+};
+
+int check(const CheckArguments& arguments) {
+  std::optional<Scene<double>> scene;
+  if (!arguments.scene.empty()) scene = read_scene<double>(arguments.scene);
   OutputFile out("-");
   bool all_good = true;
-  for (const std::string& file : files) {
+  for (const std::string& file : arguments.files) {
     try {
-      const auto scene = read_scene<double>(file);
-      out.write(fmt::format("{}: ok: {}, {}, {}, mass {}\n", printable(file), quoted_text(scene.name(), 80),
-                            layers_text(scene), counted(scene.initial_breaks().size(), "jump"),
-                            number_text(scene.mass())));
+      out.write(fmt::format("{}: ok: {}\n", printable(file), check_file(file, scene)));
     } catch (const FileError& error) {
       fmt::print(stderr, "{}\n", error.what());
       all_good = false;
@@ -43,10 +92,15 @@ int check(const std::vector<std::string>& files) {
 }  // namespace
 
 Command add_check(CLI::App& program) {
-  const auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* app = program.add_subcommand("check", "Validate scene files and report every problem");
-  app->add_option("FILE", *files, "scene files")->type_name("")->required();
-  return {app, "FILE...", [files] { return check(*files); }};
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* app = program.add_subcommand(
+      "check", "Validate scene files and files of observations and report every problem");
+  app->add_option("FILE", arguments->files, "scene files, and files of observations (.csv)")
+      ->type_name("")
+      ->required();
+  app->add_option("--scene", arguments->scene, "the scene whose domain the observations must lie in")
+      ->type_name("SCENE");
+  return {app, "FILE...", [arguments] { return check(*arguments); }};
 }
 
 }  // namespace shearfront::tools

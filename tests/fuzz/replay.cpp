@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "../cli/case_file.hpp"
+#include "target.hpp"
 
 /// Runs the fuzz target without a fuzzer: on the corpus, then on mutations of it from a fixed seed.
 ///
 ///     replay [number of mutations] [seed]        replay --write-corpus FOLDER        replay --file FILE
 ///
-/// The corpus are the datasets and the scene files of the command-line cases.
+/// Corpus and words are those of the target (target.hpp).
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
@@ -27,66 +27,6 @@ std::string content_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-std::vector<std::string> corpus() {
-  std::vector<std::string> texts{""};
-  for (const auto& entry : fs::recursive_directory_iterator(SHEARFRONT_SOURCE_DIR "/datasets"))
-    if (entry.path().filename() == "scene.toml") texts.push_back(content_of(entry.path()));
-  for (const auto& entry : fs::directory_iterator(SHEARFRONT_SOURCE_DIR "/tests/cli")) {
-    if (entry.path().extension() != ".txt" || entry.path().filename() == "CMakeLists.txt") continue;
-    for (const auto& c : shearfront::cli_tests::read_cases(entry.path().string()))
-      for (const auto& s : c.sections) {
-        if (s.kind == "file" && s.argument.ends_with(".toml")) texts.push_back(s.text);
-        if (s.kind == "raw-file") texts.push_back(shearfront::cli_tests::unescaped(s.text));
-      }
-  }
-  std::sort(texts.begin(), texts.end());  // directory order differs between machines
-  return texts;
-}
-
-const std::vector<std::string> kWords{"[",
-                                      "]",
-                                      "[[",
-                                      "]]",
-                                      "{",
-                                      "}",
-                                      "=",
-                                      ",",
-                                      ".",
-                                      "\n",
-                                      "\r\n",
-                                      "#",
-                                      "\"",
-                                      "'",
-                                      "\"\"\"",
-                                      "'''",
-                                      "\\",
-                                      "\\u0041",
-                                      "nan",
-                                      "-inf",
-                                      "1e400",
-                                      "1e-400",
-                                      "-0.0",
-                                      "0x7fffffff",
-                                      "1_0",
-                                      "2010-05-27",
-                                      "true",
-                                      "99999999999999999999",
-                                      "0.5",
-                                      "values",
-                                      "breaks",
-                                      "[shear_rate]",
-                                      "[initial]",
-                                      "[domain]",
-                                      "model = \"table\"",
-                                      "z = [0, 1]",
-                                      "top = ",
-                                      "scale = ",
-                                      std::string("\0", 1),
-                                      "\xff",
-                                      "\xc3",
-                                      "\xe2\x80\xae",
-                                      "\xef\xbb\xbf"};
 
 /// Splitmix64: the same mutations on every machine.
 class Random {
@@ -104,7 +44,8 @@ class Random {
   std::uint64_t state_;
 };
 
-void mutate(std::string& text, const std::vector<std::string>& texts, Random& random) {
+void mutate(std::string& text, const std::vector<std::string>& texts, const std::vector<std::string>& words,
+            Random& random) {
   const std::size_t at = random.below(text.size() + 1),
                     length = random.below(std::min<std::size_t>(text.size() - at, 20) + 1);
   switch (random.below(6)) {
@@ -119,7 +60,7 @@ void mutate(std::string& text, const std::vector<std::string>& texts, Random& ra
       break;
     case 3:
     case 4:
-      text.replace(at, random.below(3) == 0 ? length : 0, kWords[random.below(kWords.size())]);
+      text.replace(at, random.below(3) == 0 ? length : 0, words[random.below(words.size())]);
       break;
     default: {
       const std::string& other = texts[random.below(texts.size())];
@@ -136,7 +77,8 @@ void run(const std::string& text) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const auto texts = corpus();
+  const auto texts = shearfront::fuzz::corpus();
+  const auto words = shearfront::fuzz::words();
   if (arguments.size() == 2 && arguments[0] == "--file") {
     run(content_of(arguments[1]));
     return 0;
@@ -155,7 +97,7 @@ int main(int argc, char** argv) {
     for (const std::string& original : texts) run(text = original);
     for (std::size_t i = 0; i < n; ++i) {
       text = texts[random.below(texts.size())];
-      for (std::size_t k = 0, steps = 1 + random.below(8); k < steps; ++k) mutate(text, texts, random);
+      for (std::size_t k = 0, steps = 1 + random.below(8); k < steps; ++k) mutate(text, texts, words, random);
       run(text);
     }
   } catch (const std::exception& error) {

@@ -104,12 +104,14 @@ TEST(Observe, PlansAreChecked) {
 TEST(Observe, EqualSpacing) {
   EXPECT_EQ(equal_spacing({0.5}), std::nullopt);
   EXPECT_EQ(equal_spacing({0.25, 0.75, 0.5}), 0.25);
-  EXPECT_NEAR(equal_spacing({0.1, 0.2, 0.3, 0.4}).value(), 0.1, 1e-16);
+  EXPECT_EQ(equal_spacing({0.1, 0.2, 0.3, 0.4}), 0.1);
+  EXPECT_EQ(equal_spacing({0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95}), 0.1);
+  EXPECT_NEAR(equal_spacing({0, 1.0 / 3, 2.0 / 3}).value(), 1.0 / 3, 1e-15);
   EXPECT_EQ(equal_spacing({0.1, 0.2, 0.31}), std::nullopt);
   EXPECT_EQ(equal_spacing({0.5, 0.5}), std::nullopt);
   std::vector<double> many;
   for (int i = 0; i < 1000; ++i) many.push_back(1e6 + 1e-3 * (2 * i + 1));
-  EXPECT_NEAR(equal_spacing(many).value(), 2e-3, 1e-9);
+  EXPECT_EQ(equal_spacing(many), 2e-3);
 }
 
 TEST(Noise, IsReproducible) {

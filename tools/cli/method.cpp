@@ -5,6 +5,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
@@ -81,6 +82,20 @@ SolverOptions MethodArguments::options() const {
     options.cells = static_cast<std::size_t>(count_option("--cells", cells_, 1, kMostCells));
   if (!cfl_.empty()) options.cfl = number_option("--cfl", cfl_, {0, 1, true}, "> 0 and <= 1");
   return options;
+}
+
+std::string MethodArguments::settings() const {
+  const SolverOptions chosen = options();
+  const Guarantees guarantees = guarantees_of(method());
+  std::string text = fmt::format("--method {}", method());
+  if (guarantees.has_fronts)
+    text += fmt::format(" --resolution {} --grid {} --reconstruct {}", number_text(chosen.resolution),
+                        grid_names()[static_cast<std::size_t>(chosen.grid)],
+                        reconstruction_names()[static_cast<std::size_t>(chosen.reconstruct)]);
+  else if (!guarantees.exact)
+    text += fmt::format(" --cells {} --cfl {}", chosen.cells, number_text(chosen.cfl));
+  if (chosen.layers > 0) text += fmt::format(" --layers {}", chosen.layers);
+  return text;
 }
 
 void note_unused_layers(const MethodArguments& arguments, const Scene<double>& scene) {

@@ -18,6 +18,8 @@ class MethodArguments {
   [[nodiscard]] SolverOptions options() const;
   /// The name of a solver of SolverList.
   [[nodiscard]] std::string_view method() const;
+  /// The options that give the same result again, defaults included. Like options() it refuses wrong values.
+  [[nodiscard]] std::string settings() const;
   [[nodiscard]] bool has_resolution() const { return !resolution_.empty(); }
   [[nodiscard]] bool has_layers() const { return !layers_.empty(); }
 

@@ -2,9 +2,9 @@
 #include "shearfront/solution/observe.hpp"
 
 #include <algorithm>
-#include <array>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -25,6 +25,17 @@ constexpr double kSpacingRounding = 10 * std::numeric_limits<double>::epsilon();
 
 std::string element(std::string_view key, std::size_t i) {
   return std::string(key) + "[" + std::to_string(i) + "]";
+}
+
+/// The number with the fewest digits that differs from x by at most `rounding`.
+double shortest_near(double x, double rounding) {
+  for (int digits = 1; digits < std::numeric_limits<double>::max_digits10; ++digits) {
+    const std::string text = number_text(x, digits);
+    double y = 0;
+    std::from_chars(text.data(), text.data() + text.size(), y);
+    if (std::abs(y - x) <= rounding) return y;
+  }
+  return x;
 }
 
 /// Every number that has occurred before, at its later place.
@@ -77,11 +88,12 @@ Problems find_problems(const ObservationPlan& plan, double bottom, double top) {
 std::optional<double> equal_spacing(std::vector<double> depths) {
   if (depths.size() < 2) return std::nullopt;
   std::sort(depths.begin(), depths.end());
-  const double spacing = (depths.back() - depths.front()) / static_cast<double>(depths.size() - 1);
+  const double n = static_cast<double>(depths.size() - 1), spacing = (depths.back() - depths.front()) / n;
   const double rounding = kSpacingRounding * std::max(std::abs(depths.front()), std::abs(depths.back()));
   for (std::size_t i = 1; i < depths.size(); ++i)
     if (!(std::abs(depths[i] - depths[i - 1] - spacing) <= rounding)) return std::nullopt;
-  return spacing > 0 ? std::optional(spacing) : std::nullopt;
+  if (!(spacing > 0)) return std::nullopt;
+  return shortest_near(spacing, rounding / n);
 }
 
 SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene) {

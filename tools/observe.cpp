@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/solution/observe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/version.hpp>
+#include <memory>
+#include <utility>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/method.hpp"
+#include "cli/progress.hpp"
+#include "shearfront/io/detail/text_source.hpp"
+#include "shearfront/io/observations_csv.hpp"
+#include "shearfront/io/scene_file.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+constexpr double kMostRows = 1e7;
+constexpr unsigned long long kLargestSeed = 9'223'372'036'854'775'807;  // what parse_count() reads
+constexpr double kLargestSigma = 1e100;                                 // far from overflow with any value
+
+struct ObserveArguments {
+  std::string scene, times, depths, quantity = "point", width, noise, seed, output;
+  bool truncate = false;
+  MethodArguments method;
+};
+
+/// What the arguments say once they are checked, defaults filled in.
+struct Experiment {
+  ObservationPlan plan;
+  double sigma = 0;
+  unsigned long long seed = 1;
+};
+
+std::vector<std::string> quantity_names() {
+  std::vector<std::string> names;
+  for (const Quantity q : {Quantity::point, Quantity::bin, Quantity::cumulative})
+    names.emplace_back(name_of(q));
+  return names;  // in the order of Quantity
+}
+
+double width_of(const ObserveArguments& arguments, const ObservationPlan& plan) {
+  if (plan.quantity != Quantity::bin) {
+    if (!arguments.width.empty()) refuse("--width", arguments.width, "needs --quantity bin");
+    return 0;
+  }
+  if (!arguments.width.empty())
+    return number_option("--width", arguments.width, {0, std::numeric_limits<double>::max(), true}, "> 0");
+  const auto spacing = equal_spacing(plan.depths);
+  if (!spacing)
+    throw InputError("--width", "", "missing; must be given where the depths are not equally spaced");
+  return *spacing;
+}
+
+/// The first problem of the plan as one of the option it comes from.
+void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, const Scene<double>& scene) {
+  const Problems problems = find_problems(plan, scene.bottom(), scene.top());
+  if (problems.empty()) return;
+  const Problem& problem = problems.front();
+  const std::string key = problem.key.substr(0, problem.key.find('['));
+  if (key == "width") refuse("--width", problem.value, problem.constraint);
+  refuse("--" + key, key == "times" ? arguments.times : arguments.depths,
+         fmt::format("{} (here {})", problem.constraint, problem.value));
+}
+
+void check_arguments(const ObserveArguments& arguments) {
+  constexpr std::string_view kLists = "missing; must be a list such as 0.5,6 or 0:10:21";
+  if (arguments.times.empty()) throw InputError("--times", "", std::string(kLists));
+  if (arguments.depths.empty()) throw InputError("--depths", "", std::string(kLists));
+  if (arguments.noise.empty() && !arguments.seed.empty()) refuse("--seed", arguments.seed, "needs --noise");
+  if (arguments.noise.empty() && arguments.truncate) throw InputError("--truncate", "", "needs --noise");
+  check_outputs(arguments.scene, {{"-o", arguments.output}});
+}
+
+Experiment experiment_of(const ObserveArguments& arguments, const Scene<double>& scene) {
+  Experiment experiment;
+  ObservationPlan& plan = experiment.plan;
+  plan.quantity = static_cast<Quantity>(choice_option("--quantity", arguments.quantity, quantity_names()));
+  if (!arguments.noise.empty())
+    experiment.sigma =
+        number_option("--noise", arguments.noise, {0, kLargestSigma}, ">= 0 (a standard deviation)");
+  if (!arguments.seed.empty()) experiment.seed = count_option("--seed", arguments.seed, 0, kLargestSeed);
+  const std::string inside =
+      fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()), number_text(scene.top()));
+  plan.times = list_option("--times", arguments.times, {0}, ">= 0", Steady::refused);
+  plan.depths =
+      list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+  if (static_cast<double>(plan.times.size()) * static_cast<double>(plan.depths.size()) > kMostRows)
+    refuse("--times", arguments.times, "must give at most 1e7 pairs of time and depth");
+  plan.width = width_of(arguments, plan);
+  check_plan(arguments, plan, scene);
+  return experiment;
+}
+
+/// A word of a command line for a POSIX shell.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kSafe =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
+  if (!text.empty() && text.find_first_not_of(kSafe) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string command_line(const ObserveArguments& arguments, const Experiment& experiment) {
+  std::string line =
+      fmt::format("shearfront observe {} --times {} --depths {} --quantity {}", shell_word(arguments.scene),
+                  shell_word(arguments.times), shell_word(arguments.depths), arguments.quantity);
+  if (experiment.plan.width > 0) line += " --width " + number_text(experiment.plan.width);
+  line += " " + arguments.method.settings();
+  if (experiment.sigma > 0)
+    line += fmt::format(" --noise {} --seed {}{}", number_text(experiment.sigma), experiment.seed,
+                        arguments.truncate ? " --truncate" : "");
+  return line;
+}
+
+/// All that is needed to make the file again, without what does not change it (the name of the file).
+std::vector<std::string> recipe(const ObserveArguments& arguments, const Experiment& experiment,
+                                const std::string& scene_text) {
+  std::vector<std::string> lines{
+      "Synthetic observations, no measurements; made with shearfront " SHEARFRONT_VERSION " by",
+      "  " + command_line(arguments, experiment)};
+  if (experiment.sigma > 0)
+    lines.push_back(fmt::format("Normal noise of standard deviation {} (Boost " BOOST_LIB_VERSION
+                                ": mt19937_64, normal_distribution){}",
+                                number_text(experiment.sigma),
+                                arguments.truncate ? ", then clipped to the range of the quantity" : ""));
+  lines.emplace_back("The scene file:");
+  for (std::size_t begin = 0; begin < scene_text.size();) {
+    const std::size_t end = std::min(scene_text.find('\n', begin), scene_text.size());
+    lines.push_back(end > begin ? "| " + scene_text.substr(begin, end - begin) : "|");
+    begin = end + 1;
+  }
+  return lines;
+}
+
+int observe_scene(const ObserveArguments& arguments) {
+  check_arguments(arguments);
+  SolverOptions options = arguments.method.options();
+  const auto source = detail::TextSource::read(arguments.scene);
+  const auto scene = parse_scene<double>(source.text(), arguments.scene);
+  const Experiment experiment = experiment_of(arguments, scene);
+  const SolverRequest request = request_of(experiment.plan, scene);
+  OutputFile output(arguments.output.empty() ? "-" : arguments.output);
+  note_unused_layers(arguments.method, scene);
+
+  ProgressLine progress;
+  options.progress = progress.callback();
+  const SolverResult result = solve_with(arguments.method.method(), scene, request, options);
+  if (!result.summary.usable()) return report_unusable(result.summary);
+
+  Observations observations = observe(experiment.plan, scene, result.samples);
+  add_noise(observations, experiment.sigma, experiment.seed);
+  if (arguments.truncate) clip(observations, scene);
+  observations.comments = recipe(arguments, experiment, source.text());
+  write_observations(output, observations);
+  output.commit();
+  return kDone;
+}
+
+}  // namespace
+
+Command add_observe(CLI::App& program) {
+  const auto arguments = std::make_shared<ObserveArguments>();
+  CLI::App* app = program.add_subcommand("observe", "Synthetic observations of a scene, with noise");
+  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
+  app->add_option("--times", arguments->times, "times: 0.5,6 or start:stop:count, also mixed")
+      ->type_name("LIST");
+  app->add_option("--depths", arguments->depths, "heights z, for bins of their middles: as --times")
+      ->type_name("LIST");
+  app->add_option(
+         "--quantity", arguments->quantity,
+         "phi at a point, its mean over a bin, or M = integral of phi from the bottom; default point")
+      ->type_name(fmt::format("{}", fmt::join(quantity_names(), "|")));
+  app->add_option("--width", arguments->width, "width of the bins; default the spacing of the depths")
+      ->type_name("W");
+  arguments->method.add_to(*app);
+  app->add_option("--noise", arguments->noise, "standard deviation of normal noise; default none")
+      ->type_name("SIGMA");
+  app->add_option("--seed", arguments->seed, "seed of the noise, a whole number; default 1")->type_name("S");
+  app->add_flag("--truncate", arguments->truncate,
+                "clip noisy values: phi to [0, 1], M to [0, height above the bottom]");
+  app->add_option("-o", arguments->output, "result file, CSV; default standard output")->type_name("FILE");
+  return {app, "SCENE", [arguments] { return observe_scene(*arguments); }};
+}
+
+}  // namespace shearfront::tools
