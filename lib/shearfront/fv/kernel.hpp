@@ -16,11 +16,13 @@ namespace shearfront::fv {
 /// Both are non-decreasing in l and non-increasing in r, so a step with s max a |f'| dt / dz <= 1 is a
 /// monotone scheme: bounded, order-preserving, L1-contractive; and both vanish between equal pure states.
 /// Godunov's is the exact flux of the Riemann problem of the two cells. Engquist-Osher takes one coefficient
-/// for all three terms, also where a jumps: between the two values any one is consistent, and the first cell
-/// of each side adapts. A coefficient of its own side in each term is not: no weight of f(m) then makes both
-/// directions right, and L1 errors grow by half or double (with f(m) left out they do not converge at all).
-/// Sources: Engquist & Osher (1981), Math. Comp. 36; Towers (2000), SIAM J. Numer. Anal. 38 (coefficients
-/// staggered against states); Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42 (Godunov).
+/// for all three terms, also where a jumps: any value between the two sides will do, the cells next to the
+/// jump adapt (the errors of Example 1 are the same to 0.1 % for either side's, their mean and their harmonic
+/// mean). With each side's own coefficient in its term nothing can stand for f(m): to vanish, the flux
+/// between (0 | 0) needs a_l f(m), that between (1 | 1) needs a_r f(m). Errors grow by half or double;
+/// without any f(m) the scheme does not converge. Sources: Engquist & Osher (1981), Math. Comp. 36; Towers
+/// (2000), SIAM J. Numer. Anal. 38 (coefficients staggered against states); Adimurthi, Jaffre & Veerappa
+/// Gowda (2004), SIAM J. Numer. Anal. 42 (Godunov).
 enum class Scheme { engquist_osher, godunov };
 
 /// Constants of the numbers a kernel computes with; see Kernel.

@@ -17,6 +17,8 @@ constexpr std::size_t kMostCells = 100'000'000;  // 4 GB
 constexpr double kMostUpdates = 1e15;            // some days
 // The caller is asked for leave to go on after so many cell updates, some hundredths of a second.
 constexpr std::uint64_t kUpdatesPerCall = 1 << 24;
+// A wave crosses the bed in as many steps as there are cells, at least: no need to look for rest more often.
+constexpr std::size_t kLeastSteps = 1024;
 // A march at rest this near to the steady state (M, relative to the height) has reached it.
 constexpr double kSteadyTolerance = 1e-9;
 
@@ -72,7 +74,8 @@ class Run {
       if (!(done < steps)) return Status::ok;
       if (options_.progress && !options_.progress(t * (done / steps), n_updates_)) return Status::interrupted;
       if (static_cast<double>(n_updates_) > kMostUpdates) return Status::budget_reached;
-      const std::uint64_t call = std::max<std::uint64_t>(1, kUpdatesPerCall / options_.cells);
+      const std::uint64_t call = std::clamp<std::uint64_t>(kUpdatesPerCall / options_.cells, 1,
+                                                           std::max(kLeastSteps, options_.cells));
       const auto n = static_cast<std::uint64_t>(std::min(static_cast<double>(call), steps - done));
       march_.advance(n);
       n_updates_ += n * options_.cells;
@@ -83,8 +86,7 @@ class Run {
   }
 
   void check_rest() {
-    // One step in so many costs nothing; a wave crosses the bed in as many steps at least.
-    next_check_ = march_.n_steps() + options_.cells;
+    next_check_ = march_.n_steps() + std::max(kLeastSteps, options_.cells);
     is_at_rest_ = march_.is_at_rest();
     if (!is_at_rest_) return;
     double amount = 0, largest = 0;

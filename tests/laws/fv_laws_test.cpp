@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What both finite-volume schemes guarantee whatever the scene; each law on random scenes with fixed seeds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "shearfront/fv/march.hpp"
+#include "shearfront/fv/solve.hpp"
+#include "shearfront/solver/all.hpp"
+#include "support/cell_states.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+using fv::Scheme;
+using fv::Simd;
+using support::cell_states;
+using support::SceneMaker;
+
+template <class Solver>
+class FvLaws : public testing::Test {};
+struct SolverName {
+  template <class Solver>
+  static std::string GetName(int) {
+    return std::string(Solver::kName) == "godunov" ? "godunov" : "engquist_osher";
+  }
+};
+using Solvers = testing::Types<EngquistOsherSolver, GodunovSolver>;
+TYPED_TEST_SUITE(FvLaws, Solvers, SolverName);
+
+constexpr int kScenes = 25;
+
+SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(7000 + std::uint64_t(number))); }
+Scene<double> draw(SceneMaker& maker) {
+  return Scene<double>(maker.data(maker.integer(1, 6), maker.order(), 12));
+}
+SolverOptions options_of(SceneMaker& maker) {
+  SolverOptions options;
+  options.cells = static_cast<std::size_t>(maker.integer(1, 150));
+  options.cfl = maker.integer(0, 1) == 0 ? 1.0 : maker.uniform(0.1, 1);
+  return options;
+}
+
+TYPED_TEST(FvLaws, KeepsMassToTheBitAndPhiInItsRange) {
+  for (int number = 0; number < kScenes; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    SceneMaker maker = maker_of(number);
+    const Scene<double> scene = draw(maker);
+    const auto states = cell_states<TypeParam>(scene, {0, 0.01, 0.3, 1.7, 9}, options_of(maker));
+    ASSERT_EQ(states.size(), 5u);
+    std::int64_t start = 0;
+    EXPECT_NEAR(std::accumulate(states[0].begin(), states[0].end(), 0.0) / double(states[0].size()),
+                scene.mass(), 1e-14);
+    for (const auto& phi : states) {
+      // States are multiples of 2^-53: integers, whose sum knows no rounding.
+      std::int64_t sum = 0;
+      for (const double x : phi) {
+        EXPECT_GE(x, 0);
+        EXPECT_LE(x, 1);
+        sum += static_cast<std::int64_t>(std::ldexp(x, 53));
+      }
+      if (&phi == &states[0]) start = sum;
+      EXPECT_EQ(sum, start);
+    }
+  }
+}
+
+TYPED_TEST(FvLaws, ContractsInL1AndKeepsTheOrder) {
+  for (int number = 0; number < kScenes; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    SceneMaker maker = maker_of(number);
+    SceneSpec<double> lower = maker.data(maker.integer(1, 6), maker.order(), 12), upper = lower;
+    for (double& phi : upper.initial_values) phi += (1 - phi) * maker.uniform(0, 1);
+    SceneSpec<double> other = lower;
+    for (double& phi : other.initial_values) phi = maker.uniform(0, 1);
+    const std::vector<double> times{0, 0.02, 0.1, 0.5, 2, 8};
+    const SolverOptions options = options_of(maker);
+    const auto u = cell_states<TypeParam>(Scene<double>(lower), times, options);
+    const auto v = cell_states<TypeParam>(Scene<double>(upper), times, options);
+    const auto w = cell_states<TypeParam>(Scene<double>(other), times, options);
+    double last = 1e300;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      double distance = 0;
+      for (std::size_t j = 0; j < options.cells; ++j) {
+        EXPECT_LE(u[i][j], v[i][j] + 1e-14) << "t = " << times[i] << ", cell " << j;
+        distance += std::abs(u[i][j] - w[i][j]);
+      }
+      EXPECT_LE(distance, last + 1e-12);
+      last = distance;
+    }
+  }
+}
+
+TYPED_TEST(FvLaws, StaysInTheSteadyStateForever) {
+  for (int number = 0; number < kScenes; ++number) {
+    SceneMaker maker = maker_of(number);
+    SceneSpec<double> spec = maker.data(maker.integer(1, 6), maker.order(), 0);
+    SolverOptions options = options_of(maker);
+    options.cells = 64;
+    spec.initial_breaks = {maker.integer(1, 63) / 64.0};
+    spec.initial_values = {1, 0};
+    const Scene<double> scene(spec);
+    const auto states = cell_states<TypeParam>(scene, {infinity<double>(), 1e5}, options);
+    EXPECT_EQ(states.size(), 2u);
+    for (std::size_t j = 0; j < options.cells; ++j) EXPECT_NEAR(states[0][j], states[1][j], 1e-12);
+    if constexpr (std::is_same_v<TypeParam, GodunovSolver>) {  // the exact steady state is a discrete one
+      EXPECT_EQ(states[1], cell_states<TypeParam>(scene, {0}, options)[0]);
+    }
+  }
+}
+
+TYPED_TEST(FvLaws, MarchesToTheSteadyStateItNames) {
+  for (int number = 0; number < kScenes; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    SceneMaker maker = maker_of(number);
+    const Scene<double> scene = draw(maker);
+    SolverOptions options;
+    options.cells = static_cast<std::size_t>(maker.integer(2, 60));
+    const auto states = cell_states<TypeParam>(scene, {500, infinity<double>()}, options);
+    ASSERT_EQ(states.size(), 2u);
+    double M = 0;
+    for (std::size_t j = 0; j < options.cells; ++j)
+      EXPECT_NEAR((M += states[0][j] - states[1][j]) / static_cast<double>(options.cells), 0, 1e-9) << j;
+  }
+}
+
+TYPED_TEST(FvLaws, ScalingTimeByPowersOfTwoIsExact) {
+  for (int number = 0; number < kScenes; ++number) {
+    SceneMaker maker = maker_of(number);
+    SceneSpec<double> spec = maker.data(maker.integer(1, 6), maker.order(), 12);
+    const SolverOptions options = options_of(maker);
+    const auto slow = cell_states<TypeParam>(Scene<double>(spec), {0.1, 0.77}, options);
+    spec.scale *= 1024;
+    EXPECT_EQ(slow, cell_states<TypeParam>(Scene<double>(spec), {0.1 / 1024, 0.77 / 1024}, options));
+  }
+}
+
+TYPED_TEST(FvLaws, OtherTimesAndTheirOrderChangeNothing) {
+  for (int number = 0; number < kScenes; ++number) {
+    SceneMaker maker = maker_of(number);
+    const Scene<double> scene = draw(maker);
+    const SolverOptions options = options_of(maker);
+    const auto alone = cell_states<TypeParam>(scene, {0.7}, options);
+    EXPECT_EQ(alone[0], cell_states<TypeParam>(scene, {infinity<double>(), 0.7, 0.699, 0.3, 2}, options)[1]);
+  }
+}
+
+/// Largest |difference| of phi between two specs at t = 0.4.
+template <class Solver>
+double difference(const SceneSpec<double>& a, const SceneSpec<double>& b, const SolverOptions& options) {
+  const auto u = cell_states<Solver>(Scene<double>(a), {0.4}, options)[0];
+  const auto v = cell_states<Solver>(Scene<double>(b), {0.4}, options)[0];
+  double largest = 0;
+  for (std::size_t j = 0; j < u.size(); ++j) largest = std::max(largest, std::abs(u[j] - v[j]));
+  return largest;
+}
+
+// Where the number of steps changes, and where an interface or a jump passes an edge or the middle of a cell.
+TYPED_TEST(FvLaws, DependsContinuouslyOnTheScene) {
+  SolverOptions options;
+  options.cells = 50;
+  SceneSpec<double> spec;
+  spec.initial_values = {0.1, 0.9};
+  for (const double height : {0.5, 0.51}) {
+    spec.shear_rate = Piecewise<double>{{height}, {2.5, 0.5}};
+    spec.initial_breaks = {height};
+    for (const double h : {-1e-9, 1e-9}) {
+      SceneSpec<double> moved = spec;
+      moved.scale = 1 + h;  // 0.4 * 2.5 * 50 = 50 steps exactly
+      EXPECT_LT(difference<TypeParam>(spec, moved, options), 1e-6);
+      moved = spec;
+      moved.initial_breaks = {height + h};
+      EXPECT_LT(difference<TypeParam>(spec, moved, options), 1e-6);
+      moved = spec;
+      moved.shear_rate = Piecewise<double>{{height + h}, {2.5, 0.5}};
+      EXPECT_LT(difference<TypeParam>(spec, moved, options), 1e-6);
+    }
+  }
+}
+
+struct RisingGrains {  // phi (1 - phi): the flux of grains that rise
+  static constexpr std::string_view kName = "rising";
+  static constexpr std::array<double, 2> kRange{0.0, 1.0};
+  static constexpr std::array<double, 1> kExtrema{0.5};
+  static double value(double phi) { return phi * (1 - phi); }
+  static double derivative(double phi) { return 1 - 2 * phi; }
+};
+
+/// Runs both schemes with a general kernel for the flux.
+template <class Flux>
+SolverResult solve_generally(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
+                             const SolverOptions& options) {
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Flux{});
+  return fv::solve(scheme, flux, *fv::unimodal_kernel(scheme, flux), scene, request, options);
+}
+
+TEST(FvKernels, GeneralAndQuadraticAgreeAndGrainsThatRiseAreAMirrorImage) {
+  for (int number = 0; number < kScenes; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    SceneMaker maker = maker_of(number);
+    const Scene<double> scene = draw(maker);
+    const SolverOptions options = options_of(maker);
+    SceneSpec<double> mirrored = scene.spec();
+    auto& rate = std::get<Piecewise<double>>(mirrored.shear_rate);
+    const auto turn = [](std::vector<double>& z) {
+      std::reverse(z.begin(), z.end());
+      for (double& x : z) x = 1 - x;
+    };
+    turn(rate.breaks), turn(mirrored.initial_breaks);
+    std::reverse(rate.values.begin(), rate.values.end());
+    std::reverse(mirrored.initial_values.begin(), mirrored.initial_values.end());
+    const SolverRequest request{{0.3, 2, infinity<double>()}, support::middles(scene, options.cells)};
+    for (const Scheme scheme : {Scheme::engquist_osher, Scheme::godunov}) {
+      const auto fast = fv::solve(scheme, scene, request, options);
+      const auto general = solve_generally<Quadratic>(scheme, scene, request, options);
+      const auto rising = solve_generally<RisingGrains>(scheme, Scene<double>(mirrored), request, options);
+      ASSERT_EQ(fast.samples.size(), 3 * options.cells);
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < options.cells; ++j) {
+          const double phi = fast.samples[i * options.cells + j].phi;
+          EXPECT_NEAR(phi, general.samples[i * options.cells + j].phi, 1e-11);
+          EXPECT_NEAR(phi, rising.samples[(i + 1) * options.cells - 1 - j].phi, 1e-11);
+        }
+    }
+  }
+}
+
+TEST(FvKernels, AllInstructionSetsAgreeToTheBit) {
+  for (const std::size_t n_cells : {1u, 7u, 8u, 1000u, 5003u}) {
+    SceneMaker maker(support::seed_of(n_cells));
+    const Scene<double> scene(maker.data(5, SceneMaker::Order::random, 12));
+    const fv::Grid grid{0, 1, n_cells};
+    const auto phi = fv::initial_averages(scene, grid);
+    const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+    for (const Scheme scheme : {Scheme::engquist_osher, Scheme::godunov}) {
+      const auto rates =
+          scheme == Scheme::godunov ? fv::cell_rates(scene, grid) : fv::face_rates(scene, grid);
+      const auto portable = fv::quadratic_kernel(scheme, Simd::portable);
+      fv::March reference(*portable, flux, phi, rates, 1);
+      for (int step = 0; step < 301; ++step) reference.advance(1);
+      const auto expected = reference.states(0.3);
+      for (const Simd simd : {Simd::portable, Simd::avx2, Simd::avx512}) {
+        if (simd > fv::widest_simd()) continue;
+        const auto kernel = fv::quadratic_kernel(scheme, simd);
+        fv::March march(*kernel, flux, phi, rates, 1);
+        march.advance(301);  // in blocks of many steps
+        const auto states = march.states(0.3);
+        EXPECT_TRUE(std::equal(states.begin(), states.end(), expected.begin(), expected.end())) << n_cells;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shearfront

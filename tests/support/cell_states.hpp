@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/fv/grid.hpp"
+#include "shearfront/solution/profile.hpp"
+#include "shearfront/solver/solver.hpp"
+
+/// The cells of a finite-volume solution, through the interface of all solvers.
+namespace shearfront::support {
+
+inline std::vector<double> middles(const Scene<double>& scene, std::size_t n_cells) {
+  const fv::Grid grid{scene.bottom(), scene.top(), n_cells};
+  std::vector<double> z;
+  for (std::size_t j = 0; j < n_cells; ++j) z.push_back(grid.middle(j));
+  return z;
+}
+
+/// phi of all cells, one vector per time. Fails loudly, by an empty result, if there is none.
+template <class Solver>
+std::vector<std::vector<double>> cell_states(const Scene<double>& scene, const std::vector<double>& times,
+                                             const SolverOptions& options) {
+  const SolverResult result = Solver::solve(scene, {times, middles(scene, options.cells)}, options);
+  std::vector<std::vector<double>> states;
+  if (!result.summary.usable()) return states;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    states.emplace_back();
+    for (std::size_t j = 0; j < options.cells; ++j)
+      states.back().push_back(result.samples[i * options.cells + j].phi);
+  }
+  return states;
+}
+
+inline Profile<double> profile_of(const Scene<double>& scene, const std::vector<double>& phi) {
+  const fv::Grid grid{scene.bottom(), scene.top(), phi.size()};
+  std::vector<double> z;
+  for (std::size_t j = 0; j <= phi.size(); ++j) z.push_back(grid.edge(j));
+  return {z, phi, phi};
+}
+
+}  // namespace shearfront::support
