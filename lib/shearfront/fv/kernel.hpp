@@ -37,7 +37,7 @@ struct KernelNumbers {
 /// A state phi in [lo, hi] is stored as v = 2 (phi - lo) / (hi - lo) - 1 in [-1, 1], a multiple of `quantum`.
 /// A flux is stored as h = rest + G, where G is the change of v it makes in one step, rounded to a multiple
 /// of `quantum` by this very addition. Differences of such numbers are exact. Hence
-///   (1) the sum of v over all cells never changes, not even by rounding;
+///   (1) the sum of v over all cells never changes, not even by rounding (quadratic kernel);
 ///   (2) tails do not fade into subnormal numbers, which cost a hundred times the time of normal ones;
 ///   (3) a face without flux (walls, rest) has h == rest exactly: steady states are kept forever;
 ///   (4) v stays in [-1, 1].
