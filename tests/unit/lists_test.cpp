@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/flux/all.hpp"
 #include "shearfront/flux/skeleton.hpp"
 #include "shearfront/scene/scene.hpp"
@@ -51,6 +53,8 @@ void expect_good_names() {
 TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList>(); }
 TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<ShearRateList<double>>(); }
 TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
+TEST(Lists, MisfitNamesAreDistinctAndPlain) { expect_good_names<fit::MisfitList>(); }
+TEST(Lists, LossNamesAreDistinctAndPlain) { expect_good_names<fit::LossList>(); }
 
 TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
   EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real50>>());
@@ -68,6 +72,8 @@ TEST(Lists, EveryListedTypeDescribesItself) {
   FluxList::for_each([]<class F>() { EXPECT_FALSE(F::kFormula.empty()) << F::kName; });
   ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::kFormula.empty()) << A::kName; });
   SolverList::for_each([]<class S>() { EXPECT_FALSE(S::kDescription.empty()) << S::kName; });
+  fit::MisfitList::for_each([]<class M>() { EXPECT_FALSE(M::kDescription.empty()) << M::kName; });
+  fit::LossList::for_each([]<class L>() { EXPECT_FALSE(L::kDescription.empty()) << L::kName; });
 }
 
 Scene<double> half_and_half() {

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every misfit and every loss must satisfy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/loss/skeleton.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/misfit/skeleton.hpp"
+#include "shearfront/fit/objective.hpp"
+#include "support/identification.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+template <class List>
+struct TestTypes;
+template <class... T>
+struct TestTypes<TypeList<T...>> {
+  using Type = ::testing::Types<T...>;
+};
+struct NamesOfTypes {
+  template <class T>
+  static std::string GetName(int) {
+    return std::string(T::kName);
+  }
+};
+
+template <class M>
+class MisfitLaws : public ::testing::Test {};
+using Misfits = TypeList<PointMisfit, BinMisfit, CumulativeMisfit, SkeletonMisfit>;
+TYPED_TEST_SUITE(MisfitLaws, TestTypes<Misfits>::Type, NamesOfTypes);
+
+/// Bins and integrals need no more than the data say; other data are summed by a rule that is only nearly
+/// right.
+double expected_residual(Quantity data, std::string_view misfit, double spacing) {
+  const bool own = name_of(data) == misfit || misfit == "skeleton";
+  const bool from_bins = data == Quantity::bin && misfit == "cumulative";
+  const bool from_sums = data == Quantity::cumulative && misfit == "bin";
+  if (own || from_bins || from_sums) return 1e-13;
+  return misfit == "cumulative" ? 2 * spacing
+                                : 1;  // a trapezoid at each of two shocks; a value next to a jump
+}
+
+TYPED_TEST(MisfitLaws, ResidualsVanishAtTheTruth) {
+  const support::Identification problem = support::example_3();
+  for (const Quantity quantity : {Quantity::point, Quantity::bin, Quantity::cumulative}) {
+    const Observations data = support::exact_data(problem, quantity);
+    if (!TypeParam::refusal(data).empty()) continue;
+    const ResidualRows rows = TypeParam::rows(data, 0, 1);
+    ASSERT_GT(rows.size(), 0);
+    const Parameters parameters(Scene<double>(problem.truth),
+                                {{"shear_rate.values"}, {}, {}, {}, Shape::none});
+    const auto forward = make_forward(parameters, {}, rows.field, rows.points);
+    const Prediction at = forward->predict(parameters.start(), false);
+    const Eigen::VectorXd r = rows.residuals(at.values);
+    double most = 0;
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      most = std::max(most, std::abs(r[i]) / rows.rows[static_cast<std::size_t>(i)].weight);
+    EXPECT_LE(most, expected_residual(quantity, TypeParam::kName, 0.01)) << name_of(quantity);
+  }
+}
+
+TYPED_TEST(MisfitLaws, WeightsAreTheNoiseOfTheRow) {
+  const support::Identification problem = support::example_5();
+  for (const Quantity quantity : {Quantity::point, Quantity::bin, Quantity::cumulative}) {
+    Observations data = support::exact_data(problem, quantity);
+    for (Observation& o : data.rows) o.sigma = 0.02;
+    if (!TypeParam::refusal(data).empty()) continue;
+    for (const ResidualRows::Row& row : TypeParam::rows(data, 0, 1).rows) {
+      double variance = 0, target = 0;
+      for (const Term& term : row.data) {
+        variance += std::pow(term.coefficient * 0.02, 2);
+        target += term.coefficient * data.rows[term.index].value;
+      }
+      EXPECT_NEAR(row.weight * std::sqrt(variance), 1, 1e-12);
+      EXPECT_NEAR(row.target, target, 1e-14);
+    }
+  }
+}
+
+/// Away from jumps of phi: the Jacobian of the objective is the derivative of its residuals.
+TYPED_TEST(MisfitLaws, JacobianIsTheDerivative) {
+  const support::Identification problem = support::example_5();
+  const Observations data = support::exact_data(problem, Quantity::point);
+  if (!TypeParam::refusal(data).empty()) return;
+  const Parameters parameters(Scene<double>(problem.truth),
+                              {problem.parameters, problem.start, {}, {}, Shape::none});
+  const Coordinates coordinates(parameters);
+  RunControl control(1000);
+  Objective objective(parameters, coordinates, {}, TypeParam::rows(data, 0, 1), find_loss("squared", 0),
+                      control);
+  const Eigen::VectorXd u = coordinates.coordinates(parameters.start());
+  const Objective::Evaluation at = objective.evaluate(u, true);
+  ASSERT_TRUE(at.is_valid);
+  Eigen::Index compared = 0;
+  for (Eigen::Index j = 0; j < u.size(); ++j) {
+    Eigen::VectorXd above = u, below = u;
+    above[j] += 1e-6;
+    below[j] -= 1e-6;
+    const Eigen::VectorXd ahead = objective.inspect(above, false).residuals;
+    const Eigen::VectorXd behind = objective.inspect(below, false).residuals;
+    for (Eigen::Index i = 0; i < ahead.size(); ++i) {
+      const double forward = (ahead[i] - at.residuals[i]) / 1e-6,
+                   backward = (at.residuals[i] - behind[i]) / 1e-6;
+      if (std::abs(forward - backward) > 1e-3 * (1 + std::abs(forward))) continue;  // a jump or a kink
+      EXPECT_NEAR(at.jacobian(i, j), (forward + backward) / 2, 1e-5 * (1 + std::abs(forward)))
+          << i << " " << j;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, at.jacobian.size() * 3 / 4);
+}
+
+template <class L>
+class LossLaws : public ::testing::Test {};
+using Losses = TypeList<SquaredLoss, HuberLoss, CauchyLoss, SkeletonLoss>;
+TYPED_TEST_SUITE(LossLaws, TestTypes<Losses>::Type, NamesOfTypes);
+
+TYPED_TEST(LossLaws, StartsAsSquaresAndRises) {
+  for (const double scale : {0.1, 1.0, TypeParam::kDefaultScale, 30.0}) {
+    const LossValue origin = TypeParam::value(0, scale);
+    EXPECT_EQ(origin.rho, 0);
+    EXPECT_EQ(origin.first, 1);
+    double last = 0;
+    for (double s = 1e-3; s < 1e4; s *= 1.7) {
+      const LossValue here = TypeParam::value(s, scale);
+      EXPECT_GT(here.rho, last);
+      EXPECT_LE(here.rho, s * (1 + 1e-15));
+      EXPECT_GT(here.first, 0);
+      EXPECT_LE(here.second, 0);
+      last = here.rho;
+    }
+  }
+}
+
+TYPED_TEST(LossLaws, DerivativesAgreeWithDifferences) {
+  for (const double scale : {0.5, TypeParam::kDefaultScale})
+    for (double s = 0.017; s < 100; s *= 1.9) {
+      const double h = 1e-5 * s;
+      const LossValue above = TypeParam::value(s + h, scale), below = TypeParam::value(s - h, scale);
+      const LossValue here = TypeParam::value(s, scale);
+      EXPECT_NEAR((above.rho - below.rho) / (2 * h), here.first, 1e-8);
+      EXPECT_NEAR((above.first - below.first) / (2 * h), here.second, 1e-8 * (1 + std::abs(here.second)));
+    }
+}
+
+}  // namespace
+}  // namespace shearfront::fit
