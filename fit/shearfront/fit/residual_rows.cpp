@@ -59,7 +59,19 @@ static void merge(std::vector<Term>& terms) {
   terms = std::move(merged);
 }
 
+void RowBuilder::data(std::size_t k, double coefficient) {
+  if (!row_.data.empty() && row_.data.back().index == k)
+    row_.data.back().coefficient += coefficient;
+  else
+    row_.data.push_back({k, coefficient});
+}
+
 void RowBuilder::finish_row() {
+  finish_row_of_sum();
+  row_ = {};
+}
+
+void RowBuilder::finish_row_of_sum() {
   merge(row_.model);
   double variance = 0;
   row_.target = 0;
@@ -70,8 +82,7 @@ void RowBuilder::finish_row() {
     variance += term.coefficient * term.coefficient * sigma * sigma;
   }
   row_.weight = 1 / std::sqrt(variance);
-  rows_.rows.push_back(std::move(row_));
-  row_ = {};
+  rows_.rows.push_back(row_);
 }
 
 std::vector<MeasuredProfile> measured_profiles(const Observations& observations) {

@@ -52,9 +52,12 @@ class RowBuilder {
 
   /// A coefficient of X(t, z) in the row being built.
   void model(double t, double z, double coefficient) { row_.model.push_back({place(t, z), coefficient}); }
-  /// A coefficient of observation k.
-  void data(std::size_t k, double coefficient) { row_.data.push_back({k, coefficient}); }
+  /// A coefficient of observation k; the same k again right afterwards adds up.
+  void data(std::size_t k, double coefficient);
   void finish_row();
+  /// Finishes the row and starts the next one with its terms: running sums.
+  void finish_row_of_sum();
+  void clear_row() { row_ = {}; }
   [[nodiscard]] ResidualRows take() { return std::move(rows_); }
 
  private:

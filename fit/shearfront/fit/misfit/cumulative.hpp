@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -26,19 +27,17 @@ struct CumulativeMisfit {
   static ResidualRows rows(const Observations& observations, double bottom, double top) {
     RowBuilder builder(observations, Field::M);
     for (const MeasuredProfile& profile : measured_profiles(observations)) {
-      for (std::size_t j = 0; j < profile.rows.size(); ++j) {
-        if (observations.quantity == Quantity::point && j == 0) continue;
-        if (observations.quantity == Quantity::cumulative) {
-          const std::size_t k = profile.rows[j];
+      if (observations.quantity == Quantity::bin)
+        add_bins(builder, observations, profile, bottom, top);
+      else if (observations.quantity == Quantity::point)
+        add_trapezoids(builder, observations, profile);
+      else
+        for (const std::size_t k : profile.rows) {
           builder.model(profile.t, observations.rows[k].z, 1);
           builder.data(k, 1);
-        } else if (observations.quantity == Quantity::bin) {
-          add_bins(builder, observations, profile, j, bottom, top);
-        } else {
-          add_trapezoids(builder, observations, profile, j);
+          builder.finish_row();
         }
-        builder.finish_row();
-      }
+      builder.clear_row();
     }
     return builder.take();
   }
@@ -46,23 +45,26 @@ struct CumulativeMisfit {
  private:
   /// Neighbouring bins share an edge, whose terms cancel.
   static void add_bins(RowBuilder& builder, const Observations& observations, const MeasuredProfile& profile,
-                       std::size_t last, double bottom, double top) {
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Observation& o = observations.rows[profile.rows[i]];
+                       double bottom, double top) {
+    for (const std::size_t k : profile.rows) {
+      const Observation& o = observations.rows[k];
       const double lo = std::max(bottom, o.z - o.width / 2), hi = std::min(top, o.z + o.width / 2);
       builder.model(profile.t, hi, 1);
       builder.model(profile.t, lo, -1);
-      builder.data(profile.rows[i], hi - lo);
+      builder.data(k, hi - lo);
+      builder.finish_row_of_sum();
     }
   }
   static void add_trapezoids(RowBuilder& builder, const Observations& observations,
-                             const MeasuredProfile& profile, std::size_t last) {
-    const auto z = [&](std::size_t j) { return observations.rows[profile.rows[j]].z; };
-    builder.model(profile.t, z(last), 1);
-    builder.model(profile.t, z(0), -1);
-    for (std::size_t i = 0; i <= last; ++i) {
-      const double width = (i < last ? z(i + 1) - z(i) : 0) + (i > 0 ? z(i) - z(i - 1) : 0);
-      builder.data(profile.rows[i], width / 2);
+                             const MeasuredProfile& profile) {
+    for (std::size_t j = 1; j < profile.rows.size(); ++j) {
+      const std::size_t below = profile.rows[j - 1], above = profile.rows[j];
+      const double lo = observations.rows[below].z, hi = observations.rows[above].z;
+      builder.model(profile.t, hi, 1);
+      builder.model(profile.t, lo, -1);
+      builder.data(below, (hi - lo) / 2);
+      builder.data(above, (hi - lo) / 2);
+      builder.finish_row_of_sum();
     }
   }
 };
