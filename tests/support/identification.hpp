@@ -50,8 +50,12 @@ inline SceneSpec<double> half_filled(ShearRate<double> rate) {
 }
 
 inline Identification example_3() {
-  return {"3", half_filled(Piecewise<double>{{0.29}, {3.15, 0.5}}), {"shear_rate.values"}, {2.5, 0.7},
-          decimals(0.5, 10, 0.5), decimals(0.01, 0.99, 0.01)};
+  return {"3",
+          half_filled(Piecewise<double>{{0.29}, {3.15, 0.5}}),
+          {"shear_rate.values"},
+          {2.5, 0.7},
+          decimals(0.5, 10, 0.5),
+          decimals(0.01, 0.99, 0.01)};
 }
 
 inline Identification example_4() {

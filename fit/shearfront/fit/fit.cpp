@@ -135,6 +135,7 @@ class Run {
       how.starts = 1;
     }
     has_searched_ = true;
+    if (tolerance > 0) how.max_evaluations = control_.left() / 3;  // the last stage needs the most
     result_ = search(objective, u_, how);
     iterations_ += result_.iterations;
     u_ = result_.u;
@@ -155,6 +156,8 @@ class Run {
     // Wrong in the cells of a shock only, where the loss forgives it.
     ResidualRows means = rows_of(BinMisfit::kName, spec_);
     set_weights(means, 1);
+    // The bias of the sums may have put their smallest minimum into another valley.
+    if (spec_.search.algorithm == "global") has_searched_ = false;
     search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
   }
 
