@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "shearfront/io/text.hpp"
@@ -53,10 +55,26 @@ std::size_t choice_option(std::string_view option, std::string_view value,
   return static_cast<std::size_t>(it - names.begin());
 }
 
+namespace {
+
+/// The decimal number of 15 digits that x differs from by rounding only, otherwise x: 0.01:0.99:99 contains
+/// 0.6, not 0.6000000000000001, which would lie on the other side of an interface at 0.6.
+double without_rounding(double x, double scale) {
+  constexpr double kUlps = 4;
+  const double decimal = parse_number(fmt::format("{:.15g}", x)).value_or(x);
+  return std::abs(decimal - x) <= kUlps * std::numeric_limits<double>::epsilon() * scale ? decimal : x;
+}
+
+}  // namespace
+
 std::vector<double> equally_spaced(double start, double stop, std::size_t n) {
   std::vector<double> xs(n, start);
+  const double scale = std::max(std::abs(start), std::abs(stop));
   for (std::size_t i = 1; i < n; ++i)
-    xs[i] = i + 1 == n ? stop : start + (stop - start) * static_cast<double>(i) / static_cast<double>(n - 1);
+    xs[i] = i + 1 == n
+                ? stop
+                : without_rounding(
+                      start + (stop - start) * static_cast<double>(i) / static_cast<double>(n - 1), scale);
   return xs;
 }
 

@@ -38,7 +38,8 @@ enum class Steady { refused, allowed };
 [[nodiscard]] std::vector<double> list_option(std::string_view option, std::string_view value, Bounds bounds,
                                               std::string_view constraint, Steady steady);
 
-/// n numbers from start to stop, both included.
+/// n numbers from start to stop, both included, as decimal as they are: 0:1:11 contains 0.3, not
+/// 0.30000000000000004.
 [[nodiscard]] std::vector<double> equally_spaced(double start, double stop, std::size_t n);
 
 }  // namespace shearfront::tools
