@@ -66,6 +66,15 @@ VectorXd Coordinates::unbounded(const VectorXd& p) const {
   return u;
 }
 
+std::vector<bool> Coordinates::at_bound(const VectorXd& u) const {
+  const auto is_at = [](double x, double bound) {
+    return std::isfinite(bound) && std::abs(x - bound) <= 1e-8 * std::max(1.0, std::abs(bound));
+  };
+  std::vector<bool> at;
+  for (Index j = 0; j < u.size(); ++j) at.push_back(is_at(u[j], lower_[j]) || is_at(u[j], upper_[j]));
+  return at;
+}
+
 std::vector<Index> Coordinates::bound_together(Index j) const {
   const auto place = std::find(shaped_.begin(), shaped_.end(), j);
   if (place == shaped_.end() || place + 1 == shaped_.end()) return {j};

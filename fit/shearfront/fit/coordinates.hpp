@@ -29,6 +29,8 @@ class Coordinates {
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
   [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& u) const;       ///< p(u)
   [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& p) const;  ///< u(p), inside the box
+  /// Which coordinates are at a bound: exactly, or within the step a search could still make.
+  [[nodiscard]] std::vector<bool> at_bound(const Eigen::VectorXd& u) const;
   /// The parameters that lose their freedom when u_j is at a bound: j itself; with a shape the values made
   /// equal (u_j = v_j - v_{j+1} = 0) or put on a straight line.
   [[nodiscard]] std::vector<Eigen::Index> bound_together(Eigen::Index j) const;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "shearfront/fit/noise.hpp"
+
 namespace shearfront::fit {
 namespace {
 
@@ -107,15 +109,19 @@ struct LossEffect {
   double slope = 1, variance = 1;
 };
 
-LossEffect effect_of(const Loss& loss, const VectorXd& residuals, double noise, Index n_coordinates) {
+LossEffect effect_of(const Loss& loss, const Objective::Evaluation& at, double noise, Index n_coordinates) {
   if (!loss.is_robust) return {1, noise * noise};
-  double psi2 = 0, slope = 0;
-  for (const double r : residuals) {
-    const LossValue rho = loss(r * r);
-    psi2 += r * r * rho.first * rho.first;
-    slope += rho.first + 2 * r * r * rho.second;
+  // Rows that no coordinate moves have no part in the estimate.
+  const std::vector<bool> depends = dependent_rows(at.jacobian);
+  double psi2 = 0, slope = 0, n = 0;
+  for (Index i = 0; i < at.residuals.size(); ++i) {
+    if (!depends[static_cast<std::size_t>(i)]) continue;
+    const double r2 = at.residuals[i] * at.residuals[i];
+    const LossValue rho = loss(r2);
+    psi2 += r2 * rho.first * rho.first;
+    slope += rho.first + 2 * r2 * rho.second;
+    n += 1;
   }
-  const auto n = static_cast<double>(residuals.size());
   const double freedom = n - static_cast<double>(n_coordinates);
   if (!(slope > 0) || !(freedom > 0)) return {kNaN, kNaN};
   slope /= n;
@@ -130,7 +136,7 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   const Index n = at.jacobian.cols();
   const Decomposition parts = decompose(at, held);
   const auto n_free = static_cast<Index>(parts.free.size());
-  const LossEffect effect = effect_of(loss, at.residuals, noise, n_free);
+  const LossEffect effect = effect_of(loss, at, noise, n_free);
   const MatrixXd moved = noise_to_coordinates(rows, observations, parts.pseudo_inverse);
   const MatrixXd cov = effect.variance * moved * moved.transpose();
   const VectorXd curvature = parts.pseudo_inverse.rowwise().squaredNorm() / effect.slope;

@@ -10,10 +10,12 @@
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/shock_rows.hpp"
+#include "shearfront/fit/uncertainty.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::fit {
@@ -36,16 +38,14 @@ constexpr int kMostScales = 3;
 /// The scale of a robust loss need not be better known than this.
 constexpr double kScaleTolerance = 0.05;
 
-/// Standard deviation of a Gaussian with the median absolute residual of the rows that depend on the
-/// coordinates; the others (beds at rest, all of one kind) may fit exactly and say nothing.
+/// The noise of the rows that depend on an unknown; the others (beds at rest, all of one kind) may fit
+/// exactly and say nothing.
 double median_noise(const Objective::Evaluation& at) {
-  std::vector<double> sizes;
-  for (Eigen::Index i = 0; i < at.residuals.size(); ++i)
-    if ((at.jacobian.row(i).array() != 0).any()) sizes.push_back(std::abs(at.residuals[i]));
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
+  const std::vector<bool> depends = dependent_rows(at.jacobian);
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < depends.size(); ++i)
+    if (depends[i]) residuals.push_back(at.residuals[static_cast<Eigen::Index>(i)]);
+  return median_deviation(std::move(residuals));
 }
 
 ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
@@ -87,7 +87,9 @@ class Run {
         control_(spec.search.max_evaluations, progress),
         quantity_(quantity_of(spec)),
         loss_name_(loss_of(spec)),
-        loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))) {
+        loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))),
+        progress_(progress) {
+    check_uncertainty(spec);
     const auto names = algorithm_names();
     if (std::find(names.begin(), names.end(), spec.search.algorithm) == names.end())
       (void)nearest_algorithm();
@@ -95,6 +97,20 @@ class Run {
 
   Estimate operator()() {
     const auto begin = std::chrono::steady_clock::now();
+    find();
+    Estimate estimate = report(spec_, parameters_, *objective_, result_);
+    estimate.iterations = iterations_;
+    estimate.left_out = left_out_;
+    estimate.quantity = quantity_;
+    estimate.loss = loss_name_;
+    const Refit refit = [](const FitSpec& spec) { return Run(spec, {}).values(); };
+    add_uncertainty(spec_, parameters_, *objective_, refit, progress_, estimate);
+    estimate.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return estimate;
+  }
+
+ private:
+  void find() {
     u_ = coordinates_.coordinates(parameters_.start());
     const bool stages = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm));
     if (stages && quantity_ != CumulativeMisfit::kName) approach();
@@ -105,16 +121,14 @@ class Run {
       objective_ = make_objective(std::move(rows), loss_);
       minimise();
     }
-    Estimate estimate = report(spec_, parameters_, *objective_, result_);
-    estimate.iterations = iterations_;
-    estimate.left_out = left_out_;
-    estimate.quantity = quantity_;
-    estimate.loss = loss_name_;
-    estimate.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return estimate;
+  }
+  /// Nothing but the values found; nothing if the search did not end at a minimum.
+  [[nodiscard]] std::optional<VectorXd> values() {
+    find();
+    if (result_.status != Status::ok || !std::isfinite(result_.misfit)) return {};
+    return coordinates_.values(result_.u);
   }
 
- private:
   [[noreturn]] void nearest_algorithm() const {
     std::string all;
     for (const std::string& name : algorithm_names()) all += (all.empty() ? "" : ", ") + name;
@@ -202,6 +216,7 @@ class Run {
   RunControl control_;
   std::string quantity_, loss_name_;
   Loss loss_;
+  Progress progress_;
   std::unique_ptr<Objective> objective_;
   Eigen::VectorXd u_;
   SearchResult result_;

@@ -9,6 +9,7 @@
 
 #include "shearfront/fit/covariance.hpp"
 #include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/residual_structure.hpp"
 #include "shearfront/fit/warnings.hpp"
 
@@ -21,18 +22,6 @@ using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTail = 0.975;
-
-/// A search ends at a bound exactly or within the step it still could make.
-bool at(double u, double bound) {
-  return std::isfinite(bound) && std::abs(u - bound) <= 1e-8 * std::max(1.0, std::abs(bound));
-}
-
-std::vector<bool> coordinates_at_bound(const Coordinates& coordinates, const VectorXd& u) {
-  std::vector<bool> held(static_cast<std::size_t>(u.size()));
-  for (Index j = 0; j < u.size(); ++j)
-    held[static_cast<std::size_t>(j)] = at(u[j], coordinates.lower()[j]) || at(u[j], coordinates.upper()[j]);
-  return held;
-}
 
 /// Observations predicted in their own quantity; empty if the forward model has no solution.
 std::vector<double> predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
@@ -49,38 +38,6 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   for (std::size_t i = 0; i < predicted.size(); ++i)
     predicted[i] = rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
   return predicted;
-}
-
-double root_mean_square(const VectorXd& x, double freedom) { return std::sqrt(x.squaredNorm() / freedom); }
-
-/// From residuals of which most are noise, a few gross.
-double median_noise(const VectorXd& x, double freedom) {
-  std::vector<double> sizes;
-  for (const double r : x) sizes.push_back(std::abs(r));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  constexpr double kOfGaussian = 1.4826;
-  return kOfGaussian * *middle * std::sqrt(static_cast<double>(x.size()) / freedom);
-}
-
-/// Standard deviation of the noise of one observation. Rows made of several observations have correlated
-/// residuals, so there the residuals of the observations themselves are taken; those of points are gross
-/// where a shock is a little off.
-double estimated_noise(const FitSpec& spec, const Objective& objective, const VectorXd& residuals,
-                       const std::vector<double>& predicted, double freedom) {
-  if (!(freedom > 0)) return kNaN;
-  const bool is_robust = objective.loss().is_robust;
-  const auto& rows = objective.rows().rows;
-  if (std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.data.size() == 1; }))
-    return is_robust ? median_noise(residuals, freedom) : root_mean_square(residuals, freedom);
-  std::vector<double> own;
-  for (std::size_t k = 0; k < predicted.size(); ++k)
-    if (std::isfinite(predicted[k])) own.push_back(predicted[k] - spec.observations.rows[k].value);
-  const VectorXd e = VectorXd::Map(own.data(), static_cast<Index>(own.size()));
-  const double own_freedom = freedom + static_cast<double>(e.size() - residuals.size());
-  if (!(own_freedom > 0)) return kNaN;
-  return is_robust || spec.observations.quantity == Quantity::point ? median_noise(e, own_freedom)
-                                                                    : root_mean_square(e, own_freedom);
 }
 
 /// Gaussian log likelihood up to a constant that depends on the data alone.
@@ -159,7 +116,7 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   for (Index i = 0; i < best.residuals.size(); ++i)
     squares += std::pow(best.residuals[i] / objective.rows().rows[static_cast<std::size_t>(i)].weight, 2);
   estimate.residual_norm = std::sqrt(squares);
-  const std::vector<bool> held = coordinates_at_bound(objective.coordinates(), found.u);
+  const std::vector<bool> held = objective.coordinates().at_bound(found.u);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = values[static_cast<Index>(i)];
     estimate.parameters[i].estimate = value;
@@ -170,13 +127,14 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
       for (const Index i : objective.coordinates().bound_together(j))
         estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
   estimate.sigma_is_given = spec.observations.has_sigma();
-  const double freedom = static_cast<double>(best.residuals.size()) -
-                         static_cast<double>(std::count(held.begin(), held.end(), false));
   estimate.sigma = 1;
   double quantile = boost::math::quantile(boost::math::normal(), kTail);
   if (!estimate.sigma_is_given) {
-    estimate.sigma = estimated_noise(spec, objective, best.residuals, estimate.predicted, freedom);
-    if (freedom > 0) quantile = boost::math::quantile(boost::math::students_t(freedom), kTail);
+    const Noise noise = noise_of(objective, spec.observations, best, estimate.predicted,
+                                 static_cast<std::size_t>(std::count(held.begin(), held.end(), false)));
+    estimate.sigma = noise.sigma;
+    estimate.freedom = noise.freedom;
+    if (noise.freedom > 0) quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
   }
   const Covariance errors =
       covariance(objective.rows(), spec.observations, best, objective.loss(), estimate.sigma, held);

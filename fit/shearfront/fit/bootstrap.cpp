@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/bootstrap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "shearfront/fit/search/search.hpp"
+#include "shearfront/solution/observe.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTail = 0.025;
+
+/// The specification of all replicates but for the values of their observations.
+FitSpec template_of(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate) {
+  FitSpec replicate = spec;
+  replicate.unknown.parameters.clear();
+  replicate.unknown.start.clear();
+  replicate.unknown.lower.clear();
+  replicate.unknown.upper.clear();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    replicate.unknown.parameters.push_back(p.name());
+    replicate.unknown.start.push_back(std::clamp(estimate.parameters[i].estimate, p.lower, p.upper));
+    replicate.unknown.lower.push_back(p.lower);
+    replicate.unknown.upper.push_back(p.upper);
+  }
+  replicate.search.algorithm = uses_derivatives(spec.search.algorithm) ? "ceres" : "nlopt:sbplx";
+  replicate.search.starts = 1;
+  replicate.uncertainty = {};
+  return replicate;
+}
+
+void draw(Observations& observations, const Estimate& estimate, std::uint64_t seed) {
+  boost::random::mt19937_64 engine(seed);
+  boost::random::normal_distribution<double> normal;
+  for (std::size_t k = 0; k < observations.rows.size(); ++k) {
+    Observation& o = observations.rows[k];
+    o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * normal(engine);
+  }
+}
+
+/// The (n + 1) p-th of n sorted numbers, interpolated.
+double quantile(const std::vector<double>& sorted, double p) {
+  const double place = p * static_cast<double>(sorted.size() + 1) - 1;
+  const double last = static_cast<double>(sorted.size() - 1);
+  const double below = std::clamp(std::floor(place), 0.0, last);
+  const auto i = static_cast<std::size_t>(below);
+  const double above = sorted[std::min(i + 1, sorted.size() - 1)];
+  return sorted[i] + std::clamp(place - below, 0.0, 1.0) * (above - sorted[i]);
+}
+
+/// Fits of all replicates, in their order; nothing where a fit failed or was not made.
+class Replicates {
+ public:
+  Replicates(const FitSpec& spec, const FitSpec& one, const Estimate& estimate, const Refit& refit,
+             const Progress& progress)
+      : spec_(spec),
+        one_(one),
+        estimate_(estimate),
+        refit_(refit),
+        progress_(progress),
+        found_(spec.uncertainty.bootstrap) {}
+
+  std::vector<std::optional<VectorXd>> operator()() {
+    std::size_t n_threads = spec_.uncertainty.threads;
+    if (n_threads == 0) n_threads = std::max(1U, std::thread::hardware_concurrency());
+    n_threads = std::min(n_threads, found_.size());
+    std::vector<std::thread> others;
+    for (std::size_t i = 1; i < n_threads; ++i) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& other : others) other.join();
+    return std::move(found_);
+  }
+  [[nodiscard]] bool is_interrupted() const { return stop_; }
+
+ private:
+  void work() {
+    FitSpec mine = one_;
+    for (std::size_t b = next_++; b < found_.size() && !stop_; b = next_++) {
+      draw(mine.observations, estimate_, stream_seed(spec_.uncertainty.seed, b));
+      try {
+        found_[b] = refit_(mine);
+      } catch (const std::exception&) {
+        found_[b].reset();  // counted as failed, like a fit without result
+      }
+      if (!progress_) continue;
+      const std::lock_guard lock(reporting_);
+      if (!progress_(estimate_.evaluations, estimate_.misfit)) stop_ = true;
+    }
+  }
+
+  const FitSpec& spec_;
+  const FitSpec& one_;
+  const Estimate& estimate_;
+  const Refit& refit_;
+  const Progress& progress_;
+  std::vector<std::optional<VectorXd>> found_;  // one element per replicate, each written by one thread
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::mutex reporting_;
+};
+
+void set_intervals(const Parameters& parameters, const Estimate& estimate, Bootstrap& result) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const ParameterEstimate& p = estimate.parameters[i];
+    if (!p.std_error && !p.at_bound) continue;
+    const auto column = result.estimates.col(static_cast<Index>(i));
+    std::vector<double> sorted(column.begin(), column.end());
+    std::sort(sorted.begin(), sorted.end());
+    const Interval interval{quantile(sorted, kTail), quantile(sorted, 1 - kTail)};
+    if (interval.low < interval.high) result.intervals[i] = interval;
+  }
+}
+
+}  // namespace
+
+Bootstrap bootstrap(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate,
+                    const Refit& refit, const Progress& progress) {
+  Bootstrap result;
+  result.intervals.resize(parameters.size());
+  const bool is_predicted = std::all_of(estimate.predicted.begin(), estimate.predicted.end(),
+                                        [](double x) { return std::isfinite(x); });
+  if (!(estimate.sigma > 0) || !is_predicted) {
+    result.warnings.emplace_back("no bootstrap: the noise of the data is not known");
+    return result;
+  }
+  const FitSpec one = template_of(spec, parameters, estimate);
+  Replicates replicates(spec, one, estimate, refit, progress);
+  const std::vector<std::optional<VectorXd>> found = replicates();
+  std::vector<VectorXd> good;
+  for (const auto& values : found)
+    if (values) good.push_back(*values);
+  result.failed = found.size() - good.size();
+  result.estimates.resize(static_cast<Index>(good.size()), static_cast<Index>(parameters.size()));
+  for (std::size_t b = 0; b < good.size(); ++b) result.estimates.row(static_cast<Index>(b)) = good[b];
+  if (replicates.is_interrupted())
+    result.warnings.emplace_back("the bootstrap was interrupted: its intervals are from the replicates done");
+  else if (result.failed > 0)
+    result.warnings.push_back(fmt::format(
+        "{} of {} bootstrap replicates could not be fitted and are left out", result.failed, found.size()));
+  if (good.size() < kFewestReplicates) {
+    result.warnings.push_back(
+        fmt::format("{} bootstrap replicates are too few for 95 % intervals; at least {} "
+                    "are needed",
+                    good.size(), kFewestReplicates));
+    return result;
+  }
+  const MatrixXd centred = result.estimates.rowwise() - result.estimates.colwise().mean();
+  result.covariance = centred.transpose() * centred / static_cast<double>(good.size() - 1);
+  set_intervals(parameters, estimate, result);
+  return result;
+}
+
+}  // namespace shearfront::fit

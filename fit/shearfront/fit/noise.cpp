@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+
+/// Entries of a Jacobian this much smaller than the largest of their column are rounding.
+constexpr double kRounding = 1e-12;
+
+Noise noise_from(std::vector<double> residuals, std::size_t n_free, bool by_median) {
+  const auto n = static_cast<double>(residuals.size());
+  Noise noise{std::numeric_limits<double>::quiet_NaN(), n - static_cast<double>(n_free)};
+  if (!(noise.freedom > 0)) return noise;
+  if (by_median) {
+    noise.sigma = median_deviation(std::move(residuals)) * std::sqrt(n / noise.freedom);
+  } else {
+    double squares = 0;
+    for (const double r : residuals) squares += r * r;
+    noise.sigma = std::sqrt(squares / noise.freedom);
+  }
+  return noise;
+}
+
+}  // namespace
+
+std::vector<bool> dependent_rows(const Eigen::MatrixXd& jacobian) {
+  std::vector<bool> depends(static_cast<std::size_t>(jacobian.rows()), false);
+  for (const auto column : jacobian.colwise()) {
+    const double least = kRounding * column.lpNorm<Eigen::Infinity>();
+    for (Index i = 0; i < column.size(); ++i)
+      if (std::abs(column[i]) > least) depends[static_cast<std::size_t>(i)] = true;
+  }
+  return depends;
+}
+
+double median_deviation(std::vector<double> residuals) {
+  constexpr double kOfGaussian = 1.482602218505602;
+  if (residuals.empty()) return 0;
+  for (double& r : residuals) r = std::abs(r);
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  return kOfGaussian * *middle;
+}
+
+Noise noise_of(const Objective& objective, const Observations& observations, const Objective::Evaluation& at,
+               const std::vector<double>& predicted, std::size_t n_free) {
+  const bool is_robust = objective.loss().is_robust;
+  const std::vector<ResidualRows::Row>& rows = objective.rows().rows;
+  const std::vector<bool> depends = dependent_rows(at.jacobian);
+  const bool is_direct = std::all_of(rows.begin(), rows.end(),
+                                     [](const ResidualRows::Row& row) { return row.data.size() == 1; });
+  std::vector<double> residuals;
+  if (is_direct) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (depends[i]) residuals.push_back(at.residuals[static_cast<Index>(i)]);
+    return noise_from(std::move(residuals), n_free, is_robust);
+  }
+  std::vector<bool> is_used(predicted.size(), false);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const Term& term : rows[i].data)
+      if (depends[i] && std::isfinite(predicted[term.index])) is_used[term.index] = true;
+  for (std::size_t k = 0; k < predicted.size(); ++k)
+    if (is_used[k]) residuals.push_back(predicted[k] - observations.rows[k].value);
+  return noise_from(std::move(residuals), n_free, is_robust || observations.quantity == Quantity::point);
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/fit/objective.hpp"
+
+namespace shearfront::fit {
+
+/// 95 % intervals of all parameters, and what is to be said about them.
+struct Profiles {
+  /// An end that the data do not give is NaN; empty if neither end is known.
+  std::vector<std::optional<Interval>> intervals;
+  std::vector<std::string> warnings;
+};
+
+/// Profile-likelihood intervals: all values x of a coordinate for which
+///
+///     2 (min over the others of F(u | u_j = x) - F(u_min)) <= c_j q,
+///
+/// q the 95 % quantile of chi^2_1 if sigma is given, else of F(1, freedom) with the noise estimated once, at
+/// the minimum. c_j is Covariance::misfit_scale: noise^2 for least squares of independent rows; for a robust
+/// loss and for rows with correlated noise F is a quasi-likelihood, scaled so that its curvature agrees with
+/// the covariance of the estimate. Unlike estimate -+ error they need no linear model: the intervals follow
+/// the curved misfit, stop where the misfit jumps, and are the same for a parameter and its logarithm.
+///
+/// Each end is bracketed from the standard error outwards and found by TOMS 748 to kEndTolerance of its
+/// distance, with at most kMostRefits refits (Ceres) of the others, each from the last one. An end not
+/// reached inside the bounds of the parameter stays open and is warned about; so is a misfit below the
+/// minimum. Preconditions: no shape; `estimate` is the minimum of `objective`, usable. Cost: about 10 refits
+/// a parameter. Source: Venzon & Moolgavkar (1988); scaling: Chandler & Bate (2007).
+[[nodiscard]] Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters,
+                                         const Objective& objective, const Estimate& estimate,
+                                         const Progress& progress = {});
+
+inline constexpr double kEndTolerance = 1e-3;
+inline constexpr int kMostRefits = 40;
+
+}  // namespace shearfront::fit

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the error bars of a fit hold: coverage of the 95 % intervals and error over the Cramer-Rao bound,
+// as a table in Markdown. Noise is drawn anew for every replicate; half of them are fitted with the column
+// sigma, half without. Usage: shearfront_coverage_table [REPLICATES [THREADS [EXAMPLE [QUANTITY]]]]
+#include <Eigen/Cholesky>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/objective.hpp"
+#include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/solution/observe.hpp"
+
+namespace {
+
+using namespace shearfront;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Example {
+  const char* name;
+  SceneSpec<double> truth;
+  std::vector<std::string> parameters;
+  std::vector<double> start, times, depths;
+};
+
+std::vector<double> grid(double first, double step, int n) {
+  std::vector<double> x;
+  for (int i = 0; i < n; ++i) x.push_back(std::round((first + i * step) * 1e6) / 1e6);
+  return x;
+}
+
+std::vector<Example> examples() {
+  SceneSpec<double> scene;
+  scene.initial_breaks = {0.5};
+  scene.initial_values = {0, 1};
+  const auto with = [&](auto rate) {
+    SceneSpec<double> s = scene;
+    s.shear_rate = rate;
+    return s;
+  };
+  const std::vector<double> fine_t = grid(0.5, 0.5, 20), fine_z = grid(0.01, 0.01, 99);
+  return {
+      {"3", with(Piecewise<double>{{0.29}, {3.15, 0.5}}), {"shear_rate.values"}, {2.5, 0.7}, fine_t, fine_z},
+      {"4",
+       with(Piecewise<double>{{0.2, 0.4, 0.6, 0.8}, {3.25, 2.32, 1.63, 1.05, 0.53}}),
+       {"shear_rate.values"},
+       {3.3, 2.5, 1.7, 1.1, 0.5},
+       fine_t,
+       fine_z},
+      {"5",
+       with(Exponential<double>{0.87 / 0.205, 0.205}),
+       {"shear_rate.amplitude", "shear_rate.decay"},
+       {5, 0.2},
+       grid(1, 1, 10),
+       grid(0.05, 0.05, 19)}};
+}
+
+Observations without_noise(const Example& example, Quantity quantity) {
+  ObservationPlan plan{example.times, example.depths, quantity, 0};
+  if (quantity == Quantity::bin) plan.width = example.depths[1] - example.depths[0];
+  const Scene<double> scene(example.truth);
+  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}).samples);
+}
+
+/// Standard deviations of the logarithms of the parameters by the Cramer-Rao bound, for sigma = 1: from the
+/// analytic Jacobian of the observations at the truth. For point data it counts how phi varies between the
+/// shocks only; what the places of the shocks tell has no Fisher information (the likelihood jumps).
+VectorXd cramer_rao(const Example& example, const Observations& observations) {
+  const Scene<double> scene(example.truth);
+  const fit::Parameters parameters(scene, {example.parameters, {}, {}, {}, fit::Shape::none});
+  const fit::Coordinates coordinates(parameters);
+  fit::ResidualRows rows;
+  fit::MisfitList::for_each([&]<class M>() {
+    if (name_of(observations.quantity) == M::kName) rows = M::rows(observations, scene.bottom(), scene.top());
+  });
+  fit::RunControl control(1);
+  const fit::Objective objective(parameters, coordinates, {}, rows, fit::find_loss("squared", 0), control);
+  const MatrixXd j = objective.inspect(coordinates.coordinates(parameters.start()), true).jacobian;
+  const MatrixXd information = j.transpose() * j;
+  return information.ldlt().solve(MatrixXd::Identity(j.cols(), j.cols())).diagonal().cwiseSqrt();
+}
+
+struct Outcome {
+  bool is_usable = false;
+  VectorXd error;    ///< log(estimate / truth)
+  VectorXd covered;  ///< 1, 0; NaN without interval
+  VectorXd stated;   ///< standard error / estimate
+  bool structured = false;
+};
+
+Outcome run(const fit::FitSpec& spec, const VectorXd& truth) {
+  const fit::Estimate estimate = fit::fit(spec);
+  Outcome outcome;
+  outcome.is_usable = estimate.usable() && estimate.status == Status::ok;
+  outcome.error.resize(truth.size());
+  outcome.covered = outcome.stated = VectorXd::Constant(truth.size(), std::nan(""));
+  outcome.structured = estimate.structure && estimate.structure->is_structured;
+  for (Index i = 0; i < truth.size(); ++i) {
+    const fit::ParameterEstimate& p = estimate.parameters[static_cast<std::size_t>(i)];
+    outcome.error[i] = std::log(p.estimate / truth[i]);
+    if (!p.ci95) continue;
+    outcome.covered[i] = p.ci95->low <= truth[i] && truth[i] <= p.ci95->high ? 1 : 0;
+    outcome.stated[i] = *p.std_error / p.estimate;
+  }
+  return outcome;
+}
+
+std::vector<Outcome> replicate(const fit::FitSpec& spec, const VectorXd& truth, double sigma, std::size_t n,
+                               std::size_t n_threads) {
+  std::vector<Outcome> outcomes(n);
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t b = next++; b < n; b = next++) {
+      fit::FitSpec mine = spec;
+      add_noise(mine.observations, sigma, 20100504, b);
+      if (b % 2 == 1)
+        for (Observation& o : mine.observations.rows) o.sigma = std::nan("");
+      outcomes[b] = run(mine, truth);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < n_threads; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  return outcomes;
+}
+
+double share(const std::vector<Outcome>& outcomes, Index i, std::size_t parity) {
+  double covered = 0, n = 0;
+  for (std::size_t b = 0; b < outcomes.size(); ++b) {
+    if (!outcomes[b].is_usable || std::isnan(outcomes[b].covered[i]) || (parity < 2 && b % 2 != parity))
+      continue;
+    covered += outcomes[b].covered[i];
+    n += 1;
+  }
+  return 100 * covered / n;
+}
+
+void print(const Example& example, Quantity quantity, double sigma, const std::vector<std::string>& names,
+           const VectorXd& bound, const std::vector<Outcome>& outcomes) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    double squares = 0, bias = 0, stated = 0;
+    std::size_t n = 0, without = 0, structured = 0;
+    for (const Outcome& outcome : outcomes) {
+      if (!outcome.is_usable) continue;
+      ++n;
+      squares += outcome.error[k] * outcome.error[k];
+      bias += outcome.error[k];
+      structured += outcome.structured ? 1 : 0;
+      if (std::isnan(outcome.stated[k]))
+        ++without;
+      else
+        stated += outcome.stated[k] * outcome.stated[k];
+    }
+    const auto count = static_cast<double>(n);
+    const double rmse = std::sqrt(squares / count);
+    std::printf("| %s | %s | %g | %s | %.1f | %.1f | %.1f | %.2e | %.2f | %+.2f | %.2f | %zu | %zu | %zu |\n",
+                example.name, std::string(name_of(quantity)).c_str(), sigma, names[i].c_str(),
+                share(outcomes, k, 2), share(outcomes, k, 0), share(outcomes, k, 1), rmse,
+                rmse / (sigma * bound[k]), bias / count / rmse,
+                std::sqrt(stated / (count - static_cast<double>(without))) / rmse, outcomes.size() - n,
+                without, structured);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto argument = [&](int i, const char* otherwise) { return i < argc ? argv[i] : otherwise; };
+  const std::size_t n = std::strtoul(argument(1, "500"), nullptr, 10);
+  const std::size_t n_threads = std::strtoul(argument(2, "2"), nullptr, 10);
+  std::printf("%zu replicates; intervals of 95 %%; errors are those of the logarithm of a parameter.\n\n", n);
+  std::printf(
+      "| example | data | sigma | parameter | covered %% | sigma known | unknown | rmse | rmse / bound | "
+      "bias / rmse | stated / rmse | failed | no interval | structured |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Example& example : examples()) {
+    if (argc > 3 && std::string_view(argv[3]) != example.name) continue;
+    for (const Quantity quantity : {Quantity::bin, Quantity::cumulative, Quantity::point}) {
+      if (argc > 4 && name_of(quantity) != argv[4]) continue;
+      fit::FitSpec spec{"",
+                        Scene<double>(example.truth),
+                        without_noise(example, quantity),
+                        {example.parameters, {}, {}, {}, fit::Shape::none},
+                        {},
+                        {},
+                        {},
+                        {}};
+      const fit::Parameters parameters(spec.scene, spec.unknown);
+      std::vector<std::string> names;
+      for (const fit::Parameter& p : parameters) names.push_back(p.name());
+      spec.unknown.start = example.start;
+      const VectorXd bound = cramer_rao(example, spec.observations);
+      for (const double sigma : {0.01, 0.05})
+        print(example, quantity, sigma, names, bound,
+              replicate(spec, parameters.start(), sigma, n, n_threads));
+    }
+  }
+}
