@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/warnings.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,13 +11,6 @@ namespace shearfront::fit {
 namespace {
 
 using namespace shearfront::testing;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
-
 const std::vector<double> kHeights{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 
 FitSpec layers(const SceneSpec<double>& truth, std::vector<double> times, double sigma,
@@ -26,6 +18,15 @@ FitSpec layers(const SceneSpec<double>& truth, std::vector<double> times, double
   return fit_of(truth,
                 observed(truth, {std::move(times), kHeights, Quantity::bin, 0.1}, sigma, 5, with_sigma),
                 {"shear_rate.values"});
+}
+
+void expect_warning(const Estimate& e, std::string_view text) {
+  std::string all;
+  for (const std::string& w : e.warnings) all += w + "\n";
+  EXPECT_NE(all.find(text), std::string::npos) << all;
+}
+void expect_only_warning(const Estimate& e, const std::string& text) {
+  EXPECT_EQ(e.warnings, std::vector<std::string>{text});
 }
 
 void expect_no_error_bar(const ParameterEstimate& p) {
@@ -36,7 +37,7 @@ void expect_no_error_bar(const ParameterEstimate& p) {
 TEST(FitWarnings, NoneForAGoodFit) {
   for (const bool with_sigma : {true, false}) {
     const Estimate e = fit(layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.01, with_sigma));
-    EXPECT_THAT(e.warnings, IsEmpty());
+    EXPECT_EQ(e.warnings, std::vector<std::string>{});
     for (const ParameterEstimate& p : e.parameters) EXPECT_TRUE(p.std_error && p.ci95 && !p.at_bound);
     EXPECT_NEAR(e.correlation(0, 0), 1, 0);
     EXPECT_LE(std::abs(e.correlation(0, 1)), 1);
@@ -49,9 +50,9 @@ TEST(FitWarnings, AtABound) {
   spec.unknown.lower = {0.1, 0.1};
   spec.unknown.upper = {2.5, 20};
   const Estimate e = fit(spec);
-  EXPECT_THAT(e.warnings,
-              Contains("shear_rate.values[0] is at its upper bound 2.5: it has no error bar, and those "
-                       "of the others take it as known"));
+  expect_warning(e,
+                 "shear_rate.values[0] is at its upper bound 2.5: it has no error bar, and those "
+                 "of the others take it as known");
   EXPECT_TRUE(e.parameters[0].at_bound);
   expect_no_error_bar(e.parameters[0]);
   EXPECT_TRUE(e.parameters[1].std_error);
@@ -63,9 +64,9 @@ TEST(FitWarnings, AnActiveShape) {
   spec.unknown.start = {3, 2, 1};
   spec.unknown.shape = Shape::decreasing;
   const Estimate e = fit(spec);
-  EXPECT_THAT(e.warnings,
-              Contains("shear_rate.values[0] and [1] are equal: the shape decreasing is active there and "
-                       "they have no error bars"));
+  expect_warning(e,
+                 "shear_rate.values[0] and [1] are equal: the shape decreasing is active there and "
+                 "they have no error bars");
   expect_no_error_bar(e.parameters[0]);
   expect_no_error_bar(e.parameters[1]);
   EXPECT_TRUE(e.parameters[2].std_error);
@@ -80,8 +81,7 @@ TEST(FitWarnings, AnUnseenLayer) {
                0.01, 1, true),
       {"shear_rate.values"});
   const Estimate e = fit(spec);
-  EXPECT_THAT(e.warnings,
-              ElementsAre("shear_rate.values[2] is not seen by these data: no observation depends on it"));
+  expect_only_warning(e, "shear_rate.values[2] is not seen by these data: no observation depends on it");
   expect_no_error_bar(e.parameters[2]);
   EXPECT_TRUE(e.parameters[0].std_error && e.parameters[1].std_error);
   EXPECT_EQ(e.parameters[2].estimate, 1.5);
@@ -92,24 +92,23 @@ TEST(FitWarnings, DataBeforeTheFirstWave) {
   const Estimate e =
       fit(fit_of(truth, observed(truth, {{0.01}, {0.1, 0.2, 0.7, 0.8}, Quantity::bin, 0.05}, 0.01, 1, true),
                  {"shear_rate.values"}));
-  EXPECT_THAT(e.warnings,
-              ElementsAre("shear_rate.values are not seen by these data: no observation depends on them"));
+  expect_only_warning(e, "shear_rate.values are not seen by these data: no observation depends on them");
   for (const ParameterEstimate& p : e.parameters) expect_no_error_bar(p);
 }
 
 TEST(FitWarnings, ScaleAndAllValuesAreConfounded) {
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
   for (const char* method : {"exact", "front-tracking"}) {
+    SCOPED_TRACE(method);
     FitSpec spec = layers(truth, {0.5, 1, 2, 3}, 0.01);
     spec.unknown.parameters = {"shear_rate.scale", "shear_rate.values"};
     spec.forward.method = method;
     const Estimate e = fit(spec);
-    EXPECT_THAT(
-        e.warnings,
-        ElementsAre("shear_rate.scale and shear_rate.values cannot be determined together: the data do not "
-                    "change along shear_rate.scale * (1 + e), shear_rate.values[0] * (1 - e), "
-                    "shear_rate.values[1] * (1 - e) for small e; fix one of them"))
-        << method;
+    expect_only_warning(
+        e,
+        "shear_rate.scale and shear_rate.values cannot be determined together: the data do not "
+        "change along shear_rate.scale * (1 + e), shear_rate.values[0] * (1 - e), "
+        "shear_rate.values[1] * (1 - e) for small e; fix one of them");
     for (const ParameterEstimate& p : e.parameters) expect_no_error_bar(p);
   }
 }
@@ -121,9 +120,9 @@ TEST(FitWarnings, TooFewData) {
                       {"shear_rate.values"}));
   };
   const Estimate e = two(false);
-  EXPECT_THAT(e.warnings,
-              Contains("2 observations for 2 unknowns leave nothing to estimate the noise from: there are "
-                       "no error bars; give sigma with the data"));
+  expect_warning(e,
+                 "2 observations for 2 unknowns leave nothing to estimate the noise from: there are "
+                 "no error bars; give sigma with the data");
   for (const ParameterEstimate& p : e.parameters) expect_no_error_bar(p);
   for (const ParameterEstimate& p : two(true).parameters) EXPECT_TRUE(p.std_error) << p.name;
 }
@@ -132,17 +131,14 @@ TEST(FitWarnings, SigmaTooSmallAndTooLarge) {
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
   FitSpec spec = layers(truth, {0.5, 0.7, 1, 1.5, 2, 2.5, 3, 4, 5}, 0.02);
   for (Observation& o : spec.observations.rows) o.sigma = 0.01;
-  EXPECT_THAT(fit(spec).warnings,
-              Contains(AllOf(HasSubstr("times larger than their sigma (reduced chi^2 "),
-                             HasSubstr("sigma is too small, and so are the error bars"))));
+  expect_warning(fit(spec), "times larger than their sigma (reduced chi^2 ");
+  expect_warning(fit(spec), "sigma is too small, and so are the error bars");
   spec.misfit.loss = "huber";
-  EXPECT_THAT(fit(spec).warnings,
-              Contains(HasSubstr("times larger than their sigma (square of their median")));
+  expect_warning(fit(spec), "times larger than their sigma (square of their median");
   spec.misfit.loss = "squared";
   for (Observation& o : spec.observations.rows) o.sigma = 0.04;
-  EXPECT_THAT(fit(spec).warnings,
-              Contains(AllOf(HasSubstr("times smaller than their sigma"),
-                             HasSubstr("sigma is too large, and so are the error bars"))));
+  expect_warning(fit(spec), "times smaller than their sigma");
+  expect_warning(fit(spec), "sigma is too large, and so are the error bars");
 }
 
 TEST(FitWarnings, AWrongModel) {
@@ -151,8 +147,9 @@ TEST(FitWarnings, AWrongModel) {
   FitSpec spec = layers(truth, {0.5, 1, 2, 3}, 0.01, false);
   spec.scene = Scene<double>(small_above_large({0.29}, {3, 0.5}));
   const Estimate e = fit(spec);
-  EXPECT_THAT(e.warnings, Contains(StartsWith("the model does not describe these data, or their noise is not "
-                                              "independent: residuals (rms 0.")));
+  expect_warning(e,
+                 "the model does not describe these data, or their noise is not "
+                 "independent: residuals (rms 0.");
   ASSERT_TRUE(e.structure);
   EXPECT_TRUE(e.structure->is_structured);
 }
@@ -160,17 +157,16 @@ TEST(FitWarnings, AWrongModel) {
 TEST(FitWarnings, BarelySeen) {
   const auto truth = small_above_large({0.29}, {3.15, 0.5});
   const Estimate e = fit(layers(truth, {0.5, 1, 2, 3}, 0.02));
-  EXPECT_THAT(e.warnings,
-              Contains(StartsWith("shear_rate.values[0] is barely seen by these data: its standard error ")));
+  expect_warning(e, "shear_rate.values[0] is barely seen by these data: its standard error ");
 }
 
 TEST(FitWarnings, AnotherQuantityThanMeasured) {
   FitSpec spec = layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.01);
   spec.misfit.quantity = "cumulative";
-  EXPECT_THAT(
-      fit(spec).warnings,
-      ElementsAre("the data are bin values but are compared as cumulative: their noise is then correlated, "
-                  "which the error bars account for; misfit.quantity = \"bin\" uses them as they are"));
+  expect_only_warning(
+      fit(spec),
+      "the data are bin values but are compared as cumulative: their noise is then correlated, "
+      "which the error bars account for; misfit.quantity = \"bin\" uses them as they are");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "shearfront/fit/covariance.hpp"
 #include "shearfront/fit/misfit/all.hpp"
@@ -86,6 +87,61 @@ void set_error_bars(const Objective& objective, const Covariance& errors, const 
   }
 }
 
+/// Distance from a bound, in standard errors, below which an estimate is at it: searches without derivatives
+/// do not end there exactly.
+constexpr double kAtBound = 1e-3;
+
+/// Holds determined coordinates that are that close to a bound; whether there are any.
+bool hold_near_bounds(const Coordinates& coordinates, const VectorXd& u, const Covariance& errors,
+                      std::vector<bool>& held) {
+  bool any = false;
+  for (Index j = 0; j < u.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const double near = kAtBound * std::min(1.0, std::sqrt(errors.matrix(j, j)));
+    if (held[k] || !errors.determined[k]) continue;
+    held[k] = u[j] - coordinates.lower()[j] < near || coordinates.upper()[j] - u[j] < near;
+    any = any || held[k];
+  }
+  return any;
+}
+
+/// Sets the noise; covariance, and quantile of the 95 % intervals.
+std::pair<Covariance, double> errors_of(const FitSpec& spec, const Objective& objective,
+                                        const Objective::Evaluation& best, const VectorXd& u,
+                                        Estimate& estimate) {
+  std::vector<bool> held = objective.coordinates().at_bound(u);
+  const auto with_held = [&] {
+    double quantile = boost::math::quantile(boost::math::normal(), kTail);
+    estimate.sigma_is_given = spec.observations.has_sigma();
+    estimate.sigma = 1;
+    if (!estimate.sigma_is_given) {
+      const Noise noise = noise_of(objective, spec.observations, best, estimate.predicted,
+                                   static_cast<std::size_t>(std::count(held.begin(), held.end(), false)));
+      estimate.sigma = noise.sigma;
+      estimate.freedom = noise.freedom;
+      if (noise.freedom > 0) quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
+    }
+    return std::pair(
+        covariance(objective.rows(), spec.observations, best, objective.loss(), estimate.sigma, held),
+        quantile);
+  };
+  auto result = with_held();
+  if (hold_near_bounds(objective.coordinates(), u, result.first, held)) result = with_held();
+  return result;
+}
+
+void mark_bounds(const Coordinates& coordinates, const Parameters& parameters, const std::vector<bool>& held,
+                 Estimate& estimate) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = estimate.parameters[i].estimate;
+    estimate.parameters[i].at_bound = value <= parameters[i].lower || value >= parameters[i].upper;
+  }
+  for (std::size_t j = 0; j < held.size(); ++j)
+    if (held[j])
+      for (const Index i : coordinates.bound_together(static_cast<Index>(j)))
+        estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
+}
+
 }  // namespace
 
 Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
@@ -116,28 +172,10 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   for (Index i = 0; i < best.residuals.size(); ++i)
     squares += std::pow(best.residuals[i] / objective.rows().rows[static_cast<std::size_t>(i)].weight, 2);
   estimate.residual_norm = std::sqrt(squares);
-  const std::vector<bool> held = objective.coordinates().at_bound(found.u);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double value = values[static_cast<Index>(i)];
-    estimate.parameters[i].estimate = value;
-    estimate.parameters[i].at_bound = value <= parameters[i].lower || value >= parameters[i].upper;
-  }
-  for (Index j = 0; j < found.u.size(); ++j)
-    if (held[static_cast<std::size_t>(j)])
-      for (const Index i : objective.coordinates().bound_together(j))
-        estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
-  estimate.sigma_is_given = spec.observations.has_sigma();
-  estimate.sigma = 1;
-  double quantile = boost::math::quantile(boost::math::normal(), kTail);
-  if (!estimate.sigma_is_given) {
-    const Noise noise = noise_of(objective, spec.observations, best, estimate.predicted,
-                                 static_cast<std::size_t>(std::count(held.begin(), held.end(), false)));
-    estimate.sigma = noise.sigma;
-    estimate.freedom = noise.freedom;
-    if (noise.freedom > 0) quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
-  }
-  const Covariance errors =
-      covariance(objective.rows(), spec.observations, best, objective.loss(), estimate.sigma, held);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    estimate.parameters[i].estimate = values[static_cast<Index>(i)];
+  const auto [errors, quantile] = errors_of(spec, objective, best, found.u, estimate);
+  mark_bounds(objective.coordinates(), parameters, errors.held, estimate);
   set_error_bars(objective, errors, found, quantile, parameters, estimate);
   set_information_criteria(spec, estimate);
   estimate.structure = residual_structure(spec.observations, estimate.predicted);

@@ -93,9 +93,11 @@ class Writer {
 
   void bounds() {
     std::set<Index> shaped;
+    const VectorXd u = coordinates_.coordinates(values_);
     for (Index j = 0; j < coordinates_.size(); ++j) {
       const std::vector<Index> together = coordinates_.bound_together(j);
-      if (!errors_.held[static_cast<std::size_t>(j)] || together.size() < 2) continue;
+      const bool is_lower = u[j] - coordinates_.lower()[j] < coordinates_.upper()[j] - u[j];
+      if (!errors_.held[static_cast<std::size_t>(j)] || together.size() < 2 || !is_lower) continue;
       shaped.insert(together.begin(), together.end());
       const bool is_convex = parameters_.shape() == Shape::convex;
       texts_.push_back(fmt::format(
