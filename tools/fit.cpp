@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -43,8 +44,10 @@ std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
   return files;
 }
 
-fit::Estimate run(const fit::FitSpec& spec, const std::string& path) {
+fit::Estimate run(fit::FitSpec spec, const std::string& path) {
   ProgressLine line;
+  // One evaluation can be long, too.
+  spec.forward.options.progress = [](double, std::uint64_t) { return !InterruptGuard::is_interrupted(); };
   try {
     return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
       line.show_search(evaluations, misfit);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "cli/command.hpp"
 #include "cli/method.hpp"
 #include "cli/table.hpp"
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/scene/entries.hpp"
 #include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
@@ -52,6 +57,46 @@ std::string indented(const std::string& text) {
   return all;
 }
 
+/// Name and description of every member of a list.
+template <class List>
+std::string described_list() {
+  TextTable table({"name", "what it is"});
+  List::for_each([&]<class M>() { table.add({std::string(M::kName), std::string(M::kDescription)}); });
+  return indented(table.text());
+}
+
+/// The numeric fields of scene files with the models that have them, empty for those of every scene.
+std::string unknowns() {
+  struct Field {
+    std::string name, models;
+  };
+  std::vector<Field> fields;
+  const auto visit = [&](const SceneSpec<double>& spec, const std::string& prefix, std::string_view model) {
+    visit_fields(spec, [&](const std::string& name, Range, const auto&) {
+      auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+      if (field == fields.end()) field = fields.insert(field, {name, ""});
+      // Scale stands beside the models in the file, but every scene has it.
+      const bool is_of_model = !prefix.empty() && name.starts_with(prefix) && name != "shear_rate.scale";
+      if (is_of_model && field->models.find(model) == std::string::npos)
+        field->models += (field->models.empty() ? "" : ", ") + std::string(model);
+    });
+  };
+  ShearRateList<double>::for_each([&]<class A>() {
+    SceneSpec<double> spec;
+    spec.shear_rate = A{};
+    visit(spec, "shear_rate.", A::kName);
+  });
+  FluxList::for_each([&]<class F>() {
+    SceneSpec<double> spec;
+    spec.flux = F{};
+    visit(spec, "flux.", F::kName);
+  });
+  std::stable_partition(fields.begin(), fields.end(), [](const Field& f) { return !f.models.empty(); });
+  TextTable table({"name", "models"});
+  for (const Field& field : fields) table.add({field.name, field.models});
+  return indented(table.text());
+}
+
 int list() {
   std::string all = "Fluxes (flux.model)\n";
   TextTable fluxes({"name", "f(phi)", "range", "entries"});
@@ -73,6 +118,11 @@ int list() {
   all += fmt::format("\nGrids of states (--grid)\n  {}\n", fmt::join(grid_names(), "\n  "));
   all += fmt::format("\nReconstructions between fronts (--reconstruct)\n  {}\n",
                      fmt::join(reconstruction_names(), "\n  "));
+  all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
+  all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();
+  all += "\nLosses of a fit (misfit.loss)\n" + described_list<fit::LossList>();
+  all += fmt::format("\nSearches of a fit (search.algorithm)\n  {}\n",
+                     fmt::join(fit::algorithm_names(), "\n  "));
   OutputFile out("-");
   out.write(all);
   out.commit();
@@ -82,7 +132,8 @@ int list() {
 }  // namespace
 
 Command add_list(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("list", "List fluxes, shear rates, solvers, grids");
+  CLI::App* app =
+      program.add_subcommand("list", "List fluxes, shear rates, solvers, grids, and what fit files may name");
   return {app, "", [] { return list(); }};
 }
 

@@ -30,12 +30,12 @@ std::string join(const std::vector<std::string>& names) { return fmt::format("{}
 }  // namespace
 
 const std::vector<std::string>& grid_names() {
-  static const std::vector<std::string> names{"levels", "singular-mapping"};
+  static const std::vector<std::string> names(kGridNames.begin(), kGridNames.end());
   return names;
 }
 
 const std::vector<std::string>& reconstruction_names() {
-  static const std::vector<std::string> names{"constant", "linear"};
+  static const std::vector<std::string> names(kReconstructionNames.begin(), kReconstructionNames.end());
   return names;
 }
 

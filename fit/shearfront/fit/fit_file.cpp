@@ -220,10 +220,12 @@ class FitReader {
     try {
       (void)Parameters(*scene_, unknown);
     } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) {
+      for (Problem problem : error.problems()) {
         if (report_.is_spoiled(problem.key)) continue;
         if (has_bad_numbers_ && problem.key.find("unknown.parameters") == std::string::npos) continue;
-        add(problem);
+        if (problem.key.starts_with("unknown.start") && unknown.start.empty())
+          problem.constraint += "; without start it is the value of the scene";
+        add(std::move(problem));
       }
     }
   }

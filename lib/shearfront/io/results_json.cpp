@@ -1,48 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "shearfront/io/detail/json_text.hpp"
 #include "shearfront/io/results.hpp"
-#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront {
 namespace {
 
-constexpr int kDoubleDigits = 17;
-
-/// JSON numbers are written as text here, because a JSON library would round those with more digits than a
-/// double has.
-template <Real S>
-std::string number(const S& x, int digits = 0) {
-  if (!is_finite(x)) return "null";
-  if (digits <= kDoubleDigits) return number_text(to_double(x));
-  std::string text = number_text(x, digits);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
-
-template <Real S>
-std::string number(const std::optional<S>& x, int digits) {
-  return x ? number(*x, digits) : "null";
-}
-
-std::string text(std::string_view s) {
-  return nlohmann::json(s).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+using detail::json_number;
+using detail::json_text;
 
 std::string summary_text(const Summary& s) {
   return fmt::format(
       R"({{"collisions": {}, "fronts_max": {}, "levels": {}, "cell_updates": {}, "wall_s": {}, "status": {}, "message": {}}})",
-      s.collisions, s.fronts_max, s.levels, s.cell_updates, number(s.wall_s), text(name_of(s.status)),
-      text(s.message));
+      s.collisions, s.fronts_max, s.levels, s.cell_updates, json_number(s.wall_s),
+      json_text(name_of(s.status)), json_text(s.message));
 }
 
 std::string array(const std::vector<double>& xs) {
   std::string all = "[";
   for (const double x : xs) {
     if (all.size() > 1) all += ", ";
-    all += number(x);
+    all += json_number(x);
   }
   return all + "]";
 }
@@ -51,7 +30,7 @@ std::string array(const std::vector<double>& xs) {
 void write_matrix(OutputFile& file, std::string_view name, const std::vector<Sample>& samples,
                   std::size_t n_times, double Sample::*entry) {
   const std::size_t n_depths = n_times == 0 ? 0 : samples.size() / n_times;
-  file.write(fmt::format("  {}: [", text(name)));
+  file.write(fmt::format("  {}: [", json_text(name)));
   std::vector<double> row(n_depths);
   for (std::size_t i = 0; i < n_times; ++i) {
     for (std::size_t j = 0; j < n_depths; ++j) row[j] = samples[i * n_depths + j].*entry;
@@ -66,7 +45,7 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
                         const std::vector<double>& times, const std::vector<double>& depths,
                         const std::vector<Sample>& samples, const Summary& summary) {
   file.write(fmt::format("{{\n  \"scene\": {},\n  \"method\": {},\n  \"times\": {},\n  \"depths\": {},\n",
-                         text(scene), text(method), array(times), array(depths)));
+                         json_text(scene), json_text(method), array(times), array(depths)));
   write_matrix(file, "phi", samples, times.size(), &Sample::phi);
   write_matrix(file, "M", samples, times.size(), &Sample::M);
   file.write(fmt::format("  \"summary\": {}\n}}\n", summary_text(summary)));
@@ -75,17 +54,18 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
 template <Real S>
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
                        const Timeline<S>& timeline, const Summary& summary, int digits) {
-  file.write(fmt::format(
-      "{{\n  \"scene\": {},\n  \"method\": {},\n  \"mass\": {},\n  \"steady_height\": {},\n", text(scene),
-      text(method), number(timeline.mass, digits), number(timeline.steady_height, digits)));
+  file.write(
+      fmt::format("{{\n  \"scene\": {},\n  \"method\": {},\n  \"mass\": {},\n  \"steady_height\": {},\n",
+                  json_text(scene), json_text(method), json_number(timeline.mass, digits),
+                  json_number(timeline.steady_height, digits)));
   file.write(fmt::format("  \"t0\": {},\n  \"t1\": {},\n  \"t_star\": {},\n  \"interfaces\": [",
-                         number(timeline.t0, digits), number(timeline.t1, digits),
-                         number(timeline.t_star, digits)));
+                         json_number(timeline.t0, digits), json_number(timeline.t1, digits),
+                         json_number(timeline.t_star, digits)));
   const char* separator = "\n";
   for (const auto& interface : timeline.interfaces) {
     file.write(fmt::format("{}    {{\"z\": {}, \"first\": {}, \"last\": {}}}", separator,
-                           number(interface.z, digits), number(interface.first, digits),
-                           number(interface.last, digits)));
+                           json_number(interface.z, digits), json_number(interface.first, digits),
+                           json_number(interface.last, digits)));
     separator = ",\n";
   }
   file.write(fmt::format("{}],\n  \"summary\": {}\n}}\n", timeline.interfaces.empty() ? "" : "\n  ",
