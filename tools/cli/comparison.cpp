@@ -25,12 +25,16 @@ std::string difference(const Observations& a, const Observations& b) {
                        name_of(a.quantity));
   if (a.rows.size() != b.rows.size())
     return fmt::format("it has {} observations instead of {}", b.rows.size(), a.rows.size());
-  for (std::size_t i = 0; i < a.rows.size(); ++i) {
-    const Observation &x = a.rows[i], &y = b.rows[i];
-    if (x.t == y.t && x.z == y.z && x.value == y.value && x.width == y.width && is_same(x.sigma, y.sigma))
-      continue;
-    return fmt::format("its observation {} differs", i);
-  }
+  struct Field {
+    const char* name;
+    double Observation::*member;
+  };
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    for (const Field& field :
+         {Field{"t", &Observation::t}, Field{"z", &Observation::z}, Field{"value", &Observation::value},
+          Field{"width", &Observation::width}, Field{"sigma", &Observation::sigma}})
+      if (const double x = a.rows[i].*field.member, y = b.rows[i].*field.member; !is_same(x, y))
+        return fmt::format("its observation {} differs ({} {} instead of {})", i, field.name, y, x);
   return "";
 }
 
@@ -39,8 +43,9 @@ std::string difference(const fit::FitSpec& a, const fit::FitSpec& b) {
   if (fit::quantity_of(a) != fit::quantity_of(b))
     return fmt::format("its misfit is of another quantity ({} instead of {})", fit::quantity_of(b),
                        fit::quantity_of(a));
-  if (fit::loss_of(a) != fit::loss_of(b) || a.misfit.loss_scale != b.misfit.loss_scale)
+  if (fit::loss_of(a) != fit::loss_of(b))
     return fmt::format("its loss differs ({} instead of {})", fit::loss_of(b), fit::loss_of(a));
+  if (a.misfit.loss_scale != b.misfit.loss_scale) return "its loss_scale differs";
   return "";
 }
 
