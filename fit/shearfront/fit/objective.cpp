@@ -52,6 +52,7 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   if (!values.allFinite() || !parameters_->within_bounds(values)) return at;
   const bool exact = with_jacobian && has_derivatives();
   const Prediction prediction = forward_->predict(values, exact);
+  at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
   if (!at.residuals.allFinite()) return at;

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "shearfront/fit/coordinates.hpp"
@@ -32,6 +33,7 @@ class Objective {
  public:
   struct Evaluation {
     bool is_valid = false;  ///< false: no solution there, or outside the bounds
+    std::string failure;    ///< why the solver has no solution; empty where it was not asked
     Eigen::VectorXd residuals;
     Eigen::MatrixXd jacobian;      ///< row = residual, column = coordinate; empty unless asked for
     double misfit = 0;             ///< infinite if not valid

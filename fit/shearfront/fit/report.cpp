@@ -162,7 +162,10 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     parameter.start = p.start;
     parameter.estimate = kNaN;
   }
-  if (!best.is_valid) return estimate;
+  if (!best.is_valid) {
+    if (!best.failure.empty()) estimate.message += ": " + best.failure;
+    return estimate;
+  }
 
   const VectorXd values = objective.coordinates().values(found.u);
   estimate.scene = Scene<double>(parameters.scene_with(values));
