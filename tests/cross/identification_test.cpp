@@ -3,6 +3,7 @@
 // of another solver.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
@@ -35,6 +36,18 @@ TEST(Identification, FindsTheCoefficientsFromExactData) {
       EXPECT_LE(problem.error(estimate), 1e-10) << label(problem, quantity);
       EXPECT_LE(estimate.evaluations, 25U) << label(problem, quantity);
     }
+}
+
+TEST(Identification, PredictsTheObservationsInTheirOwnOrder) {
+  const Identification problem = example_3();
+  for (const Quantity quantity : {Quantity::bin, Quantity::cumulative}) {
+    Observations data = exact_data(problem, quantity);
+    std::reverse(data.rows.begin(), data.rows.end());
+    const Estimate estimate = fit(fit_of(problem, data));
+    ASSERT_EQ(estimate.predicted.size(), data.rows.size());
+    for (std::size_t k = 0; k < data.rows.size(); ++k)
+      EXPECT_NEAR(estimate.predicted[k], data.rows[k].value, 1e-8) << label(problem, quantity);
+  }
 }
 
 TEST(Identification, FindsTheConvexShapeOfExample4) {

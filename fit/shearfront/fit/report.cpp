@@ -36,8 +36,10 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   std::vector<double> predicted(spec.observations.rows.size(), kNaN);
   if (!at.is_valid()) return predicted;
   const VectorXd r = rows.residuals(at.values);
-  for (std::size_t i = 0; i < predicted.size(); ++i)
-    predicted[i] = rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
+  // Rows may stand in another order than the data; in its own quantity each has one observation.
+  for (std::size_t i = 0; i < rows.rows.size(); ++i)
+    predicted[rows.rows[i].data.front().index] =
+        rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
   return predicted;
 }
 
