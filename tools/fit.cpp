@@ -14,6 +14,7 @@
 #include "cli/fit_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "plot/pictures.hpp"
 #include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct FitArguments {
   std::vector<std::string> files;
-  std::string output;
+  std::string output, plot;
   bool json = false;
 };
 
@@ -118,14 +119,17 @@ int print_several(const std::vector<std::string>& names, const std::vector<fit::
 int fit_files(const FitArguments& arguments) {
   const bool is_one = arguments.files.size() == 1;
   if (!is_one && !arguments.output.empty()) refuse("-o", arguments.output, "needs a single fit file");
+  if (!is_one && !arguments.plot.empty()) refuse("--plot", arguments.plot, "needs a single fit file");
+  check_picture_name("--plot", arguments.plot);
   const std::vector<fit::FitFile> files = read_files(arguments.files);
   std::vector<fit::FitSpec> specs;
   for (const fit::FitFile& file : files) specs.push_back(file.spec);
   check_comparable(arguments.files, specs);
   for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
-    check_outputs(input, {{"", "-"}, {"-o", arguments.output}});
+    check_outputs(input, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
   std::optional<OutputFile> output;
   if (!arguments.output.empty()) output.emplace(arguments.output);
+  check_picture_target(arguments.plot);
   for (const fit::FitSpec& spec : specs)
     for (const std::string& remark : spec.observations.notes) fmt::print(stderr, "{}\n", remark);
 
@@ -138,7 +142,9 @@ int fit_files(const FitArguments& arguments) {
     write_residuals_csv(*output, specs[0].observations, estimate);
     output->commit();
   }
-  return print_one(estimate, arguments.json);
+  const int code = print_one(estimate, arguments.json);
+  if (arguments.plot.empty()) return code;
+  return std::max(code, draw_fit(arguments.plot, specs[0], estimate));
 }
 
 }  // namespace
@@ -149,6 +155,9 @@ Command add_fit(CLI::App& program) {
       "fit", "Find entries of a scene from observations; several fit files are compared as models");
   app->add_option("FIT", arguments->files, "fit files")->type_name("")->required();
   app->add_option("-o", arguments->output, "observed and predicted values and residuals as CSV")
+      ->type_name("FILE");
+  app->add_option("--plot", arguments->plot,
+                  "picture of data, fit, shear rate and search: FILE.svg, .png or .pdf")
       ->type_name("FILE");
   app->add_flag("--json", arguments->json, "print JSON");
   app->footer(

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/solver/solver.hpp"
 
 namespace shearfront::tools {
@@ -23,5 +25,10 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 /// on top.
 int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
                   const std::vector<double>& times, const SolverOptions& options);
+
+/// A fit: the observations beside what the estimate predicts (profiles for few times, else maps over t and z
+/// with the residuals), s a(z) with its 95 % band, and the course of the search. Without a usable estimate
+/// no picture, one line on standard error and kNoResult.
+int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate);
 
 }  // namespace shearfront::tools

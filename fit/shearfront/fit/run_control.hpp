@@ -15,6 +15,7 @@ using Progress = std::function<bool(std::size_t evaluations, double best_misfit)
 struct SearchStep {
   std::size_t evaluations = 0;
   double misfit = 0;
+  std::size_t stage = 0;  ///< misfits of different stages cannot be compared
 };
 
 /// Counts the evaluations of a whole fit, over all its searches, and ends it when told to.
@@ -28,12 +29,15 @@ class RunControl {
     ++evaluations_;
     if (misfit < best_) {
       best_ = misfit;
-      steps_.push_back({evaluations_, misfit});
+      steps_.push_back({evaluations_, misfit, stage_});
     }
     if (progress_ && !progress_(evaluations_, best_)) interrupted_ = true;
   }
   /// A new stage minimises another misfit: what was best before cannot be compared.
-  void new_stage() { best_ = std::numeric_limits<double>::infinity(); }
+  void new_stage() {
+    best_ = std::numeric_limits<double>::infinity();
+    ++stage_;
+  }
 
   [[nodiscard]] std::size_t evaluations() const { return evaluations_; }
   [[nodiscard]] bool is_interrupted() const { return interrupted_; }
@@ -43,7 +47,7 @@ class RunControl {
   [[nodiscard]] const std::vector<SearchStep>& steps() const { return steps_; }
 
  private:
-  std::size_t max_evaluations_, evaluations_ = 0;
+  std::size_t max_evaluations_, evaluations_ = 0, stage_ = 0;
   double best_ = std::numeric_limits<double>::infinity();
   bool interrupted_ = false;
   Progress progress_;
