@@ -8,6 +8,8 @@
 #include <variant>
 
 #include "cli/command.hpp"
+#include "shearfront/fit/fit_file.hpp"
+#include "shearfront/fit/parameters.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
@@ -52,6 +54,14 @@ std::string summary_text(const Observations& data) {
       data.n_missing > 0 ? fmt::format(", {} missing", data.n_missing) : "");
 }
 
+std::string summary_text(const fit::FitFile& file) {
+  const fit::FitSpec& spec = file.spec;
+  return fmt::format("{}, {}, {} ({}), {}, {}", quoted_text(spec.name, 80),
+                     counted(fit::Parameters(spec.scene, spec.unknown).size(), "unknown"),
+                     counted(spec.observations.rows.size(), "observation"),
+                     name_of(spec.observations.quantity), spec.forward.method, spec.search.algorithm);
+}
+
 bool is_csv(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -60,7 +70,9 @@ bool is_csv(const std::string& file) {
 
 /// What there is to say about a good file.
 std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
-  if (!is_csv(file)) return summary_text(read_scene<double>(file));
+  if (!is_csv(file))
+    return std::visit([](const auto& content) { return summary_text(content); },
+                      fit::read_scene_or_fit(file));
   const Observations data =
       scene ? read_observations(file, scene->bottom(), scene->top()) : read_observations(file);
   for (const std::string& remark : data.notes) fmt::print(stderr, "{}\n", remark);
@@ -94,8 +106,8 @@ int check(const CheckArguments& arguments) {
 Command add_check(CLI::App& program) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* app = program.add_subcommand(
-      "check", "Validate scene files and files of observations and report every problem");
-  app->add_option("FILE", arguments->files, "scene files, and files of observations (.csv)")
+      "check", "Validate scene files, fit files and files of observations and report every problem");
+  app->add_option("FILE", arguments->files, "scene files, fit files, and files of observations (.csv)")
       ->type_name("")
       ->required();
   app->add_option("--scene", arguments->scene, "the scene whose domain the observations must lie in")
