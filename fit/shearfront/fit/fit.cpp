@@ -30,6 +30,8 @@ constexpr double kExact = 1e-9;
 constexpr int kMostRenewals = 6;
 /// Relative tolerance of the first stages: only a start for the last one.
 constexpr double kNear = 1e-2;
+/// The same while rows and noise of the last stage are not settled.
+constexpr double kRough = 1e-4;
 /// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
 constexpr double kForgiven = 0.1;
 /// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
@@ -114,13 +116,7 @@ class Run {
     u_ = coordinates_.coordinates(parameters_.start());
     const bool stages = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm));
     if (stages && quantity_ != CumulativeMisfit::kName) approach();
-    ResidualRows rows = rows_of(quantity_, spec_);
-    if (stages && quantity_ == PointMisfit::kName) {
-      fit_without_jumps(rows);
-    } else {
-      objective_ = make_objective(std::move(rows), loss_);
-      minimise();
-    }
+    settle(rows_of(quantity_, spec_), stages && quantity_ == PointMisfit::kName);
   }
   /// Nothing but the values found; nothing if the search did not end at a minimum.
   [[nodiscard]] std::optional<VectorXd> values() {
@@ -175,39 +171,51 @@ class Run {
     search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
   }
 
-  /// The point misfit without the rows that a jump is near, renewed until these stay.
-  void fit_without_jumps(const ResidualRows& rows) {
-    std::vector<bool> keep;
-    for (int round = 0; round < kMostRenewals; ++round) {
-      std::vector<bool> now =
-          rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
-      if (now == keep || (round > 0 && control_.must_stop())) break;
-      keep = std::move(now);
-      objective_ = make_objective(rows.selected(keep), loss_);
-      minimise();
-      const Objective::Evaluation& at = objective_->evaluate(u_, true);
-      if (at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact) break;
+  /// The misfit asked for. What it depends on besides the parameters, the rows without a jump and the noise
+  /// that tells a robust loss what is gross, is taken from the estimate and renewed, with searches as rough
+  /// as that, until it stays; the last search is fine.
+  void settle(const ResidualRows& rows, bool leaves_out_jumps) {
+    std::vector<bool> keep(leaves_out_jumps ? 0 : rows.rows.size(), true);
+    if (!leaves_out_jumps) objective_ = make_objective(rows, loss_);
+    for (int round = 0; round <= kMostRenewals; ++round) {
+      bool is_settled = !(leaves_out_jumps && renew_rows(rows, keep));
+      is_settled = !renew_scale() && is_settled;
+      const Objective::Evaluation& at = objective_->evaluate(u_, false);
+      const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact;
+      is_settled = is_settled || is_exact || round == kMostRenewals;
+      search_from_here(*objective_, is_settled ? 0 : kRough);
+      if (is_settled || control_.must_stop()) break;
     }
     left_out_ = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
   }
 
-  /// A robust loss needs the noise to know what is gross: if the data do not give it, it is taken from the
-  /// residuals and renewed until it stays.
-  void minimise() {
-    if (!loss_.is_robust || spec_.observations.has_sigma()) return search_from_here(*objective_, 0);
-    double noise = 0;
-    for (int round = 0; round < kMostScales; ++round) {
-      const Objective::Evaluation& at = objective_->evaluate(u_, true);
-      const double now = at.is_valid ? std::max(median_noise(at), kRounding) : 1;
-      if (round > 0 && (now <= kRounding || std::abs(now - noise) <= kScaleTolerance * noise)) break;
-      noise = now;
-      Loss loss = loss_;
-      loss.scale *= noise;
-      objective_->set_loss(loss);
-      control_.new_stage();
-      search_from_here(*objective_, 0);
-      if (control_.must_stop()) break;
-    }
+  /// Whether other rows than before have no jump near them.
+  bool renew_rows(const ResidualRows& rows, std::vector<bool>& keep) {
+    std::vector<bool> now =
+        rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
+    if (now == keep) return false;
+    keep = std::move(now);
+    objective_ = make_objective(rows.selected(keep), loss_);
+    if (noise_ > 0) objective_->set_loss(scaled_loss());
+    return true;
+  }
+
+  /// Whether the noise is another than before; never for data that come with theirs.
+  bool renew_scale() {
+    if (!loss_.is_robust || spec_.observations.has_sigma() || n_scales_ == kMostScales) return false;
+    const Objective::Evaluation& at = objective_->evaluate(u_, true);
+    const double now = at.is_valid ? std::max(median_noise(at), kRounding) : 1;
+    if (n_scales_ > 0 && std::abs(now - noise_) <= kScaleTolerance * noise_) return false;
+    noise_ = now;
+    ++n_scales_;
+    objective_->set_loss(scaled_loss());
+    control_.new_stage();
+    return true;
+  }
+  [[nodiscard]] Loss scaled_loss() const {
+    Loss loss = loss_;
+    loss.scale *= noise_;
+    return loss;
   }
 
   const FitSpec& spec_;
@@ -222,6 +230,8 @@ class Run {
   SearchResult result_;
   bool has_searched_ = false;
   std::size_t iterations_ = 0, left_out_ = 0;
+  double noise_ = 0;  ///< of the residuals, for a robust loss
+  int n_scales_ = 0;
 };
 
 }  // namespace

@@ -13,12 +13,32 @@ using Eigen::Index;
 /// Entries of a Jacobian this much smaller than the largest of their column are rounding.
 constexpr double kRounding = 1e-12;
 
-Noise noise_from(std::vector<double> residuals, std::size_t n_free, bool by_median) {
+/// Huber's proposal 2: sum min(r^2 / s^2, k^2) = freedom E[min(x^2, k^2)] for a Gaussian x. Gross errors
+/// count as k each; unlike the median it does not vanish when a robust fit goes through more than half of the
+/// data.
+double huber_deviation(const std::vector<double>& residuals, double freedom) {
+  constexpr double k = 1.345, kExpected = 0.7101645482690486;  // E[min(x^2, k^2)]
+  constexpr int kIterations = 100;
+  double squares = 0;
+  for (const double r : residuals) squares += r * r;
+  double s = std::sqrt(squares / freedom);
+  for (int i = 0; i < kIterations && s > 0; ++i) {
+    double sum = 0;
+    for (const double r : residuals) sum += std::min(r * r, k * k * s * s);
+    const double next = std::sqrt(sum / (freedom * kExpected));
+    const bool stays = std::abs(next - s) <= 1e-12 * s;
+    s = next;
+    if (stays) break;
+  }
+  return s;
+}
+
+Noise noise_from(const std::vector<double>& residuals, std::size_t n_free, bool is_robust) {
   const auto n = static_cast<double>(residuals.size());
   Noise noise{std::numeric_limits<double>::quiet_NaN(), n - static_cast<double>(n_free)};
   if (!(noise.freedom > 0)) return noise;
-  if (by_median) {
-    noise.sigma = median_deviation(std::move(residuals)) * std::sqrt(n / noise.freedom);
+  if (is_robust) {
+    noise.sigma = huber_deviation(residuals, noise.freedom);
   } else {
     double squares = 0;
     for (const double r : residuals) squares += r * r;
@@ -59,7 +79,7 @@ Noise noise_of(const Objective& objective, const Observations& observations, con
   if (is_direct) {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (depends[i]) residuals.push_back(at.residuals[static_cast<Index>(i)]);
-    return noise_from(std::move(residuals), n_free, is_robust);
+    return noise_from(residuals, n_free, is_robust);
   }
   std::vector<bool> is_used(predicted.size(), false);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -67,7 +87,7 @@ Noise noise_of(const Objective& objective, const Observations& observations, con
       if (depends[i] && std::isfinite(predicted[term.index])) is_used[term.index] = true;
   for (std::size_t k = 0; k < predicted.size(); ++k)
     if (is_used[k]) residuals.push_back(predicted[k] - observations.rows[k].value);
-  return noise_from(std::move(residuals), n_free, is_robust || observations.quantity == Quantity::point);
+  return noise_from(residuals, n_free, is_robust || observations.quantity == Quantity::point);
 }
 
 }  // namespace shearfront::fit

@@ -16,12 +16,12 @@ struct Noise {
 
 /// The noise of observations without sigma, from the residuals of a fit of n_free unknowns.
 ///
-/// Least squares: sigma^2 = sum r^2 / freedom. Robust losses: 1.4826 median |r| sqrt(n / freedom), which
-/// gross errors do not move. Rows made of several observations have correlated residuals; there the
-/// observations' own differences (predicted - value) are taken, for points by their median, for they are
-/// gross where a shock is a little off. Only rows that depend on an unknown count, which leaves sigma
-/// unbiased: the others (beds at rest, all of one kind) may have been measured, or made, without noise. Cost:
-/// O(rows n).
+/// Least squares: sigma^2 = sum r^2 / freedom. Robust losses: Huber's proposal 2, in which
+/// gross errors count as 1.345 sigma (Huber 1981, section 7.7). Rows made of several observations have
+/// correlated residuals; there the observations' own differences (predicted - value) are taken, for points
+/// robustly, for they are gross where a shock is a little off. Only rows that depend on an unknown count,
+/// which leaves sigma unbiased: the others (beds at rest, all of one kind) may have been measured, or made,
+/// without noise. Cost: O(rows n).
 [[nodiscard]] Noise noise_of(const Objective& objective, const Observations& observations,
                              const Objective::Evaluation& at, const std::vector<double>& predicted,
                              std::size_t n_free);
