@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -45,10 +44,8 @@ std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
   return files;
 }
 
-fit::Estimate run(fit::FitSpec spec, const std::string& path) {
+fit::Estimate run(const fit::FitSpec& spec, const std::string& path) {
   ProgressLine line;
-  // One evaluation can be long, too.
-  spec.forward.options.progress = [](double, std::uint64_t) { return !InterruptGuard::is_interrupted(); };
   try {
     return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
       line.show_search(evaluations, misfit);
@@ -68,8 +65,7 @@ int report_outcome(const fit::Estimate& estimate, const std::string& who) {
                printable(estimate.message));
     return kNoResult;
   }
-  if (estimate.status != Status::ok)
-    note(fmt::format("{}{}: {}", who, name_of(estimate.status), printable(estimate.message)));
+  if (estimate.status != Status::ok) note(who + printable(estimate.message));
   for (const std::string& warning : estimate.warnings) note(who + printable(warning, 500));
   return kDone;
 }

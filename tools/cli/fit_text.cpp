@@ -43,9 +43,10 @@ std::string estimate_text(const fit::Estimate& estimate) {
                p.at_bound ? "at bound" : ""});
   }
   text += table.text();
-  text += fmt::format("\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {:.3g} ({})\n", estimate.misfit,
-                      estimate.quantity, estimate.loss, estimate.residual_norm, estimate.sigma,
-                      estimate.sigma_is_given ? "in units of the given sigma" : "estimated");
+  text += fmt::format(
+      "\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {}\n", estimate.misfit, estimate.quantity,
+      estimate.loss, estimate.residual_norm,
+      estimate.sigma_is_given ? "as given by the data" : fmt::format("{:.3g} (estimated)", estimate.sigma));
   if (estimate.aic && estimate.bic)
     text += fmt::format("AIC {:.6g}, BIC {:.6g}\n", *estimate.aic, *estimate.bic);
   text += fmt::format("{} observations", estimate.observations);
