@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlopt.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -62,18 +62,13 @@ class Session {
     }
   }
 
-  /// -u_k <= 0 for every step, in units of the start.
-  static void shape(unsigned m, double* values, unsigned n, const double* v, double* gradient,
-                    void* session) {
+  static void excess(unsigned m, double* values, unsigned n, const double* v, double* gradient,
+                     void* session) {
     const auto* self = static_cast<const Session*>(session);
-    const VectorXd u = self->space_->u(Eigen::Map<const VectorXd>(v, n));
-    MatrixXd derivative;
-    if (gradient) derivative = self->space_->derivative(u);
-    for (unsigned i = 0; i < m; ++i) {
-      const Index k = self->space_->constrained()[i];
-      values[i] = -u[k];
-      for (unsigned j = 0; gradient && j < n; ++j) gradient[i * n + j] = -derivative(k, j);
-    }
+    const VectorXd at = Eigen::Map<const VectorXd>(v, n);
+    Eigen::Map<VectorXd>(values, m) = self->space_->excess(at);
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    if (gradient) Eigen::Map<RowMajor>(gradient, m, n) = self->space_->excess_derivative(at);
   }
 
  private:
@@ -126,22 +121,6 @@ void check(const Coordinates& coordinates, const NloptSpace& space, const NloptA
   if (!names.empty()) throw InputError("search.algorithm", value, "needs finite bounds for " + names);
 }
 
-Optimiser make_optimiser(nlopt_algorithm id, const NloptSpace& space, const VectorXd& start_u,
-                         const SearchSpec& spec, std::size_t most) {
-  const VectorXd step = space.steps(start_u);
-  Optimiser optimiser(nlopt_create(id, static_cast<unsigned>(step.size())));
-  if (!optimiser) return optimiser;
-  nlopt_set_lower_bounds(optimiser.get(), space.lower().data());
-  nlopt_set_upper_bounds(optimiser.get(), space.upper().data());
-  nlopt_set_initial_step(optimiser.get(), step.data());
-  nlopt_set_ftol_rel(optimiser.get(), spec.tolerance);
-  nlopt_set_xtol_rel(optimiser.get(), spec.tolerance);
-  // Relative to the parameter; a logarithm may be near 0 for no reason.
-  nlopt_set_xtol_abs1(optimiser.get(), spec.tolerance);
-  nlopt_set_maxeval(optimiser.get(), static_cast<int>(std::min<std::size_t>(most, 1'000'000'000)));
-  return optimiser;
-}
-
 void set_outcome(nlopt_result code, const char* detail, SearchResult& result) {
   result.status = code > 0 || code == NLOPT_ROUNDOFF_LIMITED ? Status::ok : Status::not_converged;
   switch (code) {
@@ -167,60 +146,153 @@ void set_outcome(nlopt_result code, const char* detail, SearchResult& result) {
   }
 }
 
+/// One search, which may be several runs of NLopt.
+class NloptSearch {
+ public:
+  NloptSearch(Objective& objective, const VectorXd& start, const SearchSpec& spec,
+              const NloptAlgorithm& algorithm)
+      : objective_(&objective),
+        spec_(spec),
+        algorithm_(&algorithm),
+        space_(objective.coordinates(), start, algorithm),
+        allowance_(objective.control(), spec.max_evaluations) {
+    check(objective.coordinates(), space_, algorithm);
+    best_.u = start;
+    best_.misfit = objective.evaluate(start, false).misfit;
+  }
+
+  SearchResult operator()() {
+    if (!std::isfinite(best_.misfit)) {
+      best_.status = Status::not_converged;
+      best_.message = "there is no solution at the start values";
+      return best_;
+    }
+    nlopt_srand(static_cast<unsigned long>(spec_.seed));
+    if (algorithm_->name == "cobyla") {
+      run_preconditioned();
+    } else if (algorithm_->is_global && algorithm_->name != "mlsl") {
+      run_and_finish();
+    } else {
+      run(*algorithm_, space_, {spec_.tolerance, spec_.tolerance, allowance_.left(), 0});
+    }
+    if (best_.misfit > rounding_misfit(*objective_)) allowance_.report(best_);
+    return best_;
+  }
+
+ private:
+  struct Limits {
+    double xtol = 0, ftol = 0;
+    std::size_t most = 0;
+    double step = 0;  ///< 0: the space's own
+  };
+
+  /// Global algorithms find a valley, not its floor.
+  void run_and_finish() {
+    run(*algorithm_, space_, {spec_.tolerance, 0, allowance_.left() - allowance_.left() / 3, 0});
+    if (allowance_.must_stop() || best_.misfit <= rounding_misfit(*objective_)) return;
+    const NloptAlgorithm& local = *find_nlopt_algorithm("sbplx");
+    run(local, NloptSpace(objective_->coordinates(), best_.u, local),
+        {spec_.tolerance, spec_.tolerance, allowance_.left(), 0});
+    best_.message = "finished by sbplx: " + best_.message;
+  }
+
+  /// Linear models see no curvature, so COBYLA creeps in narrow valleys; seen through the Jacobian these are
+  /// round. The Jacobian is renewed as the search moves on.
+  void run_preconditioned() {
+    constexpr std::size_t kFirst = 20, kNext = 30;
+    constexpr double kRough = 1e-3, kFine = 1e-4, kStep = 0.1;
+    const auto n = static_cast<std::size_t>(best_.u.size()) + 1;
+    run(*algorithm_, space_, {std::max(spec_.tolerance, kRough), spec_.tolerance, kFirst * n, 0});
+    double step = kStep;
+    while (!allowance_.must_stop() && best_.misfit > rounding_misfit(*objective_)) {
+      const Objective::Evaluation& at = objective_->evaluate(best_.u, true);
+      if (!at.is_valid) return;
+      NloptSpace space = space_;
+      space.precondition(best_.u, at.jacobian);
+      const double misfit = best_.misfit;
+      const VectorXd before = space_.v(best_.u);
+      run(*algorithm_, space, {std::max(spec_.tolerance, kFine * step), 0, kNext * n, step});
+      const double moved = (space_.v(best_.u) - before).cwiseAbs().maxCoeff();
+      const bool is_flat = misfit - best_.misfit <= spec_.tolerance * misfit;
+      if (is_flat && step <= kRough) return;
+      step = is_flat ? step / 10 : std::clamp(moved, spec_.tolerance, kStep);
+    }
+  }
+
+  void run(const NloptAlgorithm& algorithm, const NloptSpace& space, const Limits& limits) {
+    const auto n = static_cast<unsigned>(best_.u.size());
+    const Optimiser optimiser = make(nlopt_algorithm_from_string(algorithm.nlopt_name), space, limits);
+    if (!optimiser) {
+      set_outcome(NLOPT_OUT_OF_MEMORY, nullptr, best_);
+      return;
+    }
+    VectorXd v = space.is_preconditioned() ? VectorXd::Zero(n) : space.v(best_.u);
+    Session session(*objective_, space, allowance_, best_);
+    session.set_optimiser(optimiser.get());
+    nlopt_set_min_objective(optimiser.get(), &Session::misfit, &session);
+    nlopt_set_stopval(optimiser.get(), rounding_misfit(*objective_));
+    const Index n_constraints = space.excess(v).size();
+    if (n_constraints > 0) {
+      const std::vector<double> slack(static_cast<std::size_t>(n_constraints), 1e-9);
+      nlopt_add_inequality_mconstraint(optimiser.get(), static_cast<unsigned>(n_constraints),
+                                       &Session::excess, &session, slack.data());
+    }
+    if (algorithm.name == "mlsl") {
+      const Optimiser local = make(NLOPT_LD_SLSQP, space, limits);
+      nlopt_set_local_optimizer(optimiser.get(), local.get());  // copied by NLopt
+    }
+    double last = best_.misfit;
+    const nlopt_result code = nlopt_optimize(optimiser.get(), v.data(), &last);
+    session.rethrow();
+    set_outcome(code, nlopt_get_errmsg(optimiser.get()), best_);
+    if (n_constraints > 0) take_end(space.u(v));
+  }
+
+  /// The end may lie outside the shape by the slack of the constraints.
+  void take_end(const VectorXd& u) {
+    if (allowance_.must_stop()) return;
+    const Coordinates& coordinates = objective_->coordinates();
+    const VectorXd end = u.cwiseMax(coordinates.lower()).cwiseMin(coordinates.upper());
+    if (const double misfit = objective_->evaluate(end, false).misfit; misfit < best_.misfit) {
+      best_.u = end;
+      best_.misfit = misfit;
+    }
+  }
+
+  [[nodiscard]] Optimiser make(nlopt_algorithm id, const NloptSpace& space, const Limits& limits) const {
+    const Index n = best_.u.size();
+    Optimiser optimiser(nlopt_create(id, static_cast<unsigned>(n)));
+    if (!optimiser) return optimiser;
+    VectorXd step = limits.step > 0 ? VectorXd::Constant(n, limits.step) : space.steps(best_.u);
+    if (!space.is_preconditioned()) {
+      nlopt_set_lower_bounds(optimiser.get(), space.lower().data());
+      nlopt_set_upper_bounds(optimiser.get(), space.upper().data());
+    }
+    nlopt_set_initial_step(optimiser.get(), step.data());
+    nlopt_set_ftol_rel(optimiser.get(), limits.ftol);
+    // A logarithm may be near 0 for no reason: its change is relative to the parameter by itself.
+    nlopt_set_xtol_rel(optimiser.get(), limits.xtol);
+    nlopt_set_xtol_abs1(optimiser.get(), limits.xtol);
+    const std::size_t most = std::min(limits.most, allowance_.left());
+    nlopt_set_maxeval(optimiser.get(), static_cast<int>(std::min<std::size_t>(most, 1'000'000'000)));
+    return optimiser;
+  }
+
+  Objective* objective_;
+  SearchSpec spec_;
+  const NloptAlgorithm* algorithm_;
+  NloptSpace space_;
+  Allowance allowance_;
+  SearchResult best_;
+};
+
 }  // namespace
 
 SearchResult search_nlopt(Objective& objective, const VectorXd& start, const SearchSpec& spec,
                           std::string_view name) {
   const NloptAlgorithm* algorithm = find_nlopt_algorithm(name);
   if (!algorithm) throw unknown_algorithm("nlopt:" + std::string(name));
-  const NloptSpace space(objective.coordinates(), start, *algorithm);
-  check(objective.coordinates(), space, *algorithm);
-  const Allowance allowance(objective.control(), spec.max_evaluations);
-  SearchResult result;
-  result.u = start;
-  result.misfit = objective.evaluate(start, false).misfit;
-  if (!std::isfinite(result.misfit)) {
-    result.status = Status::not_converged;
-    result.message = "there is no solution at the start values";
-    return result;
-  }
-  const nlopt_algorithm id = nlopt_algorithm_from_string(algorithm->nlopt_name);
-  Optimiser optimiser = make_optimiser(id, space, start, spec, allowance.left());
-  if (!optimiser) {
-    result.status = Status::not_converged;
-    result.message = "NLopt: out of memory";
-    return result;
-  }
-  Session session(objective, space, allowance, result);
-  session.set_optimiser(optimiser.get());
-  nlopt_srand(static_cast<unsigned long>(spec.seed));
-  nlopt_set_min_objective(optimiser.get(), &Session::misfit, &session);
-  nlopt_set_stopval(optimiser.get(), rounding_misfit(objective));
-  if (!space.constrained().empty()) {
-    const std::vector<double> slack(space.constrained().size(), 1e-9);
-    nlopt_add_inequality_mconstraint(optimiser.get(), static_cast<unsigned>(slack.size()), &Session::shape,
-                                     &session, slack.data());
-  }
-  if (id == NLOPT_G_MLSL_LDS) {
-    const Optimiser local = make_optimiser(NLOPT_LD_SLSQP, space, start, spec, allowance.left());
-    nlopt_set_local_optimizer(optimiser.get(), local.get());  // copied by NLopt
-  }
-  VectorXd v = space.v(start);
-  double last = result.misfit;
-  const nlopt_result code = nlopt_optimize(optimiser.get(), v.data(), &last);
-  session.rethrow();
-  set_outcome(code, nlopt_get_errmsg(optimiser.get()), result);
-  if (!space.constrained().empty() && !allowance.must_stop()) {
-    // The end may lie outside the shape by the slack of the constraints.
-    const Coordinates& coordinates = objective.coordinates();
-    const VectorXd end = space.u(v).cwiseMax(coordinates.lower()).cwiseMin(coordinates.upper());
-    if (const double misfit = objective.evaluate(end, false).misfit; misfit < result.misfit) {
-      result.u = end;
-      result.misfit = misfit;
-    }
-  }
-  allowance.report(result);
-  return result;
+  return NloptSearch(objective, start, spec, *algorithm)();
 }
 
 }  // namespace shearfront::fit

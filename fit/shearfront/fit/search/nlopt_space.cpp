@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/search/nlopt_space.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,10 @@ NloptSpace::NloptSpace(const Coordinates& coordinates, const VectorXd& start_u,
   }
 }
 
-VectorXd NloptSpace::u(const VectorXd& v) const {
+VectorXd NloptSpace::u(const VectorXd& x) const {
+  VectorXd v = x;
+  // A constraint holds in the end only: on the way there may be no solution outside the box.
+  if (is_preconditioned()) v = (centre_ + map_ * x).cwiseMax(lower_).cwiseMin(upper_);
   VectorXd u = v;
   if (kind_ == Kind::logarithmic_steps)
     for (const Index k : steps_) u[k] = unit_ * std::expm1(v[k]);
@@ -64,6 +68,39 @@ MatrixXd NloptSpace::derivative(const VectorXd& u) const {
   for (Index j = 0; j < u.size(); ++j)
     if (coordinates_->is_positive(j)) d[j] = p[j];
   return coordinates_->derivative(u).partialPivLu().solve(MatrixXd(d.asDiagonal()));
+}
+
+void NloptSpace::precondition(const VectorXd& u, const MatrixXd& jacobian) {
+  constexpr double kMostUneven = 100;
+  const MatrixXd of_v = jacobian * derivative(u);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(of_v.transpose() * of_v);
+  VectorXd steepness = parts.eigenvalues().cwiseMax(0).cwiseSqrt();
+  steepness = steepness.cwiseMax(std::max(steepness.maxCoeff() / kMostUneven, 1e-300));
+  centre_ = v(u);
+  map_ = parts.eigenvectors() * (steepness.cwiseInverse() * steepness.minCoeff()).asDiagonal();
+}
+
+VectorXd NloptSpace::excess(const VectorXd& x) const {
+  const auto n = static_cast<Index>(constrained_.size());
+  VectorXd all(n);
+  const VectorXd step = u(x);
+  if (is_preconditioned()) {
+    const VectorXd v = centre_ + map_ * x;
+    all.resize(n + 2 * v.size());
+    for (Index j = 0; j < v.size(); ++j) {
+      all[n + 2 * j] = std::isfinite(lower_[j]) ? lower_[j] - v[j] : -1;
+      all[n + 2 * j + 1] = std::isfinite(upper_[j]) ? v[j] - upper_[j] : -1;
+    }
+  }
+  for (Index i = 0; i < n; ++i) all[i] = -step[constrained_[static_cast<std::size_t>(i)]];
+  return all;
+}
+
+MatrixXd NloptSpace::excess_derivative(const VectorXd& v) const {
+  const MatrixXd of_u = derivative(u(v));
+  MatrixXd rows(static_cast<Index>(constrained_.size()), v.size());
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = -of_u.row(constrained_[static_cast<std::size_t>(i)]);
+  return rows;
 }
 
 VectorXd NloptSpace::steps(const VectorXd& u) const {

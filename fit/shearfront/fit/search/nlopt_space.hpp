@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/search/nlopt_algorithm.hpp"
@@ -19,15 +20,23 @@ class NloptSpace {
  public:
   NloptSpace(const Coordinates& coordinates, const Eigen::VectorXd& start_u, const NloptAlgorithm& algorithm);
 
+  [[nodiscard]] bool is_preconditioned() const { return map_.size() > 0; }
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
   [[nodiscard]] Eigen::VectorXd u(const Eigen::VectorXd& v) const;  ///< outside the box if v lacks the shape
-  [[nodiscard]] Eigen::VectorXd v(const Eigen::VectorXd& u) const;  ///< inside lower()..upper()
+  [[nodiscard]] Eigen::VectorXd v(
+      const Eigen::VectorXd& u) const;  ///< inside lower()..upper(); not preconditioned
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& u) const;  ///< du/dv
   /// First steps: a tenth of the value, for heights a tenth of their range.
   [[nodiscard]] Eigen::VectorXd steps(const Eigen::VectorXd& u) const;
-  /// Coordinates u_k that a constraint must keep >= 0; empty where the box does it.
-  [[nodiscard]] const std::vector<Eigen::Index>& constrained() const { return constrained_; }
+  /// What must be <= 0 besides the box: -u_k of the steps, and the box itself once preconditioned.
+  [[nodiscard]] Eigen::VectorXd excess(const Eigen::VectorXd& v) const;
+  [[nodiscard]] Eigen::MatrixXd excess_derivative(const Eigen::VectorXd& v) const;  ///< not preconditioned
+
+  /// Replaces v by w with v = v(u) + W w, W W^T ~ the inverse of J^T J: the misfit is then about as steep in
+  /// every direction. A step of w is one of v in the flattest direction, and no less than 1 / kMostUneven of
+  /// it in the steepest. w has no bounds: they become constraints.
+  void precondition(const Eigen::VectorXd& u, const Eigen::MatrixXd& jacobian);
 
  private:
   enum class Kind { coordinates, logarithmic_steps, values };
@@ -36,6 +45,8 @@ class NloptSpace {
   Kind kind_ = Kind::coordinates;
   std::vector<Eigen::Index> steps_, constrained_;
   double unit_ = 1;  ///< c
+  Eigen::VectorXd centre_;
+  Eigen::MatrixXd map_;  ///< W; empty: not preconditioned
   Eigen::VectorXd lower_, upper_;
 };
 
