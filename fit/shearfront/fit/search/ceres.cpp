@@ -2,12 +2,14 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "shearfront/fit/search/allowance.hpp"
+#include "shearfront/fit/search/gradient.hpp"
 #include "shearfront/fit/search/search.hpp"
 
 namespace shearfront::fit {
@@ -125,11 +127,8 @@ ceres::Solver::Options options_of(const SearchSpec& spec, const Allowance& allow
   return options;
 }
 
-}  // namespace
-
-SearchResult search_ceres(Objective& objective, const VectorXd& start, const SearchSpec& spec,
-                          const std::vector<bool>& fixed) {
-  const Allowance allowance(objective.control(), spec.max_evaluations);
+SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec& spec,
+                   const Allowance& allowance, const std::vector<bool>& fixed) {
   SearchResult result;
   result.u = start;
   result.misfit = objective.evaluate(start, false).misfit;
@@ -169,6 +168,58 @@ SearchResult search_ceres(Objective& objective, const VectorXd& start, const Sea
   }
   result.status = summary.termination_type == ceres::CONVERGENCE ? Status::ok : Status::not_converged;
   allowance.report(result);
+  return result;
+}
+
+/// Ceres projects its steps onto the box, which ends on a wrong place of its faces: what is held at a bound
+/// is fixed there and the search repeated until this stays. Moves u to the bounds it is next to and marks
+/// there what the misfit holds: beyond the bound it would fall, or inside by no more than `tolerance` of
+/// itself.
+std::vector<bool> held_at_bounds(Objective& objective, VectorXd& u, double tolerance) {
+  const Coordinates& coordinates = objective.coordinates();
+  std::vector<bool> held(static_cast<std::size_t>(u.size()), false);
+  VectorXd outwards = VectorXd::Zero(u.size());
+  for (Index j = 0; j < u.size(); ++j) {
+    for (const double bound : {coordinates.lower()[j], coordinates.upper()[j]}) {
+      if (!(std::abs(u[j] - bound) <= 1e-8 * std::max(1.0, std::abs(bound)))) continue;
+      outwards[j] = bound == coordinates.lower()[j] ? -1 : 1;
+      u[j] = bound;
+    }
+  }
+  if (outwards.isZero()) return held;
+  const Objective::Evaluation& at = objective.evaluate(u, true);
+  if (!at.is_valid) return held;
+  const VectorXd gradient = misfit_gradient(at, objective.loss());
+  for (Index j = 0; j < u.size(); ++j) {
+    const double slope = gradient[j] * outwards[j], curvature = at.jacobian.col(j).squaredNorm();
+    const bool gains = slope * slope / 2 > tolerance * at.misfit * curvature;
+    held[static_cast<std::size_t>(j)] = outwards[j] != 0 && (slope <= 0 || !gains);
+  }
+  return held;
+}
+
+}  // namespace
+
+SearchResult search_ceres(Objective& objective, const VectorXd& start, const SearchSpec& spec,
+                          const std::vector<bool>& fixed) {
+  const Allowance allowance(objective.control(), spec.max_evaluations);
+  SearchResult result = solve(objective, start, spec, allowance, fixed);
+  std::vector<bool> before = fixed;
+  for (Index round = 0; round < 2 * start.size() && result.status == Status::ok; ++round) {
+    if (result.misfit <= rounding_misfit(objective) || allowance.must_stop()) break;
+    VectorXd u = result.u;
+    std::vector<bool> held = held_at_bounds(objective, u, spec.tolerance);
+    for (std::size_t j = 0; j < fixed.size(); ++j) held[j] = held[j] || fixed[j];
+    if (held == before || std::find(held.begin(), held.end(), true) == held.end()) break;
+    before = held;
+    SearchResult next = solve(objective, u, spec, allowance, held);
+    next.iterations += result.iterations;
+    // Down from the bound itself, which may lie a little above the end of the search before.
+    if (next.misfit > result.misfit) break;
+    const bool is_end = result.misfit - next.misfit <= spec.tolerance * result.misfit;
+    result = std::move(next);
+    if (is_end) break;
+  }
   return result;
 }
 

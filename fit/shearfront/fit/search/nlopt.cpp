@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shearfront/fit/search/allowance.hpp"
+#include "shearfront/fit/search/gradient.hpp"
 #include "shearfront/fit/search/nlopt_algorithm.hpp"
 #include "shearfront/fit/search/nlopt_space.hpp"
 #include "shearfront/fit/search/search.hpp"
@@ -27,13 +28,6 @@ struct Destroy {
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
 };
 using Optimiser = std::unique_ptr<nlopt_opt_s, Destroy>;
-
-/// dF/du from the residuals and their Jacobian.
-VectorXd gradient_of(const Objective::Evaluation& at, const Loss& loss) {
-  VectorXd weighted = at.residuals;
-  for (double& r : weighted) r *= loss(r * r).first;
-  return at.jacobian.transpose() * weighted;
-}
 
 /// What the callbacks of NLopt share. Exceptions must not cross its C code: they stop it and go on
 /// afterwards.
@@ -95,7 +89,7 @@ class Session {
     ++best_->iterations;
     if (gradient)
       Eigen::Map<VectorXd>(gradient, v.size()) =
-          space_->derivative(u).transpose() * gradient_of(at, objective_->loss());
+          space_->derivative(u).transpose() * misfit_gradient(at, objective_->loss());
     return at.misfit;
   }
 
