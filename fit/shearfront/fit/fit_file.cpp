@@ -29,7 +29,9 @@ using Need = TableReader::Need;
 
 constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'000'000,
                              kMostReplicates = 1'000'000, kMostThreads = 1024, kMostLayers = 1'000'000,
-                             kMostCells = 100'000'000, kLargestSeed = std::numeric_limits<long long>::max();
+                             kMostCells = 100'000'000,
+                             kLargestSeed =
+                                 9'007'199'254'740'991;  // exact in a double, and so for every program
 
 /// The stopping rule of Buerger, Martinez & Villada (2023): both tolerances 1e-3.
 constexpr double kPaperTolerance = 1e-3;
