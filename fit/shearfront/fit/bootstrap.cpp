@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "shearfront/fit/search/search.hpp"
+#include "shearfront/fit/search/nlopt_algorithm.hpp"
 #include "shearfront/solution/observe.hpp"
 
 namespace shearfront::fit {
@@ -25,6 +25,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kTail = 0.025;
+
+/// The same search if it is a local one.
+std::string local_algorithm(const std::string& algorithm) {
+  constexpr std::string_view kNlopt = "nlopt:";
+  if (!algorithm.starts_with(kNlopt)) return "ceres";
+  const NloptAlgorithm* of_nlopt = find_nlopt_algorithm(std::string_view(algorithm).substr(kNlopt.size()));
+  if (!of_nlopt || !of_nlopt->is_global) return algorithm;
+  return of_nlopt->uses_derivatives ? "ceres" : "nlopt:sbplx";
+}
 
 /// The specification of all replicates but for the values of their observations.
 FitSpec template_of(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate) {
@@ -40,7 +49,7 @@ FitSpec template_of(const FitSpec& spec, const Parameters& parameters, const Est
     replicate.unknown.lower.push_back(p.lower);
     replicate.unknown.upper.push_back(p.upper);
   }
-  replicate.search.algorithm = uses_derivatives(spec.search.algorithm) ? "ceres" : "nlopt:sbplx";
+  replicate.search.algorithm = local_algorithm(spec.search.algorithm);
   replicate.search.starts = 1;
   replicate.uncertainty = {};
   return replicate;

@@ -109,7 +109,7 @@ struct LossEffect {
   double slope = 1, variance = 1;
 };
 
-LossEffect effect_of(const Loss& loss, const Objective::Evaluation& at, double noise, Index n_coordinates) {
+LossEffect effect_of(const Loss& loss, const Objective::Evaluation& at, double noise, double fitted) {
   if (!loss.is_robust) return {1, noise * noise};
   // Rows that no coordinate moves have no part in the estimate.
   const std::vector<bool> depends = dependent_rows(at.jacobian);
@@ -122,7 +122,7 @@ LossEffect effect_of(const Loss& loss, const Objective::Evaluation& at, double n
     slope += rho.first + 2 * r2 * rho.second;
     n += 1;
   }
-  const double freedom = n - static_cast<double>(n_coordinates);
+  const double freedom = n - fitted;
   if (!(slope > 0) || !(freedom > 0)) return {kNaN, kNaN};
   slope /= n;
   return {slope, psi2 / freedom / (slope * slope)};
@@ -136,8 +136,13 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   const Index n = at.jacobian.cols();
   const Decomposition parts = decompose(at, held);
   const auto n_free = static_cast<Index>(parts.free.size());
-  const LossEffect effect = effect_of(loss, at, noise, n_free);
   const MatrixXd moved = noise_to_coordinates(rows, observations, parts.pseudo_inverse);
+  // How much of the noise the fit takes out of the residuals: the rank of J if they are independent.
+  MatrixXd jacobian(at.jacobian.rows(), n_free);
+  for (Index a = 0; a < n_free; ++a)
+    jacobian.col(a) = at.jacobian.col(parts.free[static_cast<std::size_t>(a)]);
+  const double fitted = (jacobian.transpose() * jacobian * moved).cwiseProduct(moved).sum();
+  const LossEffect effect = effect_of(loss, at, noise, fitted);
   const MatrixXd cov = effect.variance * moved * moved.transpose();
   const VectorXd curvature = parts.pseudo_inverse.rowwise().squaredNorm() / effect.slope;
 

@@ -29,7 +29,7 @@ struct Covariance {
 ///
 /// v = noise^2 for squared residuals (for D the identity this is noise^2 (J^T J)^-1; rows that share
 /// observations are propagated as the correlated numbers they are). A robust loss takes v = mean psi^2 /
-/// (mean psi')^2 from the residuals, times n / (n - p), and needs no noise (Huber 1981, section 7.6).
+/// (mean psi')^2 from the residuals, times n / (n - |J K B|^2), and needs no noise (Huber 1981, section 7.6).
 /// Coordinates marked `held` are known: left out. The pseudo-inverse is by singular values of J with columns
 /// scaled to norm one; those below kRankTolerance of the largest (or below the error of a numeric J) are
 /// null, columns below kUnseen of the largest unseen. Guarantees: scaling of a coordinate scales its entries;

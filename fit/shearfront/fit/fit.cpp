@@ -32,6 +32,8 @@ constexpr int kMostRenewals = 6;
 constexpr double kNear = 1e-2;
 /// The same while rows and noise of the last stage are not settled.
 constexpr double kRough = 1e-4;
+/// Bins taken together at first.
+constexpr std::size_t kWidestBin = 32;
 /// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
 constexpr double kForgiven = 0.1;
 /// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
@@ -162,6 +164,7 @@ class Run {
     const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
     if (is_point) first->set_tether(u_, 1);
     search_from_here(*first, kNear);
+    if (spec_.observations.quantity == Quantity::bin) narrow_bins();
     if (!is_point || control_.must_stop()) return;
     // Wrong in the cells of a shock only, where the loss forgives it.
     ResidualRows means = rows_of(BinMisfit::kName, spec_);
@@ -169,6 +172,19 @@ class Run {
     // The bias of the sums may have put their smallest minimum into another valley.
     if (spec_.search.algorithm == "global") has_searched_ = false;
     search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
+  }
+
+  /// Means over fewer and fewer bins at once. The misfit has a kink wherever a shock enters a bin, and so
+  /// many local minima; each width locates the shocks within the valley of the next.
+  void narrow_bins() {
+    std::size_t most = 0;
+    for (const MeasuredProfile& profile : measured_profiles(spec_.observations))
+      most = std::max(most, profile.rows.size());
+    for (std::size_t n = std::min<std::size_t>(kWidestBin, most / 2); n > 1 && !control_.must_stop(); n /= 2)
+      search_from_here(*make_objective(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(),
+                                                            spec_.scene.top(), n),
+                                       find_loss(SquaredLoss::kName, 0)),
+                       kNear);
   }
 
   /// The misfit asked for. What it depends on besides the parameters, the rows without a jump and the noise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "shearfront/fit/residual_rows.hpp"
 
@@ -21,6 +22,31 @@ struct BinMisfit {
     for (const MeasuredProfile& profile : measured_profiles(observations))
       if (profile.rows.size() > 1) return "";
     return "needs two heights at the same time";
+  }
+
+  /// Moving means over `n` neighbouring bins of a time, gaps left out; nothing for times with fewer bins.
+  /// Precondition: bins.
+  static ResidualRows wide_rows(const Observations& observations, double bottom, double top, std::size_t n) {
+    RowBuilder builder(observations, Field::M);
+    for (const MeasuredProfile& profile : measured_profiles(observations)) {
+      for (std::size_t first = 0; first + n <= profile.rows.size(); ++first) {
+        const std::size_t end = first + n;
+        const auto edges = [&](std::size_t j) {
+          const Observation& o = observations.rows[profile.rows[j]];
+          return std::pair(std::max(bottom, o.z - o.width / 2), std::min(top, o.z + o.width / 2));
+        };
+        double width = 0;
+        for (std::size_t j = first; j < end; ++j) width += edges(j).second - edges(j).first;
+        for (std::size_t j = first; j < end; ++j) {
+          const auto [lo, hi] = edges(j);
+          builder.model(profile.t, hi, 1 / width);
+          builder.model(profile.t, lo, -1 / width);
+          builder.data(profile.rows[j], (hi - lo) / width);
+        }
+        builder.finish_row();
+      }
+    }
+    return builder.take();
   }
 
   static ResidualRows rows(const Observations& observations, double bottom, double top) {
