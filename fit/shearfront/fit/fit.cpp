@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/fit/search/search.hpp"
+#include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
 #include "shearfront/fit/uncertainty.hpp"
 #include "shearfront/io/text.hpp"
@@ -34,6 +36,8 @@ constexpr double kNear = 1e-2;
 constexpr double kRough = 1e-4;
 /// Bins taken together at first.
 constexpr std::size_t kWidestBin = 32;
+/// Further starts lie within this factor of the first: bounds are often far wider.
+constexpr double kWidestStart = 20;
 /// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
 constexpr double kForgiven = 0.1;
 /// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
@@ -115,11 +119,58 @@ class Run {
 
  private:
   void find() {
-    u_ = coordinates_.coordinates(parameters_.start());
-    const bool stages = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm));
-    if (stages && quantity_ != CumulativeMisfit::kName) approach();
-    settle(rows_of(quantity_, spec_), stages && quantity_ == PointMisfit::kName);
+    const VectorXd start = coordinates_.coordinates(parameters_.start());
+    has_stages_ = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm)) &&
+                  quantity_ != CumulativeMisfit::kName;
+    if (has_stages_ && spec_.search.starts > 1 && spec_.search.algorithm != "global")
+      find_from_many(start);
+    else
+      find_from(start);
   }
+
+  void find_from(const VectorXd& start) {
+    u_ = start;
+    has_searched_ = false;
+    noise_ = 0;
+    n_scales_ = 0;
+    if (has_stages_) approach();
+    settle(rows_of(quantity_, spec_), has_stages_ && quantity_ == PointMisfit::kName);
+  }
+
+  /// Every start goes through all stages: what is best in an early one need not be in the last.
+  void find_from_many(const VectorXd& start) {
+    StartPoints points(coordinates_, start, spec_.search.seed, kWidestStart);
+    VectorXd best = start;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t best_start = 0;
+    const std::size_t n = spec_.search.starts;
+    for (std::size_t k = 0; k < n && !control_.must_stop() && least > 0; ++k) {
+      share_ = std::max<std::size_t>(1, control_.left() / (n + 1 - k));
+      find_from(k == 0 ? start : points.next());
+      const double score = forgiving_misfit();
+      if (!(score < least)) continue;
+      least = score;
+      best = u_;
+      best_start = k;
+    }
+    share_ = control_.left();
+    u_ = best;
+    settle(rows_of(quantity_, spec_), quantity_ == PointMisfit::kName);
+    result_.message = "best of " + std::to_string(n) + " starts (number " + std::to_string(best_start) +
+                      "): " + result_.message;
+  }
+
+  /// Compares estimates whose last stages left out other rows or took another noise: all rows, with a loss of
+  /// fixed scale.
+  [[nodiscard]] double forgiving_misfit() {
+    ResidualRows rows = rows_of(quantity_, spec_);
+    if (!loss_.is_robust && !left_out_) return objective_->evaluate(u_, false).misfit;
+    set_weights(rows, 1);
+    return make_objective(std::move(rows), find_loss(CauchyLoss::kName, kForgiven))
+        ->evaluate(u_, false)
+        .misfit;
+  }
+
   /// Nothing but the values found; nothing if the search did not end at a minimum.
   [[nodiscard]] std::optional<VectorXd> values() {
     find();
@@ -142,12 +193,11 @@ class Run {
   void search_from_here(Objective& objective, double tolerance) {
     SearchSpec how = spec_.search;
     how.tolerance = std::max(how.tolerance, tolerance);
-    if (has_searched_) {
-      if (how.algorithm == "global") how.algorithm = "ceres";
-      how.starts = 1;
-    }
+    if (has_searched_ && how.algorithm == "global") how.algorithm = "ceres";
+    if (has_searched_ || has_stages_) how.starts = how.algorithm == "global" ? how.starts : 1;
     has_searched_ = true;
-    if (tolerance > 0) how.max_evaluations = control_.left() / 3;  // the last stage needs the most
+    how.max_evaluations = std::min(share_, control_.left());
+    if (tolerance > 0) how.max_evaluations /= 3;  // the last stage needs the most
     result_ = search(objective, u_, how);
     iterations_ += result_.iterations;
     u_ = result_.u;
@@ -244,7 +294,8 @@ class Run {
   std::unique_ptr<Objective> objective_;
   Eigen::VectorXd u_;
   SearchResult result_;
-  bool has_searched_ = false;
+  bool has_stages_ = false, has_searched_ = false;
+  std::size_t share_ = std::numeric_limits<std::size_t>::max();  ///< of the evaluations left, for one start
   std::size_t iterations_ = 0, left_out_ = 0;
   double noise_ = 0;  ///< of the residuals, for a robust loss
   int n_scales_ = 0;

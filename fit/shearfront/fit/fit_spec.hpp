@@ -31,7 +31,14 @@ struct UnknownSpec {
 /// [forward]: the solver that predicts the observations; names and settings as on the command line.
 struct ForwardSpec {
   std::string method = "exact";
-  SolverOptions options;
+  SolverOptions options = linear_between_fronts();
+
+  /// Front tracking as steps would show no dependence of phi on the parameters, but where a front passes.
+  [[nodiscard]] static SolverOptions linear_between_fronts() {
+    SolverOptions options;
+    options.reconstruct = Reconstruction::linear;
+    return options;
+  }
 };
 
 /// [misfit]: what is compared, and how residuals count.
