@@ -33,7 +33,8 @@ struct ForwardSpec {
   std::string method = "exact";
   SolverOptions options = linear_between_fronts();
 
-  /// Front tracking as steps would show no dependence of phi on the parameters, but where a front passes.
+  /// States constant between fronts have no derivative in the parameters; the lines through them do, and are
+  /// closer to the solution.
   [[nodiscard]] static SolverOptions linear_between_fronts() {
     SolverOptions options;
     options.reconstruct = Reconstruction::linear;

@@ -92,9 +92,9 @@ class SolverForward final : public ForwardModel {
   SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Field field,
                 std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), solve_(solve), options_(forward.options) {
-    // States constant between fronts have no derivative in the parameters; the lines through them do, and are
-    // closer to the solution.
-    if (field == Field::phi) options_.reconstruct = Reconstruction::linear;
+    // M of the states themselves is of second order and varies more smoothly than M of the lines through
+    // them.
+    if (field == Field::M) options_.reconstruct = Reconstruction::constant;
     const auto keep_distinct = [](std::vector<double>& xs) {
       std::sort(xs.begin(), xs.end());
       xs.erase(std::unique(xs.begin(), xs.end()), xs.end());

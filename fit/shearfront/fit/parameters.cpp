@@ -132,7 +132,13 @@ void Parameters::check_shape(Problems& problems) const {
   for (const Entry& entry : entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
   std::vector<double> values;
   for (const Parameter& p : parameters_)
-    if (p.entry.field == "shear_rate.values") values.push_back(p.start);
+    if (p.entry.field == "shear_rate.values") {
+      if (p.entry.index != values.size()) {
+        problems.push_back({"unknown.shape", name, "needs shear_rate.values in the order of the scene"});
+        return;
+      }
+      values.push_back(p.start);
+    }
   if (n_values == 0 || values.size() != n_values) {
     problems.push_back({"unknown.shape", name, "needs all of shear_rate.values among the unknowns"});
     return;
