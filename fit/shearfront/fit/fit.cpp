@@ -100,7 +100,7 @@ class Run {
     check_uncertainty(spec);
     const auto names = algorithm_names();
     if (std::find(names.begin(), names.end(), spec.search.algorithm) == names.end())
-      (void)nearest_algorithm();
+      throw unknown_algorithm(spec.search.algorithm);
   }
 
   Estimate operator()() {
@@ -155,6 +155,8 @@ class Run {
     }
     share_ = control_.left();
     u_ = best;
+    noise_ = 0;  // of the last start, not of the best
+    n_scales_ = 0;
     settle(rows_of(quantity_, spec_), quantity_ == PointMisfit::kName);
     result_.message = "best of " + std::to_string(n) + " starts (number " + std::to_string(best_start) +
                       "): " + result_.message;
@@ -178,11 +180,6 @@ class Run {
     return coordinates_.values(result_.u);
   }
 
-  [[noreturn]] void nearest_algorithm() const {
-    std::string all;
-    for (const std::string& name : algorithm_names()) all += (all.empty() ? "" : ", ") + name;
-    throw InputError("search.algorithm", quoted_text(spec_.search.algorithm), "must be one of: " + all);
-  }
   [[nodiscard]] std::unique_ptr<Objective> make_objective(ResidualRows rows, const Loss& loss) {
     control_.new_stage();
     return std::make_unique<Objective>(parameters_, coordinates_, spec_.forward, std::move(rows), loss,

@@ -29,8 +29,8 @@ struct ObservationPlan {
 [[nodiscard]] Problems find_problems(const ObservationPlan& plan, double bottom, double top);
 
 /// The spacing of the depths, in whatever order, if it is the same everywhere up to the rounding of the
-/// depths; nothing otherwise and for fewer than two depths. Of the numbers that rounding leaves possible it is
-/// the one with the fewest digits: 0.1 for 0.05, 0.15, ..., 0.95.
+/// depths; nothing otherwise and for fewer than two depths. Of the numbers that rounding leaves possible it
+/// is the one with the fewest digits: 0.1 for 0.05, 0.15, ..., 0.95.
 [[nodiscard]] std::optional<double> equal_spacing(std::vector<double> depths);
 
 /// What a solver has to compute: the depths of the plan, for bins their edges.
