@@ -44,6 +44,7 @@ std::string described(const Guarantees& g) {
   say(g.any_scene, "any scene");
   say(g.has_timeline, "event times");
   say(g.has_fronts, "fronts");
+  say(g.has_profiles, "whole profiles");
   return all;
 }
 

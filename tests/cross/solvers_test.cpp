@@ -40,7 +40,7 @@ SolverRequest request_for(const Scene<double>& scene) {
   for (int i = 0; i <= 40; ++i)
     request.depths.push_back(scene.bottom() + (scene.top() - scene.bottom()) * i / 40);
   std::swap(request.depths[3], request.depths[20]);
-  request.timeline = true;
+  request.timeline = request.profiles = true;
   return request;
 }
 
@@ -72,6 +72,13 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
           EXPECT_NEAR(s.M, scene.mass(), 1e-13);
         }
         EXPECT_NEAR(s.M, exact.M(z, t), slack) << "z = " << z << ", t = " << t;
+      }
+    ASSERT_EQ(result.profiles.size(), promised.has_profiles ? request.times.size() : 0);
+    for (std::size_t i = 0; i < result.profiles.size(); ++i)
+      for (std::size_t j = 0; j < request.depths.size(); ++j) {
+        const auto value = result.profiles[i].at(request.depths[j]);
+        EXPECT_EQ(value.phi, result.samples[i * request.depths.size() + j].phi);
+        EXPECT_NEAR(value.M, result.samples[i * request.depths.size() + j].M, 1e-14);
       }
     ASSERT_EQ(result.timeline.has_value(), promised.has_timeline);
     if (!promised.has_timeline) continue;

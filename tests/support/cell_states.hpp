@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/fv/grid.hpp"
+#include "shearfront/fv/solve.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solver/solver.hpp"
 
@@ -33,10 +33,7 @@ std::vector<std::vector<double>> cell_states(const Scene<double>& scene, const s
 }
 
 inline Profile<double> profile_of(const Scene<double>& scene, const std::vector<double>& phi) {
-  const fv::Grid grid{scene.bottom(), scene.top(), phi.size()};
-  std::vector<double> z;
-  for (std::size_t j = 0; j <= phi.size(); ++j) z.push_back(grid.edge(j));
-  return {z, phi, phi};
+  return fv::profile_of_cells({scene.bottom(), scene.top(), phi.size()}, phi);
 }
 
 }  // namespace shearfront::support

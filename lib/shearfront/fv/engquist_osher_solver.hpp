@@ -19,7 +19,7 @@ struct EngquistOsherSolver {
   static constexpr std::string_view kDescription = "Engquist-Osher scheme on equal cells, one rate per face";
   static Guarantees guarantees() {
     Guarantees g;
-    g.conservative = g.bounded = g.any_scene = true;
+    g.conservative = g.bounded = g.any_scene = g.has_profiles = true;
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;

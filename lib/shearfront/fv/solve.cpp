@@ -139,6 +139,12 @@ std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
   return samples;
 }
 
+Profile<double> profile_of_cells(const Grid& grid, std::span<const double> phi) {
+  std::vector<double> edges(grid.n_cells + 1), values(phi.begin(), phi.end());
+  for (std::size_t j = 0; j <= grid.n_cells; ++j) edges[j] = grid.edge(j);
+  return {std::move(edges), values, values};
+}
+
 SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
                    const SolverRequest& request, const SolverOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
@@ -156,14 +162,19 @@ SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel
             [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
   const std::size_t n = request.depths.size();
   result.samples.resize(request.times.size() * n);
+  if (request.profiles) result.profiles.resize(request.times.size());
   for (const std::size_t i : order) {
     const auto phi = run.at(request.times[i], status);
     if (status != Status::ok) break;
     const auto samples = sample_cells(run.grid(), phi, request.depths);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
+    if (request.profiles) result.profiles[i] = profile_of_cells(run.grid(), phi);
   }
   if (status == Status::ok && run.is_at_rest()) status = Status::steady;
-  if (status != Status::ok && status != Status::steady) result.samples.clear();
+  if (status != Status::ok && status != Status::steady) {
+    result.samples.clear();
+    result.profiles.clear();
+  }
   result.summary.status = status;
   result.summary.message = message_of(status, run.n_updates());
   result.summary.cell_updates = run.n_updates();

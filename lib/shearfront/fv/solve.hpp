@@ -37,4 +37,7 @@ namespace shearfront::fv {
 [[nodiscard]] std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
                                                const std::vector<double>& depths);
 
+/// phi, constant in every cell, as a function of z. Cost: O(cells).
+[[nodiscard]] Profile<double> profile_of_cells(const Grid& grid, std::span<const double> phi);
+
 }  // namespace shearfront::fv

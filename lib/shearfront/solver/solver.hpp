@@ -11,6 +11,7 @@
 
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/front_segment.hpp"
+#include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
 
@@ -46,6 +47,7 @@ struct SolverRequest {
   std::vector<double> depths;
   bool timeline = false;  ///< event times wanted
   bool fronts = false;    ///< front segments wanted (solvers that have fronts)
+  bool profiles = false;  ///< phi over the whole domain wanted (solvers that have profiles)
 };
 
 struct Sample {
@@ -57,6 +59,7 @@ struct SolverResult {
   std::vector<Sample> samples;  ///< samples[i * depths.size() + j] belongs to times[i], depths[j]
   std::optional<Timeline<double>> timeline;
   std::vector<FrontSegment<double>> fronts;
+  std::vector<Profile<double>> profiles;  ///< profiles[i] belongs to times[i]; the samples are its values
   Summary summary;
 };
 
@@ -70,6 +73,7 @@ struct Guarantees {
   bool any_scene = false;     ///< every scene of the toolkit
   bool has_fronts = false;    ///< can return front segments
   bool has_timeline = false;  ///< can return event times
+  bool has_profiles = false;  ///< can return the solution as a function of z: it is linear in pieces
 };
 
 template <class S>

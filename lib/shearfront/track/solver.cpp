@@ -67,14 +67,16 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   const RunLimits limits{options.max_collisions, options.progress};
   Status status = Status::ok;
   const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
+  if (request.profiles) result.profiles.resize(request.times.size());
   for (const std::size_t i : order) {
     status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
-    const Profile<double> profile =
+    Profile<double> profile =
         options.reconstruct == Reconstruction::linear ? linear_profile(tracker) : tracker.profile();
     const auto values = profile.at(request.depths);
     for (std::size_t j = 0; j < values.size(); ++j)
       result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
+    if (request.profiles) result.profiles[i] = std::move(profile);
   }
   if (request.timeline && is_usable()) {
     status = tracker.run_to_steady(limits);
@@ -84,6 +86,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
     tracker.close_record();
     result.fronts = tracker.observer().segments();
   }
+  if (!is_usable()) result.profiles.clear();
   summary.status = status;
   summary.message = message_of(status, tracker.n_collisions(), tracker.n_unreachable());
   summary.collisions = tracker.n_collisions();
