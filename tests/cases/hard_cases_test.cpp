@@ -12,7 +12,6 @@
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"
-#include "support/l1_error.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/l1_error.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"
-#include "support/l1_error.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -50,12 +50,11 @@ TEST_P(TrackerAgainstExact, AgreesWithinTheResolution) {
     tracker.advance_to(time);
     EXPECT_NEAR(tracker.mass(), scene.mass(), 1e-13);
     EXPECT_EQ(verify(tracker, 1e-13, 1e-11), std::vector<std::string>{});
-    const auto steps = support::errors_against(exact, tracker.profile(), time);
+    const auto steps = errors_against(exact, tracker.profile(), time);
     EXPECT_LE(steps.l1, kResolution);
     // Measured largest ratios over these scenes: 0.42 and 1.3.
     EXPECT_LE(steps.M_max, kResolution * kResolution);
-    EXPECT_LE(support::errors_against(exact, linear_profile(tracker), time).l1,
-              3 * kResolution * kResolution);
+    EXPECT_LE(errors_against(exact, linear_profile(tracker), time).l1, 3 * kResolution * kResolution);
     tracker.run_to_steady();
     EXPECT_NEAR(tracker.mass(), scene.mass(), 1e-13);
     const double t_star = exact_timeline(scene).t_star.value();
@@ -67,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Blocks, TrackerAgainstExact, testing::Range(0, kBlocks)
 
 TEST(TrackerAgainstExactOrder, FirstInPhiSecondInMAndSecondWithLines) {
   const double coarse = 0.04, fine = 0.005;
-  support::ProfileErrors steps[2], lines[2];
+  ProfileErrors<double> steps[2], lines[2];
   double t_star[2] = {0, 0};
   for (int number = 0; number < 100; ++number) {
     const auto [scene, time] = draw(number);
@@ -77,8 +76,8 @@ TEST(TrackerAgainstExactOrder, FirstInPhiSecondInMAndSecondWithLines) {
       const TrackingSetup<double> setup(scene, i == 0 ? coarse : fine);
       Tracked tracker(setup.grid, setup.pieces);
       tracker.advance_to(time);
-      const auto s = support::errors_against(exact, tracker.profile(), time);
-      const auto l = support::errors_against(exact, linear_profile(tracker), time);
+      const auto s = errors_against(exact, tracker.profile(), time);
+      const auto l = errors_against(exact, linear_profile(tracker), time);
       steps[i].l1 += s.l1, steps[i].M_max += s.M_max, lines[i].l1 += l.l1;
       tracker.run_to_steady();
       t_star[i] += std::abs(tracker.last_collision() - exact_t_star) / std::max(exact_t_star, 1e-300);

@@ -64,11 +64,16 @@ void ExponentialMedium<Scalar>::try_source(const Scalar& z, const Scalar& t, std
   using std::log1p;
   const Scalar& below = cells_.phi[i - 1];
   const Scalar& above = cells_.phi[i];
-  if (!(below < above)) return;  // no optimal path starts where M(., 0) is concave
   const Scalar one(1), two(2);
+  if (!(below < above)) return;  // no optimal path starts where M(., 0) is concave
   const Scalar B = rate_[i] * t / decay_;
-  const Scalar e = expm1(Scalar((z - cells_.x[i]) / decay_));
-  if (e > B || B + e < 0 || !(B > 0)) return;
+  Scalar e = expm1(Scalar((z - cells_.x[i]) / decay_));
+  // At the edges of the fan rounding must not leave a height to neither the fan nor the state beside it.
+  const auto size = [](const Scalar& v) { return v < 0 ? Scalar(-v) : v; };
+  const Scalar of_height = (size(z) + size(cells_.x[i])) / decay_ * (one + e);
+  const Scalar rounding = Scalar(16) * unit_roundoff<Scalar>() * (B + size(e) + of_height);
+  if (e > B + rounding || B + e < -rounding || !(B > 0)) return;
+  e = std::min(B, std::max(Scalar(-B), e));
   const FanMomenta<Scalar> fan(B, e);
   // Moving the start must not pay: below <= p0 <= above.
   const Scalar slack = one / Scalar(1 << 20);
