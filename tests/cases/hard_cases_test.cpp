@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"

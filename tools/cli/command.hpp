@@ -28,6 +28,7 @@ struct Command {
 [[nodiscard]] Command add_solve(CLI::App& program);
 [[nodiscard]] Command add_observe(CLI::App& program);
 [[nodiscard]] Command add_fit(CLI::App& program);
+[[nodiscard]] Command add_compare(CLI::App& program);
 [[nodiscard]] Command add_check(CLI::App& program);
 [[nodiscard]] Command add_list(CLI::App& program);
 

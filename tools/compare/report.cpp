@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "compare/report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "cli/table.hpp"
+#include "shearfront/io/detail/json_text.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+constexpr std::array<double, 4> kErrors{1e-3, 1e-4, 1e-6, 1e-10};
+
+std::string time_text(const TimeToError& time) {
+  switch (time.kind) {
+    case TimeToError::Kind::within_first:
+      return "< " + duration_text(time.wall_s);
+    case TimeToError::Kind::interpolated:
+      return duration_text(time.wall_s);
+    case TimeToError::Kind::extrapolated:
+      return "~" + duration_text(time.wall_s) + " (extrapolated)";
+    default:
+      return "cannot";
+  }
+}
+
+std::string_view kind_name(TimeToError::Kind kind) {
+  switch (kind) {
+    case TimeToError::Kind::within_first:
+      return "within the first rung";
+    case TimeToError::Kind::interpolated:
+      return "interpolated";
+    case TimeToError::Kind::extrapolated:
+      return "extrapolated";
+    default:
+      return "cannot";
+  }
+}
+
+std::string per_unit(const Rung& rung) {
+  return rung.work > 0 ? fmt::format("{:.3g} ns", 1e9 * rung.wall_s / static_cast<double>(rung.work)) : "";
+}
+
+std::string rungs_text(const Panel& panel) {
+  TextTable table({"method", "resolution", "L1 error", "order", "work", "per unit", "time"});
+  for (const Course& course : panel.courses)
+    for (std::size_t i = 0; i < course.rungs.size(); ++i) {
+      const Rung& rung = course.rungs[i];
+      const auto order = course.order(i);
+      table.add({course.contestant.name, number_text(rung.resolution), fmt::format("{:.2e}", rung.l1_error),
+                 order ? fmt::format("{:.2f}", *order) : "", std::to_string(rung.work), per_unit(rung),
+                 fmt::format("{:.3g} s", rung.wall_s)});
+    }
+  return table.text();
+}
+
+std::string errors_text(const Panel& panel) {
+  std::vector<std::string> headings{"time to an L1 error of"};
+  for (const double error : kErrors) headings.push_back(number_text(error));
+  TextTable table(headings);
+  for (const Course& course : panel.courses) {
+    if (course.rungs.empty()) continue;
+    std::vector<std::string> row{course.contestant.name};
+    for (const double error : kErrors) row.push_back(time_text(time_to_error(course, error)));
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::string joined(const std::vector<std::string>& pieces, const std::string& indent) {
+  return detail::json_array(pieces, ",\n" + indent);
+}
+
+std::string course_json(const Course& course) {
+  using detail::json_number;
+  std::vector<std::string> rungs, times;
+  for (std::size_t i = 0; i < course.rungs.size(); ++i) {
+    const Rung& r = course.rungs[i];
+    rungs.push_back(
+        fmt::format(R"({{"resolution": {}, "l1_error": {}, "order": {}, "wall_s": {}, "work": {}}})",
+                    json_number(r.resolution), json_number(r.l1_error), json_number(course.order(i)),
+                    json_number(r.wall_s), r.work));
+  }
+  for (const double error : kErrors) {
+    const TimeToError time = time_to_error(course, error);
+    const bool is_known = time.kind != TimeToError::Kind::never;
+    times.push_back(fmt::format(R"({{"l1_error": {}, "wall_s": {}, "how": "{}"}})", json_number(error),
+                                is_known ? json_number(time.wall_s) : "null", kind_name(time.kind)));
+  }
+  return fmt::format(
+      "{{\"method\": {}, \"ended\": {},\n       \"rungs\": {},\n       \"time_to_error\": {}}}",
+      detail::json_text(course.contestant.name), detail::json_text(course.ended),
+      joined(rungs, "                 "), joined(times, "                         "));
+}
+
+std::string events_json(const ObservedEvents& events) {
+  std::vector<std::string> rows;
+  for (const ObservedEvents::Row& row : events.rows) {
+    std::vector<std::string> times;
+    for (std::size_t i = 0; i < events.names.size(); ++i)
+      times.push_back(fmt::format(R"({{"event": {}, "exact": {}, "observed": {}}})",
+                                  detail::json_text(events.names[i]), detail::json_number(events.exact[i]),
+                                  detail::json_number(row.times[i])));
+    rows.push_back(fmt::format("{{\"method\": {}, \"resolution\": {},\n     \"times\": {}}}",
+                               detail::json_text(row.method), detail::json_number(row.resolution),
+                               joined(times, "               ")));
+  }
+  return joined(rows, "    ");
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 24 * kHour, kYear = 365.25 * kDay;
+  if (seconds < 2 * kMinute) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 2 * kHour) return fmt::format("{:.2g} min", seconds / kMinute);
+  if (seconds < 2 * kDay) return fmt::format("{:.2g} h", seconds / kHour);
+  if (seconds < kYear) return fmt::format("{:.0f} days", seconds / kDay);
+  return fmt::format("{:.0f} years", seconds / kYear);
+}
+
+std::string race_text(const std::vector<Panel>& panels) {
+  std::string all;
+  for (const Panel& panel : panels)
+    all += fmt::format("\nt = {}\n\n{}\n{}", number_text(panel.t), rungs_text(panel), errors_text(panel));
+  return all;
+}
+
+std::string race_csv(const std::vector<Panel>& panels) {
+  std::string rows = "method,resolution,t,l1_error,wall_s,work\n";
+  for (const Panel& panel : panels)
+    for (const Course& course : panel.courses)
+      for (const Rung& r : course.rungs)
+        rows += fmt::format("{},{},{},{},{},{}\n", course.contestant.name, number_text(r.resolution),
+                            number_text(panel.t), number_text(r.l1_error), number_text(r.wall_s), r.work);
+  return rows;
+}
+
+std::string events_text(const ObservedEvents& events) {
+  std::vector<std::string> headings{"relative error of", "resolution"};
+  headings.insert(headings.end(), events.names.begin(), events.names.end());
+  TextTable table(headings);
+  std::vector<std::string> exact{"exact time", ""};
+  for (const auto& time : events.exact) exact.push_back(time ? fmt::format("{:.6g}", *time) : "never");
+  table.add(exact);
+  for (const ObservedEvents::Row& row : events.rows) {
+    std::vector<std::string> cells{row.method, number_text(row.resolution)};
+    for (std::size_t i = 0; i < row.times.size(); ++i) {
+      const auto &time = row.times[i], &truth = events.exact[i];
+      if (!time || !truth)
+        cells.push_back(!time && !truth ? "agrees" : time ? fmt::format("at {:.3g}", *time) : "not seen");
+      else
+        cells.push_back(*truth > 0 ? fmt::format("{:.1e}", *time / *truth - 1)
+                                   : fmt::format("{:.1e} late", *time));
+    }
+    table.add(cells);
+  }
+  return "\n" + table.text();
+}
+
+std::string race_json(std::string_view scene, const std::vector<Panel>& panels,
+                      const ObservedEvents* events) {
+  std::vector<std::string> times;
+  for (const Panel& panel : panels) {
+    std::vector<std::string> courses;
+    for (const Course& course : panel.courses) courses.push_back(course_json(course));
+    times.push_back(fmt::format("{{\"t\": {}, \"methods\": {}}}", detail::json_number(panel.t),
+                                joined(courses, "     ")));
+  }
+  return fmt::format("{{\n  \"scene\": {},\n  \"times\": {},\n  \"events\": {}\n}}\n",
+                     detail::json_text(scene), joined(times, "    "), events ? events_json(*events) : "null");
+}
+
+}  // namespace shearfront::tools
