@@ -105,7 +105,7 @@ Ladders default_ladders(bool longest) {
   Ladders ladders;
   for (double n = 100; n <= (longest ? 2e6 : 3200); n *= 2) ladders.cells.push_back(n);
   ladders.resolutions = {0.1, 0.03, 0.01, 0.003, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5};
-  if (longest) ladders.resolutions.insert(ladders.resolutions.end(), {3e-6, 1e-6, 3e-7, 1e-7});
+  if (longest) ladders.resolutions.insert(ladders.resolutions.end(), {3e-6, 1e-6});
   ladders.points = {1000};
   return ladders;
 }

@@ -41,7 +41,7 @@ struct Ladders {
 };
 
 /// The ladders by default: 100 to 3200 cells doubling, resolutions 0.1 to 1e-5 in half decades, 1000 points;
-/// `longest` goes on to 2e6 cells and 1e-7, for those who give a budget.
+/// `longest` goes on to 2e6 cells and 1e-6, for those who give a budget.
 [[nodiscard]] Ladders default_ladders(bool longest);
 
 }  // namespace shearfront::tools

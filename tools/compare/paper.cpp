@@ -27,7 +27,7 @@ constexpr std::array<PaperEvents, 5> kTable1{{{0.1, {1.0502, 1.1772, 2.4998, 3.9
 // Table 2: delta (or dz), then L1 error and CPU seconds at t = 0.5 and at t = 6. (The title of the printed
 // table says t = 0.6, its columns and the text t = 0.5.)
 struct PaperError {
-  double l1, cpu_s;
+  double l1 = 0, cpu_s = 0;  // 0: interrupted before
 };
 struct PaperErrors {
   double step;
@@ -86,8 +86,9 @@ std::vector<std::string> error_row(std::string step, std::string who,
                                    const std::array<PaperError, 2>& errors) {
   std::vector<std::string> row{std::move(step), std::move(who)};
   for (const PaperError& e : errors) {
-    row.push_back(fmt::format("{:.2e}", e.l1));
-    row.push_back(fmt::format("{:.3g} s", e.cpu_s));
+    const bool is_done = e.cpu_s > 0;
+    row.push_back(is_done ? fmt::format("{:.2e}", e.l1) : "");
+    row.push_back(is_done ? fmt::format("{:.3g} s", e.cpu_s) : "");
   }
   return row;
 }
@@ -100,7 +101,7 @@ std::array<PaperError, 2> ours(const Scene<double>& scene, const Contestant& con
   std::array<PaperError, 2> errors{};
   for (std::size_t i = 0; i < kTimes.size(); ++i) {
     const Panel panel = race(scene, exact, kTimes[i], {contestant}, ladders, limits);
-    if (panel.courses[0].rungs.empty()) continue;  // interrupted
+    if (panel.courses[0].rungs.empty()) continue;
     errors[i] = {panel.courses[0].rungs[0].l1_error, panel.courses[0].rungs[0].wall_s};
   }
   return errors;

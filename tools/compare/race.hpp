@@ -40,7 +40,8 @@ struct Panel {
 
 /// How far a ladder is climbed and how often a rung is run.
 struct RaceLimits {
-  double budget_s = 0;      ///< no rung is begun that would take a method at one time beyond this
+  double budget_s = 0;      ///< no rung is begun that would take a method at one time beyond this, errors not
+                            ///< counted
   std::size_t repeats = 0;  ///< runs per rung; 0: at least 3 and 20 ms in all, one if it takes a second
   std::function<bool(double, std::uint64_t)> progress;  ///< as in SolverOptions
   std::function<bool()> is_stopped;

@@ -15,8 +15,8 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr double kLeastError = 1e-18;  // stands for zero on the logarithmic axis
-constexpr int kMostDecades = 6;        // with a tic each
+constexpr double kRounding = 1e-13;  // what is below is drawn in one line, below the least error above it
+constexpr int kMostTimes = 5, kMostErrors = 6;  // decades with a tic each
 constexpr int kPanelWidth = 330, kPanelHeight = 310, kTitleHeight = 26, kLegendRow = 24;
 constexpr std::size_t kMostColumns = 3;
 
@@ -35,8 +35,8 @@ struct Decades {
   [[nodiscard]] std::string range() const {
     return fmt::format("[9.9e{}:1.01e{}]", first - 1, std::max(last, first + 1));
   }
-  [[nodiscard]] std::string tics() const {
-    const int step = (last - first + kMostDecades - 1) / kMostDecades;
+  [[nodiscard]] std::string tics(int most) const {
+    const int step = (last - first + most - 1) / most;
     std::string all;
     for (int k = first; k <= last; ++k) {
       if ((k - first) % std::max(step, 1) == 0)
@@ -48,11 +48,41 @@ struct Decades {
   }
 };
 
+/// The axis of errors.
+struct ErrorAxis {
+  Decades decades;
+  bool has_rounding = false;
+
+  explicit ErrorAxis(const std::vector<Panel>& panels) {
+    for (const Panel& panel : panels)
+      for (const Course& course : panel.courses)
+        for (const Rung& rung : course.rungs) {
+          if (rung.l1_error < kRounding)
+            has_rounding = true;
+          else
+            decades.include(rung.l1_error);
+        }
+    if (decades.first > decades.last) decades.include(1e-2);
+    if (decades.first == decades.last) ++decades.last;
+  }
+  [[nodiscard]] double place(double error) const {
+    return error < kRounding ? std::pow(10.0, decades.first - 1) : error;
+  }
+  [[nodiscard]] std::string range() const {
+    return fmt::format("[{}e{}:1.01e{}]", has_rounding ? "5" : "9.9", decades.first - (has_rounding ? 2 : 1),
+                       decades.last);
+  }
+  [[nodiscard]] std::string tics() const {
+    return decades.tics(kMostErrors) +
+           (has_rounding ? fmt::format(", 'rounding' 1e{}", decades.first - 1) : "");
+  }
+};
+
 /// "seconds error" of one course.
-std::string rows(const Course& course) {
+std::string rows(const Course& course, const ErrorAxis& axis) {
   std::string all;
   for (const Rung& rung : course.rungs)
-    all += fmt::format("{:.6g} {:.6g}\n", rung.wall_s, std::max(rung.l1_error, kLeastError));
+    all += fmt::format("{:.6g} {:.6g}\n", rung.wall_s, axis.place(rung.l1_error));
   return all;
 }
 
@@ -73,15 +103,15 @@ std::string style(std::size_t i) {
                      kShapes[i % kShapes.size()]);
 }
 
-void add_panel(Gnuplot& plot, const Panel& panel, std::size_t number,
-               const std::vector<std::string>& methods) {
+void add_panel(Gnuplot& plot, const Panel& panel, std::size_t number, const std::vector<std::string>& methods,
+               const ErrorAxis& axis) {
   std::string curves;
-  for (std::size_t i = 0; i < methods.size(); ++i)
+  for (std::size_t i = methods.size(); i-- > 0;)  // the first on top
     for (std::size_t j = 0; j < panel.courses.size(); ++j) {
       const Course& course = panel.courses[j];
       if (course.contestant.name != methods[i] || course.rungs.empty()) continue;
       const std::string name = fmt::format("panel{}course{}", number, j);
-      plot.add_data(name, rows(course));
+      plot.add_data(name, rows(course, axis));
       curves += fmt::format("{}${} with linespoints {} notitle", curves.empty() ? "" : ", ", name, style(i));
     }
   plot.add(fmt::format("set title '{{/:Italic t}} = {}' offset 0,-0.6", number_text(panel.t)));
@@ -96,13 +126,11 @@ int draw_error_time(const std::string& path, std::string_view scene, const std::
     note("no picture: there is nothing to draw");
     return kNoResult;
   }
-  Decades seconds, errors;
+  const ErrorAxis errors(panels);
+  Decades seconds;
   for (const Panel& panel : panels)
     for (const Course& course : panel.courses)
-      for (const Rung& rung : course.rungs) {
-        seconds.include(rung.wall_s);
-        errors.include(std::max(rung.l1_error, kLeastError));
-      }
+      for (const Rung& rung : course.rungs) seconds.include(rung.wall_s);
   const std::size_t n_columns = std::min(panels.size(), kMostColumns);
   const std::size_t n_rows = (panels.size() + n_columns - 1) / n_columns;
   const int width = std::max(2, static_cast<int>(n_columns)) * kPanelWidth;
@@ -115,7 +143,7 @@ int draw_error_time(const std::string& path, std::string_view scene, const std::
   plot.add(fmt::format("set label 1 {} noenhanced at screen 0.5,{:.4f} center font ',13'",
                        Gnuplot::text(scene), 1 - 0.5 * kTitleHeight / height));
   plot.add(fmt::format("set logscale xy\nset xrange {}\nset yrange {}", seconds.range(), errors.range()));
-  plot.add(fmt::format("set xtics ({})\nset ytics ({})", seconds.tics(), errors.tics()));
+  plot.add(fmt::format("set xtics ({})\nset ytics ({})", seconds.tics(kMostTimes), errors.tics()));
   plot.add(
       "set border 3 lw 0.8\nset tics nomirror out scale 0.6\nset grid xtics ytics lc rgb '#e4e4e4' lw 0.6");
   plot.add("set xlabel 'wall time [s]' offset 0,0.4");
@@ -125,7 +153,7 @@ int draw_error_time(const std::string& path, std::string_view scene, const std::
     const double w = 1.0 / static_cast<double>(n_columns), h = static_cast<double>(kPanelHeight) / height;
     plot.add(fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}", column * w,
                          static_cast<double>(legend + body) / height - (row + 1) * h, w, h));
-    add_panel(plot, panels[i], i, methods);
+    add_panel(plot, panels[i], i, methods, errors);
     if (i == 0) plot.add("unset label 1");
   }
   // The legend is a panel of its own, without axes.
