@@ -100,6 +100,7 @@ int compare_with_paper(const CompareArguments& arguments) {
   OutputFile out("-");
   out.write(paper_text(limits));
   out.commit();
+  if (InterruptGuard::is_interrupted()) note("interrupted: rows without numbers were not computed");
   return kDone;
 }
 
