@@ -49,6 +49,22 @@ TEST(ExactHardCases, ThinLayer) {
   for (int i = 0; i <= 20; ++i) EXPECT_NEAR(with.M(i / 20.0, 0.6), without.M(i / 20.0, 0.6), 2e-11);
 }
 
+TEST(ExactHardCases, NextToAJumpWhoseStateIsNextToOneHalf) {
+  // 4 phi (1 - phi) of such a state may round to more than 1; the narrow fan that leaves the jump all the
+  // same is the only path to the heights next to it.
+  for (const double phi : {0.4999999999811922, 0.5 - 1e-12, std::nextafter(0.5, 0.0)})
+    for (const double a : {0.8138, 1.0, 0.3, 2.7}) {
+      const double x = 0.30123;
+      const auto spec = layered({}, {a}, {x}, {phi, 0.98});
+      const Scene<double> scene(spec);
+      const ExactSolution<double> solution(scene);
+      const ExactSolution<Real50> oracle(scene_cast<Real50>(scene));
+      for (const double z : {std::nextafter(x, 0.0), x - 1e-13, x, std::nextafter(x, 1.0)})
+        EXPECT_NEAR(solution.M(z, 0.1), to_double(oracle.M(Real50(z), Real50(0.1))), 4e-15)
+            << phi << " " << a;
+    }
+}
+
 TEST(ExactHardCases, ContrastOf1e12) {
   const auto falling = layered({0.5}, {1, 1e-12}, {0.7}, {0, 1});
   expect_accurate(falling, {0.1, 1.0, 1e10, 3e11, 1e12, 5e12});

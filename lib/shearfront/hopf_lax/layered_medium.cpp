@@ -48,7 +48,9 @@ LayeredMedium<Scalar>::LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scal
     h_cell_.push_back(Scalar(4) * geometry_.rate[cells_.layer[i]] * cells_.phi[i] *
                       (Scalar(1) - cells_.phi[i]));
   // Going up from a point needs 4 s a phi (1 - phi) of the cell above <= 4 H <= the same of the cell below
-  // when phi_b > 1/2, its capacity otherwise (beyond that, resting is better); going down mirrored.
+  // when phi_b > 1/2, its capacity otherwise (beyond that, resting is better); going down mirrored. The slack
+  // keeps rounding from dropping a borderline source: next to 1/2, 4 phi (1 - phi) may come out above 1.
+  const Scalar slack = Scalar(1) + Scalar(1) / Scalar(1 << 20);
   emits_.assign(cells_.x.size(), 0);
   const Scalar half(0.5);
   for (std::size_t i = 1; i < cells_.n_cells(); ++i) {
@@ -56,8 +58,9 @@ LayeredMedium<Scalar>::LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scal
     const Scalar& above = cells_.phi[i];
     const Scalar up_limit = below > half ? h_cell_[i - 1] : geometry_.rate[cells_.layer[i - 1]];
     const Scalar down_limit = above < half ? h_cell_[i] : geometry_.rate[cells_.layer[i]];
-    if (above >= half && h_cell_[i] <= up_limit && (above > half || below < half)) emits_[i] |= 1U;
-    if (below <= half && h_cell_[i - 1] <= down_limit && (below < half || above > half)) emits_[i] |= 2U;
+    if (above >= half && h_cell_[i] <= up_limit * slack && (above > half || below < half)) emits_[i] |= 1U;
+    if (below <= half && h_cell_[i - 1] <= down_limit * slack && (below < half || above > half))
+      emits_[i] |= 2U;
     if (below == above && h_cell_[i] == 0) emits_[i] = 0;
   }
 }
