@@ -52,6 +52,31 @@ TEST(LevelGrid, CountIsRightBeforeAnythingIsBuiltAndNeverOverflows) {
   EXPECT_GT(LevelGrid<double>::exact_level_count(stack, 1e-300), 1e300);
 }
 
+TEST(LevelGrid, StatesNextToOneHalfAscend) {
+  // Their fluxes differ by less than a unit in the last place: rounding must not decide on their order.
+  support::SceneMaker maker(support::seed_of(61));
+  for (int number = 0; number < 200; ++number) {
+    std::vector<LayerState<double>> wanted{
+        {0, 0.49999999999980899}, {0, 0.49999999882971913}, {0, 0.49999999931922701}};
+    for (int i = 0; i < 8; ++i)
+      wanted.push_back({0, 0.5 + maker.uniform(-1, 1) * std::pow(10.0, maker.uniform(-16, -7))});
+    const auto built = LevelGrid<double>::exact_levels(stack_of({maker.uniform(0.1, 9), 4520}), 0.1, wanted);
+    for (State i = 1; i < built.grid.n_states(0); ++i)
+      ASSERT_GE(built.grid.phi(0, i), built.grid.phi(0, i - 1)) << "scene " << number << ", state " << i;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      EXPECT_EQ(built.grid.phi(0, built.states[i]), wanted[i].phi);
+  }
+}
+
+TEST(LevelGrid, StatesOnAChordBetweenNearlyEqualCapacitiesKeepTheirPhi) {
+  const double a = 1.1165763485076818, b = 1.1165763485076907;
+  std::vector<LayerState<double>> wanted{{1, 0.5 - 2e-10}, {1, 0.5 + 1e-10}, {1, 0.5 - 1e-8}};
+  for (int i = 1; i <= 100; ++i) wanted.push_back({0, i / 101.0});  // more than the grid has levels
+  const auto built = LevelGrid<double>::exact_levels(stack_of({a, b}), 0.5, wanted);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_NEAR(built.grid.phi(wanted[i].layer, built.states[i]), wanted[i].phi, 1e-16) << i;
+}
+
 TEST(LevelGrid, WantedStatesAreExactToTheBit) {
   const std::vector<LayerState<double>> wanted{{0, 0.3},       {1, 0.7}, {1, 1e-9}, {0, 0.5 + 1e-12},
                                                {1, 1 - 1e-10}, {0, 0.5}, {1, 0},    {0, 1}};

@@ -78,6 +78,27 @@ struct LevelGrid<S>::Draft {
     return count;
   }
 
+  /// Raises values by rounding errors so that they ascend with p among the levels of one home: next to 1/2
+  /// values differ by less than a unit in the last place, and may come out in the wrong order.
+  static void make_monotone(Levels& vertices, std::vector<Extra>& extras) {
+    const auto by_place = [](const Level& a, const Level& b) {
+      return a.home != b.home ? a.home < b.home : a.p < b.p;
+    };
+    std::sort(extras.begin(), extras.end(),
+              [&](const Extra& a, const Extra& b) { return by_place(a.level, b.level); });
+    const Level* last = nullptr;
+    for (Extra& e : extras) {
+      S& value = e.level.value;
+      auto above = std::upper_bound(vertices.begin(), vertices.end(), e.level, by_place);
+      if (last && last->home == e.level.home) value = std::max(value, last->value);
+      if (above != vertices.begin() && (above - 1)->home == e.level.home)
+        value = std::max(value, (above - 1)->value);
+      for (; above != vertices.end() && above->home == e.level.home && above->value < value; ++above)
+        above->value = value;
+      last = &e.level;
+    }
+  }
+
   /// Merges vertices and extras (both ascending) into the grid, equal levels once; the level index of each
   /// wanted state.
   static std::vector<State> merge(LevelGrid& grid, Levels vertices, const std::vector<Extra>& extras) {
@@ -163,7 +184,10 @@ struct LevelGrid<S>::Draft {
       const Level& upper = grid.levels_[index(lo + 1)];
       const S h_lo = e.level.value, h_hi = upper.value;
       const S position = (p - phi_lo) / (grid.falling_phi(layer, lo + 1) - phi_lo);
-      const S value = h_lo + position * (h_hi - h_lo);
+      // Between nearly equal capacities the value may round to that of a vertex, which is another state.
+      const S unit = S(2) * unit_roundoff<S>(), least = h_lo * (S(1) + unit), most = h_hi * (S(1) - unit);
+      S value = h_lo + position * (h_hi - h_lo);
+      if (least < most) value = std::min(std::max(value, least), most);
       if (value > h_lo && value < h_hi) {
         e.level = {value, position, kOnChord, 0, 0, 0};
       } else if (position + position >= S(1)) {
@@ -214,6 +238,7 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
     if (p == 0) level.home = 0;  // flux 0 is one level for all layers
     extras.push_back({std::move(level), i});
   }
+  Draft::make_monotone(vertices, extras);
   Draft::sort(extras);
   std::size_t n_distinct = 0;
   for (std::size_t i = 0; i < extras.size(); ++i)
