@@ -19,6 +19,7 @@ using tools::Command;
 
 std::vector<std::string> names_of(const std::vector<Command>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const Command& command : commands) names.push_back(command.app->get_name());
   return names;
 }
@@ -59,7 +60,7 @@ void check_leftovers(const CLI::App& app, const std::vector<std::string>& known)
 
 /// CLI11's own message in the form of ours.
 std::string reshaped(const CLI::ParseError& error, const std::vector<Command>& commands) {
-  const std::string text = printable(error.what());
+  std::string text = printable(error.what());
   const std::string name = text.substr(0, text.find(':'));
   if (error.get_name() == "RequiredError") {
     for (const Command& command : commands)

@@ -48,13 +48,12 @@ class ValueScanner {
 
  private:
   void step(char c) {
-    if (c == '#') {
+    const bool is_table_header = c == '[' && !expects_value_ && open_.empty();
+    if (c == '#' || is_table_header) {
       i_ = std::min(text_.find('\n', i_), text_.size());
     } else if (c == '"' || c == '\'') {
       skip_string(c);
       expects_value_ = false;
-    } else if (c == '[' && !expects_value_ && open_.empty()) {  // table header
-      i_ = std::min(text_.find('\n', i_), text_.size());
     } else if (c == '[' || c == '{') {
       open_ += c;
       expects_value_ = c == '[';

@@ -16,7 +16,10 @@ namespace shearfront::detail {
 /// A place in a text file, counted from 1; columns count code points.
 struct Position {
   std::uint32_t line = 0, column = 0;
-  friend auto operator<=>(const Position&, const Position&) = default;
+  friend bool operator==(const Position&, const Position&) = default;
+  friend bool operator<(const Position& a, const Position& b) {
+    return a.line < b.line || (a.line == b.line && a.column < b.column);
+  }
 };
 
 /// The text of an input file: UTF-8 without byte order mark and without NUL bytes.
