@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/scene/entries.hpp"
+#include "soak/laws.hpp"
+
+namespace shearfront::soak {
+namespace {
+
+// Of lengths, times and parameters: small enough for kinks and shocks to be missed and for third derivatives
+// of 1e30 not to count, large enough for 50 digits.
+constexpr double kStep = 1e-20;
+
+std::string at(const Real50& z, const Real50& t) {
+  return "z = " + number_text(to_double(z)) + ", t = " + number_text(to_double(t));
+}
+
+void check_slopes(const ExactSolution<Real50>& solution, const Real50& z, const Real50& t,
+                  Findings& findings) {
+  const Scene<Real50>& scene = solution.scene();
+  const Real50 height = scene.top() - scene.bottom(), h = kStep * height, dt = kStep * t;
+  const auto value = solution.at(z, t);
+  const Real50 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h),
+               growth = (solution.M(z, t + dt) - solution.M(z, t - dt)) / (2 * dt);
+  findings.expect_near(to_double(value.phi), to_double(slope), 1e-8, "exact: phi = dM/dz",
+                       [&] { return at(z, t); });
+  findings.expect_near(to_double(Real50(value.H * t / height)), to_double(Real50(growth * t / height)),
+                       1e-8 * (1 + to_double(Real50(value.H * t / height))), "exact: H = dM/dt",
+                       [&] { return at(z, t); });
+}
+
+/// The entry of a gradient that belongs to an entry of the scene; empty for those that are no parameters.
+std::optional<Real50> derivative(const Gradient<Real50>& gradient, const Entry& entry) {
+  if (entry.field == "shear_rate.values") return gradient.shear_rate_values()[entry.index];
+  if (entry.field == "shear_rate.breaks") return gradient.shear_rate_breaks()[entry.index];
+  if (entry.field == "initial.breaks") return gradient.initial_breaks()[entry.index];
+  if (entry.field == "initial.values") return gradient.initial_values()[entry.index];
+  if (entry.field == "shear_rate.amplitude") return gradient.amplitude;
+  if (entry.field == "shear_rate.decay") return gradient.decay;
+  if (entry.field == "shear_rate.scale") return gradient.scale;
+  return std::nullopt;
+}
+
+struct PhiM {
+  Real50 phi, M;
+};
+
+/// Second-order difference quotient, one-sided where a state would leave [0, 1].
+PhiM quotient(const ExactSolution<Real50>& solution, std::size_t entry, const Real50& step, bool is_state,
+              const Real50& z, const Real50& t) {
+  SceneSpec<Real50> spec = solution.scene().spec();
+  const Real50 here = *entry_places(spec)[entry];
+  const auto moved = [&](int steps) {
+    SceneSpec<Real50> copy = spec;
+    *entry_places(copy)[entry] = here + step * steps;
+    const auto value = ExactSolution<Real50>(Scene<Real50>(copy), {solution.n_layers()}).at(z, t);
+    return PhiM{value.phi, value.M};
+  };
+  if (is_state && (here == 0 || here == 1)) {
+    const int sign = here == 0 ? 1 : -1;
+    const PhiM a = moved(0), b = moved(sign), c = moved(2 * sign);
+    const Real50 width = 2 * step * sign;
+    return {(4 * b.phi - 3 * a.phi - c.phi) / width, (4 * b.M - 3 * a.M - c.M) / width};
+  }
+  const PhiM a = moved(-1), b = moved(1);
+  return {(b.phi - a.phi) / (2 * step), (b.M - a.M) / (2 * step)};
+}
+
+void check_sensitivities(const ExactSolution<Real50>& solution, support::SceneMaker& make, const Real50& z,
+                         const Real50& t, Findings& findings) {
+  constexpr int kParameters = 3;
+  const auto exact = sensitivities(solution, z, t);
+  const SceneSpec<Real50>& spec = solution.scene().spec();
+  const Real50 height = spec.top - spec.bottom;
+  const std::vector<Entry> all = entries(spec);
+  findings.expect(exact.value.M == solution.M(z, t), "sensitivities: M is that of the solution",
+                  [&] { return at(z, t); });
+  for (int k = 0; k < kParameters; ++k) {
+    const auto i = static_cast<std::size_t>(make.integer(0, static_cast<int>(all.size()) - 1));
+    const auto dM = derivative(exact.M, all[i]), dphi = derivative(exact.phi, all[i]);
+    if (!dM) continue;
+    SceneSpec<Real50> copy = spec;
+    const bool is_state = all[i].field == "initial.values", is_height = all[i].field.ends_with(".breaks");
+    const Real50 unit = is_state ? Real50(1) : is_height ? height : *entry_places(copy)[i];
+    const PhiM numeric = quotient(solution, i, kStep * unit, is_state, z, t);
+    const auto where = [&] { return "d/d " + all[i].name() + " at " + at(z, t); };
+    const double M_size = to_double(Real50(*dM * unit / height)), phi_size = to_double(Real50(*dphi * unit));
+    findings.expect_near(M_size, to_double(Real50(numeric.M * unit / height)), 1e-8 * (1 + std::abs(M_size)),
+                         "sensitivities: dM against differences", where);
+    findings.expect_near(phi_size, to_double(Real50(numeric.phi * unit)), 1e-8 * (1 + std::abs(phi_size)),
+                         "sensitivities: dphi against differences", where);
+  }
+}
+
+/// Event times in double: last changes to a few u (t + height / H), H the flux just before.
+void check_steady_time(const Bed& bed, const ExactSolution<Real50>& solution, Findings& findings) {
+  const auto t_star = exact_timeline(bed.layered).t_star;
+  const auto oracle = exact_timeline(solution.scene()).t_star;
+  if (!t_star || !oracle || *oracle == 0) return;
+  const Real50 before = *oracle * Real50("0.999999999999");
+  const double t = to_double(*oracle), H = to_double(solution.H(solution.steady_height(), before));
+  if (!(H > 0)) return;
+  const double slack = bed.t_rounding() * t + 4 * bed.M_rounding() / H;
+  findings.expect_near(*t_star, t, slack, "exact: t* in double and in 50 digits",
+                       [&] { return "H = " + number_text(H); });
+}
+
+}  // namespace
+
+void check_exact_in_50_digits(const Bed& bed, Findings& findings) {
+  const std::size_t size = bed.stack.n_layers() + bed.scene.initial_values().size();
+  if (size > 24 ? bed.trial.seed % 32 != 0 : bed.trial.seed % 2 != 0) return;
+  ++findings.n_runs;
+  support::SceneMaker make(bed.trial.seed + 2);
+  const bool is_smooth = std::holds_alternative<Exponential<double>>(bed.scene.shear_rate());
+  const Scene<double>& scene = is_smooth ? bed.scene : bed.layered;
+  const ExactSolution<double>& in_double = is_smooth ? bed.exact : bed.layered_exact;
+  const ExactSolution<Real50> solution(scene_cast<Real50>(scene));
+  for (const double t : {bed.trial.early, bed.trial.late}) {
+    const double z = make.uniform(scene.bottom(), scene.top());
+    if (!(z > scene.bottom() && z < scene.top())) continue;
+    findings.expect_near(in_double.M(z, t), to_double(solution.M(z, t)), bed.M_rounding(),
+                         "exact: M in double and in 50 digits", [&] { return at(z, t); });
+    check_slopes(solution, z, t, findings);
+    if (bed.trial.is_generic && t == bed.trial.late && scene.is_layered() == bed.scene.is_layered())
+      check_sensitivities(solution, make, z, t, findings);
+  }
+  if (!is_smooth && size <= 12) check_steady_time(bed, solution, findings);
+}
+
+}  // namespace shearfront::soak

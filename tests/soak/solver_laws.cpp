@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "shearfront/solver/all.hpp"
+#include "soak/laws.hpp"
+
+namespace shearfront::soak {
+namespace {
+
+constexpr double kMassSlack = 1e-13;
+// Rates further apart than this may stop the slow cells by rounding (fv/solve.hpp: not_converged).
+constexpr double kLeastUnconverged = 1e3;
+constexpr double kMostUpdates = 4e5;  ///< of one run, so that no scene takes long
+
+std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " + number_text(t); }
+
+/// Schemes on a grid have neither fronts nor exact values.
+template <class Solver>
+bool is_on_grid() {
+  const Guarantees g = Solver::guarantees();
+  return !g.exact && !g.has_fronts;
+}
+/// First-order schemes are monotone: u <= v stays so, and no two solutions move apart.
+template <class Solver>
+bool is_monotone() {
+  return Solver::kName == std::string_view("engquist-osher") || Solver::kName == std::string_view("godunov");
+}
+
+double contrast_of(const Bed& bed) {
+  double least = infinity<double>(), largest = 0;
+  for (std::size_t k = 0; k < bed.stack.n_layers(); ++k) {
+    least = std::min(least, bed.stack.rate(k));
+    largest = std::max(largest, bed.stack.rate(k));
+  }
+  return largest / least;
+}
+
+double fastest_of(const Bed& bed) {
+  double largest = 0;
+  for (const double z : bed.stack.boundaries())
+    largest = std::max(largest, bed.scene.scale() * bed.scene.shear_rate_at(z));
+  for (std::size_t k = 0; k < bed.stack.n_layers(); ++k) largest = std::max(largest, bed.stack.rate(k));
+  return largest;
+}
+
+/// Times early, infinity, 0, late: in no order; for grids no later than they can pay for.
+SolverRequest request_of(const Bed& bed, bool is_on_grid) {
+  double early = bed.trial.early, late = bed.trial.late;
+  if (is_on_grid) {
+    const auto n = static_cast<double>(bed.trial.options.cells);
+    const double most = kMostUpdates / (n * n) * bed.trial.options.cfl * bed.trial.height() / fastest_of(bed);
+    const double factor = std::min(1.0, most / late);
+    early *= factor, late *= factor;
+  }
+  SolverRequest request{{early, infinity<double>(), 0, late}, bed.heights};
+  if (request.depths.size() > 3) std::swap(request.depths[1], request.depths[3]);
+  request.profiles = true;
+  return request;
+}
+
+template <class Solver>
+SolverResult run(const SceneSpec<double>& spec, const SolverRequest& request, const SolverOptions& options,
+                 Findings& findings) {
+  SolverResult result = Solver::solve(Scene<double>(spec), request, options);
+  findings.count(result.summary);
+  return result;
+}
+
+template <class Solver>
+class SolverLaws {
+ public:
+  SolverLaws(const Bed& bed, Findings& findings)
+      : bed_(bed),
+        findings_(findings),
+        options_(bed.trial.options),
+        request_(request_of(bed, is_on_grid<Solver>())) {
+    request_.timeline = kPromised.has_timeline;
+  }
+
+  void check() {
+    const SolverResult result = run<Solver>(bed_.scene.spec(), request_, options_, findings_);
+    const Summary& summary = result.summary;
+    if (!summary.usable()) {
+      const bool is_documented = summary.status == Status::budget_reached ||
+                                 (summary.status == Status::not_converged && is_on_grid<Solver>() &&
+                                  contrast_of(bed_) > kLeastUnconverged);
+      findings_.expect(is_documented && !summary.message.empty(), name("runs"),
+                       [&] { return std::string(name_of(summary.status)) + ": " + summary.message; });
+      return;
+    }
+    check_shape(result);
+    check_samples(result);
+    check_profiles(result);
+    if (is_on_grid<Solver>()) check_grid(result);
+  }
+
+ private:
+  static inline const Guarantees kPromised = Solver::guarantees();
+
+  [[nodiscard]] std::string name(const char* law) const { return std::string(Solver::kName) + ": " + law; }
+  [[nodiscard]] std::size_t index(std::size_t i, std::size_t j) const {
+    return i * request_.depths.size() + j;
+  }
+
+  void check_shape(const SolverResult& result) {
+    findings_.expect(result.samples.size() == request_.times.size() * request_.depths.size() &&
+                         result.profiles.size() == (kPromised.has_profiles ? request_.times.size() : 0) &&
+                         result.timeline.has_value() == kPromised.has_timeline && result.fronts.empty(),
+                     name("gives what was asked for"), [] { return std::string("sizes"); });
+  }
+
+  void check_samples(const SolverResult& result) {
+    const double top = bed_.scene.top(), bottom = bed_.scene.bottom(), mass = bed_.scene.mass();
+    const double slack = kMassSlack * bed_.trial.largest_height() + bed_.M_rounding();
+    std::vector<std::size_t> upwards(request_.depths.size());
+    for (std::size_t j = 0; j < upwards.size(); ++j) upwards[j] = j;
+    std::sort(upwards.begin(), upwards.end(),
+              [&](std::size_t a, std::size_t b) { return request_.depths[a] < request_.depths[b]; });
+    for (std::size_t i = 0; i < request_.times.size(); ++i) {
+      double z0 = bottom, M0 = 0;
+      for (const std::size_t j : upwards) {
+        const Sample& s = result.samples[index(i, j)];
+        const double z = request_.depths[j];
+        const auto where = [&] { return at(z, request_.times[i]); };
+        if (kPromised.bounded) {
+          findings_.expect(s.phi >= 0 && s.phi <= 1, name("phi in [0, 1]"),
+                           [&] { return number_text(s.phi) + " at " + where(); });
+          findings_.expect_between(s.M - M0, 0, z - z0, slack, name("M monotone and 1-Lipschitz in z"),
+                                   where);
+        }
+        if (kPromised.conservative && z == top) findings_.expect_near(s.M, mass, slack, name("mass"), where);
+        if (z == bottom) findings_.expect_near(s.M, 0, slack, name("no mass below the bottom"), where);
+        z0 = z, M0 = s.M;
+      }
+    }
+  }
+
+  void check_profiles(const SolverResult& result) {
+    for (std::size_t i = 0; i < result.profiles.size(); ++i)
+      for (std::size_t j = 0; j < request_.depths.size(); ++j) {
+        const auto value = result.profiles[i].at(request_.depths[j]);
+        const Sample& s = result.samples[index(i, j)];
+        findings_.expect(
+            value.phi == s.phi &&
+                std::abs(value.M - s.M) <= kMassSlack * bed_.trial.largest_height() + bed_.M_rounding(),
+            name("samples are values of the profile"),
+            [&] { return at(request_.depths[j], request_.times[i]); });
+      }
+  }
+
+  void check_grid(const SolverResult& result) {
+    check_scaling(result);
+    SolverRequest alone = request_;
+    alone.times = {request_.times[0]};
+    const SolverResult single = run<Solver>(bed_.scene.spec(), alone, options_, findings_);
+    bool same = single.summary.usable() && single.samples.size() == request_.depths.size();
+    for (std::size_t j = 0; same && j < request_.depths.size(); ++j)
+      same = single.samples[j].phi == result.samples[index(0, j)].phi;
+    findings_.expect(same, name("other times change nothing"), [&] { return at(0, request_.times[0]); });
+    if (is_monotone<Solver>()) check_pair(result);
+  }
+
+  void check_scaling(const SolverResult& result) {
+    SceneSpec<double> spec = bed_.scene.spec();
+    const double factor = std::ldexp(1.0, static_cast<int>(bed_.trial.seed % 41) - 20);
+    spec.scale *= factor;
+    SolverRequest scaled = request_;
+    for (double& t : scaled.times) t /= factor;
+    const SolverResult fast = run<Solver>(spec, scaled, options_, findings_);
+    bool same = fast.samples.size() == result.samples.size();
+    for (std::size_t i = 0; same && i < fast.samples.size(); ++i)
+      same = fast.samples[i].phi == result.samples[i].phi && fast.samples[i].M == result.samples[i].M;
+    findings_.expect(same, name("scaling by powers of two"), [&] { return "factor " + number_text(factor); });
+  }
+
+  void check_pair(const SolverResult& result) {
+    support::SceneMaker make(bed_.trial.seed + 4);
+    SceneSpec<double> larger = bed_.scene.spec(), other = larger;
+    for (double& phi : larger.initial_values) phi += (1 - phi) * make.uniform(0, 1);
+    for (double& phi : other.initial_values) phi = make.uniform(0, 1);
+    const SolverResult v = run<Solver>(larger, request_, options_, findings_),
+                       w = run<Solver>(other, request_, options_, findings_);
+    if (!v.summary.usable() || !w.summary.usable()) return;
+    const double height = bed_.trial.height(), slack = 1e-12 * height;
+    const double mass_gap = Scene<double>(larger).mass() - bed_.scene.mass();
+    // A time between two steps is reached by a shorter step from the one before: S_f = (1 - f) I + f S_1
+    // contracts like a step, but dist(n + f) may lie below dist(n + 1). All lie below dist(0).
+    const double first = distance(result.profiles[2], w.profiles[2]);
+    for (const std::size_t i : {0u, 3u}) {  // early, late
+      findings_.expect_between(distance(result.profiles[i], w.profiles[i]), 0, first, slack,
+                               name("L1 contraction"), [&] { return at(0, request_.times[i]); });
+      findings_.expect_near(distance(result.profiles[i], v.profiles[i]), mass_gap,
+                            slack + kMassSlack * bed_.trial.largest_height(), name("comparison"),
+                            [&] { return at(0, request_.times[i]); });
+    }
+  }
+  /// The scheme's own distance: its cells are equal, while the edges of a profile are rounded.
+  [[nodiscard]] double distance(const Profile<double>& a, const Profile<double>& b) const {
+    CompensatedSum<double> sum;
+    for (std::size_t j = 0; j < a.n_cells(); ++j) sum += std::abs(a.below()[j] - b.below()[j]);
+    return sum.value() * (bed_.trial.height() / static_cast<double>(a.n_cells()));
+  }
+
+  const Bed& bed_;
+  Findings& findings_;
+  SolverOptions options_;
+  SolverRequest request_;
+};
+
+}  // namespace
+
+void check_solvers(const Bed& bed, Findings& findings) {
+  SolverList::for_each([&]<class Solver>() { SolverLaws<Solver>(bed, findings).check(); });
+}
+
+}  // namespace shearfront::soak
