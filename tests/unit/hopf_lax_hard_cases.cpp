@@ -65,6 +65,15 @@ TEST(ExactHardCases, NextToAJumpWhoseStateIsNextToOneHalf) {
     }
 }
 
+TEST(ExactHardCases, PathsFromFarAboveInAnExponentialMedium) {
+  // Where a falls by e^-15, characteristics come down from where a is e^-9 of what it is here.
+  SceneSpec<double> spec;
+  spec.shear_rate = Exponential<double>{2, 1.0 / 15};
+  spec.initial_breaks = {0.9};
+  spec.initial_values = {0.4, 0.35};
+  for (const double t : {10.0, 1e3, 1e4, 3e4, 1e5}) expect_accurate(spec, {t}, 2e-15);
+}
+
 TEST(ExactHardCases, ContrastOf1e12) {
   const auto falling = layered({0.5}, {1, 1e-12}, {0.7}, {0, 1});
   expect_accurate(falling, {0.1, 1.0, 1e10, 3e11, 1e12, 5e12});
