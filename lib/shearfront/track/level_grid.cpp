@@ -184,11 +184,11 @@ struct LevelGrid<S>::Draft {
       const Level& upper = grid.levels_[index(lo + 1)];
       const S h_lo = e.level.value, h_hi = upper.value;
       const S position = (p - phi_lo) / (grid.falling_phi(layer, lo + 1) - phi_lo);
-      // Between nearly equal capacities the value may round to that of a vertex, which is another state.
-      const S unit = S(2) * unit_roundoff<S>(), least = h_lo * (S(1) + unit), most = h_hi * (S(1) - unit);
-      S value = h_lo + position * (h_hi - h_lo);
-      if (least < most) value = std::min(std::max(value, least), most);
-      if (value > h_lo && value < h_hi) {
+      // Between nearly equal capacities the value may round to that of the lower vertex, which is another
+      // state. That of the upper one does no harm: before() puts chords before vertices.
+      const S least = std::min(S(h_lo * (S(1) + S(2) * unit_roundoff<S>())), h_hi);
+      const S value = std::min(std::max(S(h_lo + position * (h_hi - h_lo)), least), h_hi);
+      if (value > h_lo && position < S(1)) {
         e.level = {value, position, kOnChord, 0, 0, 0};
       } else if (position + position >= S(1)) {
         e.level = upper;  // indistinguishable from the vertex
