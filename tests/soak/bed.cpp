@@ -79,7 +79,10 @@ double Bed::M_rounding() const {
 }
 
 double Bed::t_rounding() const {
-  return unit_roundoff<double>() * (16 + 8 * static_cast<double>(stack.n_layers()));
+  double units = 16 + 8 * static_cast<double>(stack.n_layers());
+  if (const auto* a = std::get_if<Exponential<double>>(&scene.shear_rate()))
+    units += 8 * trial.largest_height() / a->decay;  // exp(x) is right to |x| units
+  return unit_roundoff<double>() * units;
 }
 
 void check_text(const Trial& trial, Findings& findings) {
