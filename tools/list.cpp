@@ -119,6 +119,7 @@ int list() {
   all += fmt::format("\nGrids of states (--grid)\n  {}\n", fmt::join(grid_names(), "\n  "));
   all += fmt::format("\nReconstructions between fronts (--reconstruct)\n  {}\n",
                      fmt::join(reconstruction_names(), "\n  "));
+  all += fmt::format("\nLimiters of muscl (--limiter)\n  {}\n", fmt::join(limiter_names(), "\n  "));
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();
   all += "\nLosses of a fit (misfit.loss)\n" + described_list<fit::LossList>();

@@ -21,7 +21,7 @@ Scene<double> example_1() {
 }
 
 /// Steps of the whole grid in batches of about 2^22 cell updates, so that the bed is in motion throughout.
-void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd) {
+void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd, Limiter limiter = {}) {
   if (simd > fv::widest_simd()) {
     state.SkipWithError("not on this processor");
     return;
@@ -30,8 +30,8 @@ void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd) {
   const fv::Grid grid{scene.bottom(), scene.top(), static_cast<std::size_t>(state.range(0))};
   const auto phi = fv::initial_averages(scene, grid);
   const auto rates =
-      scheme == fv::Scheme::godunov ? fv::cell_rates(scene, grid) : fv::face_rates(scene, grid);
-  const auto kernel = fv::quadratic_kernel(scheme, simd);
+      scheme == fv::Scheme::engquist_osher ? fv::face_rates(scene, grid) : fv::cell_rates(scene, grid);
+  const auto kernel = fv::quadratic_kernel(scheme, limiter, simd);
   const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
   const std::uint64_t steps = std::max<std::uint64_t>(64, (1 << 22) / grid.n_cells);
   // No matter what the states are, the work is the same: there are no branches and no subnormal numbers.

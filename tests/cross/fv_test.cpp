@@ -71,7 +71,7 @@ TEST(SlowFvErrors, EngquistOsherHasTheErrorsOfAnIndependentImplementation) {
 
 template <class Solver>
 class FvConvergence : public testing::Test {};
-using Solvers = testing::Types<EngquistOsherSolver, GodunovSolver>;
+using Solvers = testing::Types<EngquistOsherSolver, GodunovSolver, MusclSolver>;
 TYPED_TEST_SUITE(FvConvergence, Solvers);
 
 // Theory: order 1/2 for any data; a fan costs dz log(1 / dz), shocks cost dz.

@@ -33,7 +33,7 @@ std::vector<std::vector<double>> cell_states(const Scene<double>& scene, const s
 }
 
 inline Profile<double> profile_of(const Scene<double>& scene, const std::vector<double>& phi) {
-  return fv::profile_of_cells({scene.bottom(), scene.top(), phi.size()}, phi);
+  return fv::profile_of_cells({scene.bottom(), scene.top(), phi.size()}, {phi, {}});
 }
 
 }  // namespace shearfront::support

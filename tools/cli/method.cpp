@@ -39,6 +39,16 @@ const std::vector<std::string>& reconstruction_names() {
   return names;
 }
 
+const std::vector<std::string>& limiter_names() {
+  static const std::vector<std::string> names(kLimiterNames.begin(), kLimiterNames.end());
+  return names;
+}
+
+const std::vector<std::string>& face_coefficient_names() {
+  static const std::vector<std::string> names(kFaceCoefficientNames.begin(), kFaceCoefficientNames.end());
+  return names;
+}
+
 void MethodArguments::add_to(CLI::App& app) {
   app.add_option("--method", method_, "solver: " + SolverList::names() + "; default " + method_)
       ->type_name(join(solver_names()));
@@ -55,7 +65,16 @@ void MethodArguments::add_to(CLI::App& app) {
   app.add_option("--max-collisions", max_collisions_, "front tracking: stop after so many collisions")
       ->type_name("N");
   app.add_option("--cells", cells_, "finite volumes: number of equal cells, default 400")->type_name("N");
-  app.add_option("--cfl", cfl_, "finite volumes: Courant number; > 0 and <= 1, default 1")->type_name("C");
+  app.add_option("--cfl", cfl_,
+                 "finite volumes: time step over the largest for which the bounds of phi are proved (Courant "
+                 "number 1, muscl 1/2); > 0 and <= 1, default 1")
+      ->type_name("C");
+  app.add_option("--limiter", limiter_, "muscl: what bounds the slopes; default mc")
+      ->type_name(join(limiter_names()));
+  app.add_option("--face-coefficient", face_coefficient_,
+                 "engquist-osher: harmonic mean of a(z) between the middles of two cells, or its value at "
+                 "their face; default harmonic")
+      ->type_name(join(face_coefficient_names()));
 }
 
 std::string_view MethodArguments::method() const {
@@ -81,6 +100,11 @@ SolverOptions MethodArguments::options() const {
   if (!cells_.empty())
     options.cells = static_cast<std::size_t>(count_option("--cells", cells_, 1, kMostCells));
   if (!cfl_.empty()) options.cfl = number_option("--cfl", cfl_, {0, 1, true}, "> 0 and <= 1");
+  if (!limiter_.empty())
+    options.limiter = static_cast<Limiter>(choice_option("--limiter", limiter_, limiter_names()));
+  if (!face_coefficient_.empty())
+    options.face_coefficient = static_cast<FaceCoefficient>(
+        choice_option("--face-coefficient", face_coefficient_, face_coefficient_names()));
   return options;
 }
 
@@ -94,6 +118,10 @@ std::string MethodArguments::settings() const {
                         reconstruction_names()[static_cast<std::size_t>(chosen.reconstruct)]);
   else if (!guarantees.exact)
     text += fmt::format(" --cells {} --cfl {}", chosen.cells, number_text(chosen.cfl));
+  if (method() == MusclSolver::kName)
+    text += fmt::format(" --limiter {}", limiter_names()[static_cast<std::size_t>(chosen.limiter)]);
+  if (method() == EngquistOsherSolver::kName && chosen.face_coefficient != FaceCoefficient::harmonic)
+    text += " --face-coefficient value";
   if (chosen.layers > 0) text += fmt::format(" --layers {}", chosen.layers);
   return text;
 }

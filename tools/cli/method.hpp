@@ -24,7 +24,8 @@ class MethodArguments {
   [[nodiscard]] bool has_layers() const { return !layers_.empty(); }
 
  private:
-  std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_;
+  std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_,
+              limiter_, face_coefficient_;
 };
 
 /// Says that --layers changes nothing where the shear rate is piecewise constant already.
@@ -40,5 +41,8 @@ void note_unused_layers(const MethodArguments& arguments, const Scene<double>& s
 
 [[nodiscard]] const std::vector<std::string>& grid_names();            ///< in the order of GridKind
 [[nodiscard]] const std::vector<std::string>& reconstruction_names();  ///< in the order of Reconstruction
+[[nodiscard]] const std::vector<std::string>& limiter_names();         ///< in the order of Limiter
+/// In the order of FaceCoefficient.
+[[nodiscard]] const std::vector<std::string>& face_coefficient_names();
 
 }  // namespace shearfront::tools

@@ -140,6 +140,8 @@ class FitReader {
     if (const auto n = table.count("cells", Need::optional, 1, kMostCells))
       options.cells = static_cast<std::size_t>(*n);
     number_from_0_to_1(table, "cfl", options.cfl);
+    choose(table, "limiter", kLimiterNames, options.limiter);
+    choose(table, "face_coefficient", kFaceCoefficientNames, options.face_coefficient);
     choose(table, "grid", kGridNames, options.grid);
     choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
     table.finish();

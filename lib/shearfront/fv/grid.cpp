@@ -84,4 +84,10 @@ std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid) {
   return rates;
 }
 
+std::vector<double> face_values(const Scene<double>& scene, const Grid& grid) {
+  std::vector<double> rates(grid.n_cells + 1, 0.0);
+  for (std::size_t j = 1; j < grid.n_cells; ++j) rates[j] = scene.scale() * scene.shear_rate_at(grid.edge(j));
+  return rates;
+}
+
 }  // namespace shearfront::fv

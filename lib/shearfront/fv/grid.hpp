@@ -41,4 +41,7 @@ struct Grid {
 /// For smooth a this is a(face) up to O(width^2). Cost: O(n_cells + knots).
 [[nodiscard]] std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid);
 
+/// s a(z) at every face, the upper value at a jump; 0 at the walls. Cost: O(n_cells log knots).
+[[nodiscard]] std::vector<double> face_values(const Scene<double>& scene, const Grid& grid);
+
 }  // namespace shearfront::fv

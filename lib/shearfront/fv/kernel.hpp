@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "shearfront/fv/unimodal_flux.hpp"
+#include "shearfront/solver/solver.hpp"
 
 namespace shearfront::fv {
 
@@ -23,13 +24,35 @@ namespace shearfront::fv {
 /// without any f(m) the scheme does not converge. Sources: Engquist & Osher (1981), Math. Comp. 36; Towers
 /// (2000), SIAM J. Numer. Anal. 38 (coefficients staggered against states); Adimurthi, Jaffre & Veerappa
 /// Gowda (2004), SIAM J. Numer. Anal. 42 (Godunov).
-enum class Scheme { engquist_osher, godunov };
+enum class Scheme { engquist_osher, godunov, muscl };
 
 /// Constants of the numbers a kernel computes with; see Kernel.
 struct KernelNumbers {
   double rest;                ///< h of a face without flux
   double quantum;             ///< states v are multiples of it
-  double coefficient_weight;  ///< coefficient = Courant number s a largest_slope dt / dz times this
+  double largest_courant;     ///< the bounds of phi are proved up to this s a largest_slope dt / dz
+  double coefficient_weight;  ///< coefficient = Courant number times this
+  bool has_slopes;            ///< v is linear in a cell, not constant
+};
+
+/// Cells are handled in groups of so many.
+inline constexpr std::size_t kLanes = 8;
+inline constexpr std::size_t kReadAhead = 4 * kLanes;
+
+/// Coefficients of the faces; face i lies between the cells i - 1 and i. Where a is continuous both sides
+/// have the same. A face with 0 on one side carries no flux: the walls.
+struct Faces {
+  const double* below;            ///< below[i]: coefficient of face i on its lower side
+  const double* above;            ///< on its upper side
+  const unsigned char* has_jump;  ///< whether the sides differ at one of the faces 8 i ... 8 i + 8
+};
+
+/// What a step leaves at a face for the cells above it: the cell below has gone on to the next step.
+struct FaceBelow {
+  double h;        ///< flux of the step
+  double h_stage;  ///< muscl: of its first stage
+  double v;        ///< muscl: the cell below at the beginning of the step
+  double w;        ///< muscl: and after the first stage
 };
 
 /// One explicit step on a run of cells, in fixed-point numbers.
@@ -50,17 +73,15 @@ class Kernel {
   Kernel& operator=(const Kernel&) = delete;
   virtual ~Kernel() = default;
 
-  /// Advances v[0 .. n-1] by one step. Reads v[n] (the cell above) and h_below, the flux through the lowest
-  /// face; returns the flux through the uppermost. Coefficients: for engquist_osher c[i + 1] belongs to the
-  /// face above cell i, for godunov c[i] to cell i, c[n] to the cell above. A face with c = 0 (godunov: on
-  /// one side) carries no flux: the walls. Precondition: n is a multiple of kLanes; the arrays do not
-  /// overlap.
-  virtual double step(double* v, const double* c, double h_below, std::size_t n) const = 0;
+  /// Advances v[0 .. n-1] by one step. `below` is what the steps of the cells below have left at the lowest
+  /// face; returns the same for the uppermost. Reads v[n .. n + kLanes - 1], the cells above, and the memory
+  /// up to kReadAhead beyond n.
+  /// Precondition: n is a multiple of kLanes; the arrays do not overlap.
+  virtual FaceBelow step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) const = 0;
+  /// Half the rise of v across every cell, rises[0 .. n-1]; v[-1] and v[n] are read.
+  virtual void half_rises(const double* v, const Faces& faces, double* rises, std::size_t n) const = 0;
   [[nodiscard]] virtual KernelNumbers numbers() const = 0;
 };
-
-/// Cells are handled in groups of so many.
-inline constexpr std::size_t kLanes = 8;
 
 /// Instruction sets for which the quadratic kernel is compiled. Results are the same to the bit in all.
 enum class Simd { portable, avx2, avx512 };
@@ -72,9 +93,14 @@ enum class Simd { portable, avx2, avx512 };
 /// min(v_r, 0)^2 - 1) for Engquist-Osher, c half the Courant number, and G = max(c_l (max(v_l, 0)^2 - 1),
 /// c_r (min(v_r, 0)^2 - 1)) for Godunov. Cost per cell: 10 and 13 additions, multiplications or comparisons.
 /// Precondition: the processor has `simd`.
-[[nodiscard]] std::unique_ptr<Kernel> quadratic_kernel(Scheme scheme, Simd simd = widest_simd());
+[[nodiscard]] std::unique_ptr<Kernel> quadratic_kernel(Scheme scheme, Limiter limiter = {},
+                                                       Simd simd = widest_simd());
+
+/// quadratic_kernel() for Scheme::muscl.
+[[nodiscard]] std::unique_ptr<Kernel> quadratic_muscl_kernel(Limiter limiter, Simd simd);
 
 /// Kernel for any flux with one extremum, by calls of its value; slower by a factor of ten or more.
-[[nodiscard]] std::unique_ptr<Kernel> unimodal_kernel(Scheme scheme, const UnimodalFlux& flux);
+[[nodiscard]] std::unique_ptr<Kernel> unimodal_kernel(Scheme scheme, const UnimodalFlux& flux,
+                                                      Limiter limiter = {});
 
 }  // namespace shearfront::fv

@@ -24,36 +24,54 @@ March::March(const Kernel& kernel, const UnimodalFlux& flux, const std::vector<d
       hi_(flux.hi),
       n_cells_(phi.size()),
       n_padded_((n_cells_ + kLanes - 1) / kLanes * kLanes),
-      rest_(kernel.numbers().rest) {
-  SHEARFRONT_EXPECTS(rates.size() == n_cells_ || rates.size() == n_cells_ + 1, "one rate per cell or face");
+      per_cell_(rates.size() == n_cells_) {
+  SHEARFRONT_EXPECTS(per_cell_ || rates.size() == n_cells_ + 1, "one rate per cell or face");
   const double fastest = *std::max_element(rates.begin(), rates.end());
-  speed_ = flux.largest_slope * fastest;
   const KernelNumbers numbers = kernel.numbers();
+  speed_ = flux.largest_slope * fastest / numbers.largest_courant;
+  const std::size_t size = kLanes + n_padded_ + kReadAhead;
   // Cells beyond the top have coefficient 0: the wall, and a number of cells that is a multiple of kLanes.
-  c_.assign(n_padded_ + 1, 0.0);
+  // Their states are those of the walls: what collects there.
+  c_.assign(size, 0.0);
   if (fastest > 0)
     for (std::size_t j = 0; j < rates.size(); ++j)
-      c_[j] = (cfl * numbers.coefficient_weight) * (rates[j] / fastest);
-  v_.assign(n_padded_ + 1, 0.0);
+      c_[kLanes + j] = (cfl * numbers.largest_courant * numbers.coefficient_weight) * (rates[j] / fastest);
+  const double at_bottom = flux.is_minimum ? 1 : -1;
+  bottom_ = {numbers.rest, numbers.rest, at_bottom, at_bottom};
+  v_.assign(size, -at_bottom);
+  std::fill_n(v_.begin(), kLanes, at_bottom);
   for (std::size_t j = 0; j < n_cells_; ++j) {
     const double v = 2 * ((phi[j] - lo_) / (hi_ - lo_)) - 1;
-    v_[j] = std::nearbyint(v / numbers.quantum) * numbers.quantum;
+    v_[kLanes + j] = std::nearbyint(v / numbers.quantum) * numbers.quantum;
   }
+  find_jumps();
+}
+
+void March::find_jumps() {
+  has_jump_.assign((n_padded_ + kReadAhead) / kLanes, 0);
+  const Faces all = faces(c_, 0);
+  for (std::size_t i = 1; i < n_cells_; ++i)
+    if (all.below[i] != all.above[i]) has_jump_[i / kLanes] = has_jump_[(i - 1) / kLanes] = 1;
+}
+
+Faces March::faces(const std::vector<double>& c, std::size_t first) const {
+  const double* above = c.data() + kLanes + first;
+  return {per_cell_ ? above - 1 : above, above, has_jump_.data() + first / kLanes};
 }
 
 void March::sweep(std::vector<double>& v, const std::vector<double>& c, std::size_t steps) {
   // A block's k-th step takes the cells [begin - k kLanes, end - k kLanes). Their neighbours above are at
-  // step k already, thanks to the block's own last step; of the neighbours below, one step ahead by now, only
-  // the flux through the common face is needed: it was kept when the block below took this step.
-  double flux_from_below[kDepth];
-  std::fill_n(flux_from_below, steps, rest_);
+  // step k already, thanks to the block's own last step; of the neighbours below, one step ahead by now, what
+  // is needed at the common face was kept when the block below took this step.
+  FaceBelow below[kDepth];
+  std::fill_n(below, steps, bottom_);
   const std::size_t n_blocks = std::max<std::size_t>(1, n_padded_ / kBlock);
   for (std::size_t block = 0; block < n_blocks; ++block) {
     const bool is_last = block + 1 == n_blocks;
     for (std::size_t k = 0; k < steps; ++k) {
       const std::size_t begin = block == 0 ? 0 : block * kBlock - k * kLanes;
       const std::size_t end = is_last ? n_padded_ : (block + 1) * kBlock - k * kLanes;
-      flux_from_below[k] = kernel_.step(v.data() + begin, c.data() + begin, flux_from_below[k], end - begin);
+      below[k] = kernel_.step(v.data() + kLanes + begin, faces(c, begin), below[k], end - begin);
     }
   }
 }
@@ -70,15 +88,21 @@ bool March::is_at_rest() {
   return side_v_ == v_;
 }
 
-std::span<const double> March::states(double fraction) {
+CellStates March::states(double fraction) {
   side_v_ = v_;
   if (fraction > 0) {
     side_c_.resize(c_.size());
     std::transform(c_.begin(), c_.end(), side_c_.begin(), [&](double c) { return c * fraction; });
     sweep(side_v_, side_c_, 1);
   }
-  for (std::size_t j = 0; j < n_cells_; ++j) side_v_[j] = lo_ + (hi_ - lo_) * ((1 + side_v_[j]) / 2);
-  return {side_v_.data(), n_cells_};
+  double* v = side_v_.data() + kLanes;
+  if (kernel_.numbers().has_slopes) {
+    rises_.resize(n_padded_);
+    kernel_.half_rises(v, faces(c_, 0), rises_.data(), n_padded_);
+    for (double& rise : rises_) rise *= (hi_ - lo_) / 2;
+  }
+  for (std::size_t j = 0; j < n_cells_; ++j) v[j] = lo_ + (hi_ - lo_) * ((1 + v[j]) / 2);
+  return {{v, n_cells_}, {rises_.data(), rises_.empty() ? 0 : n_cells_}};
 }
 
 namespace {
@@ -104,7 +128,7 @@ std::vector<double> steady_state(Scheme scheme, const UnimodalFlux& flux, double
   std::vector<double> phi(n_cells, flux.lo);
   double amount = std::clamp(total - n * flux.lo, 0.0, n * width);
   // With the top wall next to it the last cell holds what is left.
-  const double m = scheme == Scheme::godunov ? 0 : flux.extremum - flux.lo;
+  const double m = scheme == Scheme::engquist_osher ? flux.extremum - flux.lo : 0;
   const double full = std::clamp(std::floor((amount - m) / width), 0.0, n - 1);
   const auto n_full = static_cast<std::size_t>(full);
   std::fill_n(phi.begin(), n_full, flux.hi);

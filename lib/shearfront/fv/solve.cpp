@@ -37,6 +37,15 @@ double sum_of(std::span<const double> xs) {
   return sum.value();
 }
 
+std::vector<double> rates_of(Scheme scheme, const Scene<double>& scene, const Grid& grid,
+                             const SolverOptions& options) {
+  if (scheme == Scheme::engquist_osher)
+    return options.face_coefficient == FaceCoefficient::value ? face_values(scene, grid)
+                                                              : face_rates(scene, grid);
+  const bool is_smooth = scheme == Scheme::muscl && !scene.is_layered();
+  return is_smooth ? face_values(scene, grid) : cell_rates(scene, grid);
+}
+
 /// A march through the times of a request.
 class Run {
  public:
@@ -44,21 +53,21 @@ class Run {
       const SolverOptions& options)
       : options_(options),
         grid_{scene.bottom(), scene.top(), options.cells},
-        march_(kernel, flux, initial_averages(scene, grid_),
-               scheme == Scheme::godunov ? cell_rates(scene, grid_) : face_rates(scene, grid_), options.cfl),
+        march_(kernel, flux, initial_averages(scene, grid_), rates_of(scheme, scene, grid_, options),
+               options.cfl),
         steps_per_time_(march_.speed() / (options.cfl * grid_.cell_width())),
         lost_per_step_(kernel.numbers().quantum / 4 / static_cast<double>(options.cells)),
-        steady_(steady_state(scheme, flux, sum_of(march_.states(0)), options.cells)) {}
+        steady_(steady_state(scheme, flux, sum_of(march_.states(0).phi), options.cells)) {}
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] std::uint64_t n_updates() const { return n_updates_; }
   [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
 
   /// The states at time t; times must not descend. Empty, with the status changed, if there are none.
-  std::span<const double> at(double t, Status& status) {
+  CellStates at(double t, Status& status) {
     if (!std::isfinite(t)) {
       is_at_rest_ = true;
-      return steady_;
+      return {steady_, {}};
     }
     const double steps = t * steps_per_time_, whole = std::floor(steps);
     if (status = march_to(whole, t); status != Status::ok) return {};
@@ -90,7 +99,7 @@ class Run {
     is_at_rest_ = march_.is_at_rest();
     if (!is_at_rest_) return;
     double amount = 0, largest = 0;
-    const auto phi = march_.states(0);
+    const auto phi = march_.states(0).phi;
     for (std::size_t j = 0; j < phi.size(); ++j)
       largest = std::max(largest, std::abs(amount += phi[j] - steady_[j]));
     is_steady_ = largest <= kSteadyTolerance * static_cast<double>(phi.size());
@@ -123,7 +132,7 @@ std::string message_of(Status status, std::uint64_t n_updates) {
 
 }  // namespace
 
-std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
+std::vector<Sample> sample_cells(const Grid& grid, const CellStates& cells,
                                  const std::vector<double>& depths) {
   std::vector<std::size_t> order(depths.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -133,16 +142,22 @@ std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
   std::size_t cell = 0;
   for (const std::size_t i : order) {
     for (; cell + 1 < grid.n_cells && grid.edge(cell + 1) <= depths[i]; ++cell)
-      below += (grid.edge(cell + 1) - grid.edge(cell)) * phi[cell];
-    samples[i] = {phi[cell], below.value() + (depths[i] - grid.edge(cell)) * phi[cell]};
+      below += (grid.edge(cell + 1) - grid.edge(cell)) * cells.phi[cell];
+    const double mean = cells.phi[cell], rise = cells.half_rise.empty() ? 0 : cells.half_rise[cell];
+    const double d = depths[i] - grid.edge(cell), x = d / (grid.edge(cell + 1) - grid.edge(cell));
+    samples[i] = {mean + rise * (2 * x - 1), below.value() + d * (mean - rise * (1 - x))};
   }
   return samples;
 }
 
-Profile<double> profile_of_cells(const Grid& grid, std::span<const double> phi) {
-  std::vector<double> edges(grid.n_cells + 1), values(phi.begin(), phi.end());
+Profile<double> profile_of_cells(const Grid& grid, const CellStates& cells) {
+  std::vector<double> edges(grid.n_cells + 1), below(cells.phi.begin(), cells.phi.end()), above = below;
   for (std::size_t j = 0; j <= grid.n_cells; ++j) edges[j] = grid.edge(j);
-  return {std::move(edges), values, values};
+  for (std::size_t j = 0; j < cells.half_rise.size(); ++j) {
+    below[j] -= cells.half_rise[j];
+    above[j] += cells.half_rise[j];
+  }
+  return {std::move(edges), std::move(below), std::move(above)};
 }
 
 SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
@@ -164,11 +179,11 @@ SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel
   result.samples.resize(request.times.size() * n);
   if (request.profiles) result.profiles.resize(request.times.size());
   for (const std::size_t i : order) {
-    const auto phi = run.at(request.times[i], status);
+    const CellStates cells = run.at(request.times[i], status);
     if (status != Status::ok) break;
-    const auto samples = sample_cells(run.grid(), phi, request.depths);
+    const auto samples = sample_cells(run.grid(), cells, request.depths);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
-    if (request.profiles) result.profiles[i] = profile_of_cells(run.grid(), phi);
+    if (request.profiles) result.profiles[i] = profile_of_cells(run.grid(), cells);
   }
   if (status == Status::ok && run.is_at_rest()) status = Status::steady;
   if (status != Status::ok && status != Status::steady) {
@@ -185,7 +200,8 @@ SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel
 SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
                    const SolverOptions& options) {
   const UnimodalFlux flux = std::visit([](const auto& f) { return unimodal_flux(f); }, scene.flux());
-  const auto kernel = flux.is_quadratic ? quadratic_kernel(scheme) : unimodal_kernel(scheme, flux);
+  const auto kernel = flux.is_quadratic ? quadratic_kernel(scheme, options.limiter)
+                                        : unimodal_kernel(scheme, flux, options.limiter);
   return solve(scheme, flux, *kernel, scene, request, options);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <span>
 #include <vector>
 
 #include "shearfront/fv/grid.hpp"
 #include "shearfront/fv/kernel.hpp"
+#include "shearfront/fv/march.hpp"
 #include "shearfront/fv/unimodal_flux.hpp"
 #include "shearfront/solver/solver.hpp"
 
@@ -33,11 +33,11 @@ namespace shearfront::fv {
                                  const Scene<double>& scene, const SolverRequest& request,
                                  const SolverOptions& options);
 
-/// Samples of cell averages phi at heights in any order; see Sample. Cost: O(cells + n log n).
-[[nodiscard]] std::vector<Sample> sample_cells(const Grid& grid, std::span<const double> phi,
+/// Samples at heights in any order; see Sample. Cost: O(cells + n log n).
+[[nodiscard]] std::vector<Sample> sample_cells(const Grid& grid, const CellStates& cells,
                                                const std::vector<double>& depths);
 
-/// phi, constant in every cell, as a function of z. Cost: O(cells).
-[[nodiscard]] Profile<double> profile_of_cells(const Grid& grid, std::span<const double> phi);
+/// phi, constant or linear in every cell, as a function of z. Cost: O(cells).
+[[nodiscard]] Profile<double> profile_of_cells(const Grid& grid, const CellStates& cells);
 
 }  // namespace shearfront::fv

@@ -2,6 +2,7 @@
 #pragma once
 #include "shearfront/fv/engquist_osher_solver.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
+#include "shearfront/fv/muscl_solver.hpp"
 #include "shearfront/hopf_lax/solver.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/solver/solver.hpp"
@@ -11,6 +12,7 @@ namespace shearfront {
 
 /// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
 /// list.
-using SolverList = TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver>;
+using SolverList =
+    TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver>;
 
 }  // namespace shearfront

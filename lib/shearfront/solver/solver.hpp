@@ -21,9 +21,13 @@ namespace shearfront {
 
 enum class GridKind { levels, singular_mapping };
 enum class Reconstruction { constant, linear };
+enum class Limiter { minmod, mc, van_leer };
+enum class FaceCoefficient { harmonic, value };
 /// Their names in files and on the command line, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 2> kGridNames{"levels", "singular-mapping"};
 inline constexpr std::array<std::string_view, 2> kReconstructionNames{"constant", "linear"};
+inline constexpr std::array<std::string_view, 3> kLimiterNames{"minmod", "mc", "van-leer"};
+inline constexpr std::array<std::string_view, 2> kFaceCoefficientNames{"harmonic", "value"};
 
 /// Settings of all solvers; each reads those it knows.
 struct SolverOptions {
@@ -34,7 +38,12 @@ struct SolverOptions {
   std::size_t layers = 0;                        ///< smooth a(z): number of layers; 0 lets the solver choose
   std::uint64_t max_collisions = 4'000'000'000;  ///< stop with Status::budget_reached after so many
   std::size_t cells = 400;                       ///< finite volumes: number of equal cells, 1 to 1e8
-  double cfl = 1.0;  ///< finite volumes: Courant number s max a max |f'| dt / dz, (0, 1]
+  /// Finite volumes: time step in terms of the largest for which phi is proved to stay in its range, (0, 1].
+  /// That step has the Courant number s max a max |f'| dt / dz = 1 in first order and 1/2 in second.
+  double cfl = 1.0;
+  Limiter limiter = Limiter::mc;  ///< muscl: what bounds the slopes
+  /// engquist-osher: coefficient of a face, harmonic mean of a between the middles of the cells or a(z) there
+  FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
   /// Called now and then with (t, collisions or cell updates so far); return false to stop with
   /// Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
