@@ -21,7 +21,7 @@ Scene<double> example_1() {
 }
 
 /// Steps of the whole grid in batches of about 2^22 cell updates, so that the bed is in motion throughout.
-void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd, Limiter limiter = {}) {
+void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd, Limiter limiter = Limiter::mc) {
   if (simd > fv::widest_simd()) {
     state.SkipWithError("not on this processor");
     return;

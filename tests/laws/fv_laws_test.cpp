@@ -46,26 +46,41 @@ SolverOptions options_of(SceneMaker& maker) {
   return options;
 }
 
-TYPED_TEST(FvLaws, KeepsMassToTheBitAndPhiInItsRange) {
-  for (int number = 0; number < kScenes; ++number) {
+/// phi of the cells times 2^53 and summed: states are multiples of 2^-53, so there is no rounding.
+std::int64_t mass_in_quanta(const fv::CellStates& cells) {
+  std::int64_t sum = 0;
+  for (const double phi : cells.phi) sum += static_cast<std::int64_t>(std::ldexp(phi, 53));
+  return sum;
+}
+
+TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+  for (int number = 0; number < 150; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
-    const Scene<double> scene = draw(maker);
-    const auto states = cell_states<TypeParam>(scene, {0, 0.01, 0.3, 1.7, 9}, options_of(maker));
-    ASSERT_EQ(states.size(), 5u);
-    std::int64_t start = 0;
-    EXPECT_NEAR(std::accumulate(states[0].begin(), states[0].end(), 0.0) / double(states[0].size()),
-                scene.mass(), 1e-14);
-    for (const auto& phi : states) {
-      // States are multiples of 2^-53: integers, whose sum knows no rounding.
-      std::int64_t sum = 0;
-      for (const double x : phi) {
-        EXPECT_GE(x, 0);
-        EXPECT_LE(x, 1);
-        sum += static_cast<std::int64_t>(std::ldexp(x, 53));
+    const Scene<double> scene(maker.data(maker.integer(1, 20), maker.order(), 12));
+    const SolverOptions options = options_of(maker);
+    const fv::Grid grid{0, 1, options.cells};
+    auto phi = fv::initial_averages(scene, grid);
+    if (number % 2 == 0)  // pure up to some quanta, and any
+      for (double& x : phi) {
+        const double small = std::ldexp(maker.uniform(0, 1), -maker.integer(0, 52));
+        x = maker.integer(0, 1) == 0 ? small : 1 - small;
       }
-      if (&phi == &states[0]) start = sum;
-      EXPECT_EQ(sum, start);
+    const auto scheme = static_cast<Scheme>(number % 3);
+    const auto rates =
+        scheme == Scheme::engquist_osher ? fv::face_rates(scene, grid) : fv::cell_rates(scene, grid);
+    const auto kernel = fv::quadratic_kernel(scheme, static_cast<Limiter>(number / 3 % 3));
+    fv::March march(*kernel, flux, phi, rates, options.cfl);
+    const std::int64_t start = mass_in_quanta(march.states(0));
+    for (int i = 0; i < 200; ++i) {
+      const fv::CellStates cells = march.states(0);
+      ASSERT_EQ(mass_in_quanta(cells), start);
+      for (std::size_t j = 0; j < grid.n_cells; ++j) {
+        ASSERT_GE(std::min(cells.at_bottom(j), cells.at_top(j)), 0);
+        ASSERT_LE(std::max(cells.at_bottom(j), cells.at_top(j)), 1);
+      }
+      march.advance(1);
     }
   }
 }
@@ -225,8 +240,11 @@ TEST(FvKernels, GeneralAndQuadraticAgreeAndGrainsThatRiseAreAMirrorImage) {
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < options.cells; ++j) {
           const double phi = fast.samples[i * options.cells + j].phi;
-          EXPECT_NEAR(phi, general.samples[i * options.cells + j].phi, 1e-11);
-          EXPECT_NEAR(phi, rising.samples[(i + 1) * options.cells - 1 - j].phi, 1e-11);
+          // At jumps of a the general kernel of muscl takes differences for f', and near the extremum the
+          // mapping is a square root of a rounding.
+          const double tolerance = scheme == Scheme::muscl ? 1e-7 : 1e-11;
+          EXPECT_NEAR(phi, general.samples[i * options.cells + j].phi, tolerance);
+          EXPECT_NEAR(phi, rising.samples[(i + 1) * options.cells - 1 - j].phi, tolerance);
         }
     }
   }
@@ -242,13 +260,13 @@ TEST(FvKernels, AllInstructionSetsAgreeToTheBit) {
     for (const Scheme scheme : {Scheme::engquist_osher, Scheme::godunov, Scheme::muscl}) {
       const auto rates =
           scheme == Scheme::engquist_osher ? fv::face_rates(scene, grid) : fv::cell_rates(scene, grid);
-      const auto portable = fv::quadratic_kernel(scheme, {}, Simd::portable);
+      const auto portable = fv::quadratic_kernel(scheme, Limiter::mc, Simd::portable);
       fv::March reference(*portable, flux, phi, rates, 1);
       for (int step = 0; step < 301; ++step) reference.advance(1);
       const auto expected = reference.states(0.3).phi;
       for (const Simd simd : {Simd::portable, Simd::avx2, Simd::avx512}) {
         if (simd > fv::widest_simd()) continue;
-        const auto kernel = fv::quadratic_kernel(scheme, {}, simd);
+        const auto kernel = fv::quadratic_kernel(scheme, Limiter::mc, simd);
         fv::March march(*kernel, flux, phi, rates, 1);
         march.advance(301);  // in blocks of many steps
         const auto states = march.states(0.3).phi;

@@ -64,7 +64,7 @@ void MethodArguments::add_to(CLI::App& app) {
       ->type_name("N");
   app.add_option("--max-collisions", max_collisions_, "front tracking: stop after so many collisions")
       ->type_name("N");
-  app.add_option("--cells", cells_, "finite volumes: number of equal cells, default 400")->type_name("N");
+  app.add_option("--cells", cells_, "finite volumes: number of cells, default 400")->type_name("N");
   app.add_option("--cfl", cfl_,
                  "finite volumes: time step over the largest for which the bounds of phi are proved (Courant "
                  "number 1, muscl 1/2); > 0 and <= 1, default 1")
@@ -75,6 +75,10 @@ void MethodArguments::add_to(CLI::App& app) {
                  "engquist-osher: harmonic mean of a(z) between the middles of two cells, or its value at "
                  "their face; default harmonic")
       ->type_name(join(face_coefficient_names()));
+  app.add_flag("--align-cells", align_cells_,
+               "finite volumes: edges of cells on the interfaces, equal cells within each layer");
+  app.add_flag("--local-steps", local_steps_,
+               "finite volumes: parts of the bed that move slowly take longer time steps");
 }
 
 std::string_view MethodArguments::method() const {
@@ -105,6 +109,8 @@ SolverOptions MethodArguments::options() const {
   if (!face_coefficient_.empty())
     options.face_coefficient = static_cast<FaceCoefficient>(
         choice_option("--face-coefficient", face_coefficient_, face_coefficient_names()));
+  options.align_cells = align_cells_;
+  options.local_steps = local_steps_;
   return options;
 }
 
@@ -122,6 +128,9 @@ std::string MethodArguments::settings() const {
     text += fmt::format(" --limiter {}", limiter_names()[static_cast<std::size_t>(chosen.limiter)]);
   if (method() == EngquistOsherSolver::kName && chosen.face_coefficient != FaceCoefficient::harmonic)
     text += " --face-coefficient value";
+  if (guarantees.order_phi > 0 && !guarantees.has_fronts)
+    text += fmt::format("{}{}", chosen.align_cells ? " --align-cells" : "",
+                        chosen.local_steps ? " --local-steps" : "");
   if (chosen.layers > 0) text += fmt::format(" --layers {}", chosen.layers);
   return text;
 }

@@ -26,6 +26,7 @@ class MethodArguments {
  private:
   std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_,
               limiter_, face_coefficient_;
+  bool align_cells_ = false, local_steps_ = false;
 };
 
 /// Says that --layers changes nothing where the shear rate is piecewise constant already.

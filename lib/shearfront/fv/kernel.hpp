@@ -41,10 +41,17 @@ inline constexpr std::size_t kReadAhead = 4 * kLanes;
 
 /// Coefficients of the faces; face i lies between the cells i - 1 and i. Where a is continuous both sides
 /// have the same. A face with 0 on one side carries no flux: the walls.
+///
+/// A flux is counted in changes of v of the cell below the face. For cells of another width or with another
+/// time step above, the change there is `ratio` times as large; what its rounding leaves waits in
+/// `remainder` for the next step. Coefficients of cells (below + 1 == above) are in the units of their cell,
+/// those of faces in units of the cell below.
 struct Faces {
-  const double* below;            ///< below[i]: coefficient of face i on its lower side
-  const double* above;            ///< on its upper side
-  const unsigned char* has_jump;  ///< whether the sides differ at one of the faces 8 i ... 8 i + 8
+  const double* below;              ///< below[i]: coefficient of face i on its lower side
+  const double* above;              ///< on its upper side
+  const unsigned char* is_special;  ///< whether sides differ, or ratio != 1, at a face 8 i ... 8 i + 8
+  const double* ratio = nullptr;    ///< none: 1 everywhere
+  double* remainder = nullptr;
 };
 
 /// What a step leaves at a face for the cells above it: the cell below has gone on to the next step.
@@ -93,7 +100,7 @@ enum class Simd { portable, avx2, avx512 };
 /// min(v_r, 0)^2 - 1) for Engquist-Osher, c half the Courant number, and G = max(c_l (max(v_l, 0)^2 - 1),
 /// c_r (min(v_r, 0)^2 - 1)) for Godunov. Cost per cell: 10 and 13 additions, multiplications or comparisons.
 /// Precondition: the processor has `simd`.
-[[nodiscard]] std::unique_ptr<Kernel> quadratic_kernel(Scheme scheme, Limiter limiter = {},
+[[nodiscard]] std::unique_ptr<Kernel> quadratic_kernel(Scheme scheme, Limiter limiter = Limiter::mc,
                                                        Simd simd = widest_simd());
 
 /// quadratic_kernel() for Scheme::muscl.
@@ -101,6 +108,6 @@ enum class Simd { portable, avx2, avx512 };
 
 /// Kernel for any flux with one extremum, by calls of its value; slower by a factor of ten or more.
 [[nodiscard]] std::unique_ptr<Kernel> unimodal_kernel(Scheme scheme, const UnimodalFlux& flux,
-                                                      Limiter limiter = {});
+                                                      Limiter limiter = Limiter::mc);
 
 }  // namespace shearfront::fv

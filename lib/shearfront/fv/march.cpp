@@ -44,19 +44,19 @@ March::March(const Kernel& kernel, const UnimodalFlux& flux, const std::vector<d
     const double v = 2 * ((phi[j] - lo_) / (hi_ - lo_)) - 1;
     v_[kLanes + j] = std::nearbyint(v / numbers.quantum) * numbers.quantum;
   }
-  find_jumps();
+  find_special_faces();
 }
 
-void March::find_jumps() {
-  has_jump_.assign((n_padded_ + kReadAhead) / kLanes, 0);
+void March::find_special_faces() {
+  is_special_.assign((n_padded_ + kReadAhead) / kLanes, 0);
   const Faces all = faces(c_, 0);
   for (std::size_t i = 1; i < n_cells_; ++i)
-    if (all.below[i] != all.above[i]) has_jump_[i / kLanes] = has_jump_[(i - 1) / kLanes] = 1;
+    if (all.below[i] != all.above[i]) is_special_[i / kLanes] = is_special_[(i - 1) / kLanes] = 1;
 }
 
 Faces March::faces(const std::vector<double>& c, std::size_t first) const {
   const double* above = c.data() + kLanes + first;
-  return {per_cell_ ? above - 1 : above, above, has_jump_.data() + first / kLanes};
+  return {per_cell_ ? above - 1 : above, above, is_special_.data() + first / kLanes};
 }
 
 void March::sweep(std::vector<double>& v, const std::vector<double>& c, std::size_t steps) {

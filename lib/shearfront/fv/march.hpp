@@ -12,6 +12,13 @@ namespace shearfront::fv {
 /// phi of all cells: their averages and, where it is linear inside, half its rise across each (else empty).
 struct CellStates {
   std::span<const double> phi, half_rise;
+
+  [[nodiscard]] double at_bottom(std::size_t j) const {
+    return half_rise.empty() ? phi[j] : phi[j] - half_rise[j];
+  }
+  [[nodiscard]] double at_top(std::size_t j) const {
+    return half_rise.empty() ? phi[j] : phi[j] + half_rise[j];
+  }
 };
 
 /// The states of all cells and their march in time, step by step.
@@ -43,7 +50,7 @@ class March {
   /// `steps` <= kDepth steps of all cells.
   void sweep(std::vector<double>& v, const std::vector<double>& c, std::size_t steps);
   [[nodiscard]] Faces faces(const std::vector<double>& c, std::size_t first) const;
-  void find_jumps();
+  void find_special_faces();
 
   const Kernel& kernel_;
   double lo_, hi_;
@@ -54,7 +61,7 @@ class March {
   FaceBelow bottom_;
   // With kLanes cells beyond the bottom, and more beyond the top.
   std::vector<double> v_, c_;
-  std::vector<unsigned char> has_jump_;
+  std::vector<unsigned char> is_special_;
   std::vector<double> side_v_, side_c_, rises_;  ///< the last, shortened step
 };
 

@@ -6,6 +6,7 @@
 
 #include "shearfront/fv/kernel.hpp"
 #include "shearfront/fv/lanes.hpp"
+#include "shearfront/fv/special_faces.hpp"
 
 namespace shearfront::fv {
 
@@ -59,7 +60,8 @@ struct Slope {
 ///   changed; flux_at_jump(g, top, minus_bottom, c_below, c_above); mapped(own, v, ratio), the state whose
 ///   flux in the own layer is that of v in a layer of `ratio` times the rate, on the branch of v, or the
 ///   extremum if the own layer cannot carry it.
-template <class Rule, Limiter limiter, int width>
+/// `has_ratio`: faces.ratio is there.
+template <class Rule, Limiter limiter, bool has_ratio, int width>
 class MusclPass {
   using L = Lanes<width>;
   using S = Slope<limiter, width>;
@@ -73,22 +75,25 @@ class MusclPass {
     const auto n = static_cast<std::ptrdiff_t>(n_cells);
     v0_[width - 1] = below.v;
     first_stage(0);
-    h_stage_[0] = below.h_stage;
+    h_stage_[0] = h_stage_up_[0] = below.h_stage;
     first_stage(width);
     w2_[width - 1] = below.w;
     first_stage(2 * width);
-    second_stage(0);
-    h_[0] = below.h;
+    second_stage(0, 1, width);
+    h_[0] = h_up_[0] = below.h;
     for (std::ptrdiff_t i = width; i <= n; i += width) {
-      const Vector h_below = h_;
+      const Vector h_below = h_, h_below_up = h_up_;
       first_stage(i + 2 * width);
-      second_stage(i);
+      second_stage(i, 0, i < n ? width : 1);
       Vector h_above;
       L::higher(h_above, h_below, h_);
-      const Vector v = v3_ - (h_above - h_below);
+      const Vector v = v3_ - (h_above - (has_ratio ? h_below_up : h_below));
       L::store(v_ + i - width, v);
+      if (has_ratio && is_special(faces_, i - width)) [[unlikely]]
+        hold_back_excess(faces_, i - width, v_ + i - width, width);
     }
-    return {h_[0], g2_[0] + Rule::kRest, v3_[width - 1], w3_[width - 1]};
+    const double h_stage = has_ratio ? h_stage_2_[0] : g2_[0] + Rule::kRest;
+    return {h_up_[0], h_stage, v3_[width - 1], w3_[width - 1]};
   }
 
   /// Kernel::half_rises().
@@ -112,6 +117,7 @@ class MusclPass {
     v3_ = v2_, v2_ = v1_, v1_ = v0_;
     w3_ = w2_, w2_ = w1_;
     g2_ = g1_, g1_ = g0_;
+    h_stage_2_ = h_stage_1_, h_stage_1_ = h_stage_up_;
     const Vector h_below = h_stage_;
     Vector below, above, h_above;
     L::load(v0_, v_ + i);
@@ -119,17 +125,32 @@ class MusclPass {
     L::lower(below, v1_, v0_);
     fluxes(g0_, top_, i, below, v0_, above);
     h_stage_ = g0_ + Rule::kRest;
+    h_stage_up_ = h_stage_;
+    if (has_ratio && is_special(faces_, i)) [[unlikely]]
+      turn_to_units_above(h_stage_up_, i, 0, width, false);
     L::higher(h_above, h_below, h_stage_);
-    w1_ = v1_ - (h_above - h_below);
+    w1_ = v1_ - (h_above - (has_ratio ? h_stage_1_ : h_below));
   }
 
-  /// Fluxes through the faces i, i + 1, ..., mean of both stages.
-  SHEARFRONT_FV_INLINE void second_stage(std::ptrdiff_t i) {
+  /// Fluxes through the faces i, i + 1, ..., mean of both stages; in the units of the cells above for the
+  /// faces of the lanes first ... last - 1.
+  SHEARFRONT_FV_INLINE void second_stage(std::ptrdiff_t i, int first, int last) {
     Vector below, above, g;
     L::lower(below, w3_, w2_);
     L::higher(above, w2_, w1_);
     fluxes(g, stage_top_, i, below, w2_, above);
     h_ = 0.5 * (g2_ + g) + Rule::kRest;
+    h_up_ = h_;
+    if (has_ratio && is_special(faces_, i)) [[unlikely]]
+      turn_to_units_above(h_up_, i, first, last, true);
+  }
+
+  SHEARFRONT_FV_INLINE void turn_to_units_above(Vector& h, std::ptrdiff_t i, int first, int last,
+                                                bool keeps_remainder) const {
+    double memory[width];
+    L::store(memory, h);
+    to_units_above(faces_, i + first, memory + first, last - first, Rule::kRest, keeps_remainder);
+    L::load(h, memory);
   }
 
   /// Fluxes through the faces below the cells v = v[i], v[i + 1], ... with neighbours below and above.
@@ -141,64 +162,86 @@ class MusclPass {
     L::lower(top_below, top, v + rise);
     top = v + rise;
     L::load(c_above, faces_.above + i);
-    if (has_jump(faces_, i)) [[unlikely]] {
+    if (is_special(faces_, i)) [[unlikely]] {
       Vector c_below;
       L::load(c_below, faces_.below + i);
+      if constexpr (has_ratio) {
+        double memory[width];
+        for (int lane = 0; lane < width; ++lane) memory[lane] = coefficient_above(faces_, i + lane);
+        L::load(c_above, memory);
+      }
       rule_.flux_at_jump(g, top_below, rise - v, c_below, c_above);
     } else {
       rule_.flux(g, top_below, rise - v, c_above);
     }
   }
 
-  SHEARFRONT_FV_INLINE static bool has_jump(const Faces& faces, std::ptrdiff_t i) {
-    return faces.has_jump[i / static_cast<std::ptrdiff_t>(kLanes)] != 0;
+  SHEARFRONT_FV_INLINE static bool is_special(const Faces& faces, std::ptrdiff_t i) {
+    return faces.is_special[i / static_cast<std::ptrdiff_t>(kLanes)] != 0;
   }
 
   SHEARFRONT_FV_INLINE static void half_rise(Vector& rise, const Rule& rule, const Faces& faces,
                                              std::ptrdiff_t i, const Vector& below, const Vector& v,
                                              const Vector& above) {
-    S::half_rise(rise, v - below, above - v);
-    if (has_jump(faces, i)) [[unlikely]] {
+    Vector low = v - below, high = above - v;
+    if (is_special(faces, i)) [[unlikely]] {
       // By way of memory: the vectors of the fast path stay in registers.
-      double rises[width], neighbours[3 * width];
-      L::store(rises, rise);
-      L::store(neighbours, below);
-      L::store(neighbours + width, v);
-      L::store(neighbours + 2 * width, above);
-      bound_at_jumps(rises, rule, faces, i, neighbours);
-      L::load(rise, rises);
+      double memory[4 * width];
+      L::store(memory, below);
+      L::store(memory + width, v);
+      L::store(memory + 2 * width, above);
+      see_beyond_jumps(memory, rule, faces, i);
+      Vector bound;
+      L::load(low, memory);
+      L::load(high, memory + 2 * width);
+      L::load(bound, memory + 3 * width);
+      S::half_rise(rise, low, high);
+      rise = rise < bound ? rise : bound;
+      rise = rise > -bound ? rise : -bound;
+    } else {
+      S::half_rise(rise, low, high);
     }
     S::flatten_pure(rise, v);
   }
 
-  /// Next to a jump of the rate: the other layer's state seen from here is that of equal flux (it would
-  /// follow here if the flux went on unchanged), but its distance in z is not that of the cells. So the slope
-  /// is the one-sided one of the own layer, and the seen state only bounds it.
-  __attribute__((noinline)) static void bound_at_jumps(double* rises, const Rule& rule, const Faces& faces,
-                                                       std::ptrdiff_t i, const double* neighbours) {
+  /// Differences to the neighbours as the own layer would have them. `memory`: states below, own and above;
+  /// becomes difference to below, own, difference to above, largest half rise.
+  ///
+  /// Beyond a jump of the rate the state of the own layer with the neighbour's flux stands for the neighbour:
+  /// it would follow here if the flux went on unchanged. In time-dependent flow the flux changes with height
+  /// as 1 / wave speed, so half of the distance, that in the other layer, counts with the ratio of the
+  /// speeds. The half rise is no larger than the difference itself: the bounds of phi hold.
+  __attribute__((noinline)) static void see_beyond_jumps(double* memory, const Rule& rule, const Faces& faces,
+                                                         std::ptrdiff_t i) {
     for (int lane = 0; lane < width; ++lane) {
       const std::ptrdiff_t face = i + lane;
-      const double own = faces.above[face], own_above = faces.below[face + 1];
-      const double other_below = faces.below[face], other_above = faces.above[face + 1];
-      const bool jumps_below = own != other_below && own > 0 && other_below > 0;
-      const bool jumps_above = own_above != other_above && own_above > 0 && other_above > 0;
-      if (!jumps_below && !jumps_above) continue;
-      const double below = neighbours[lane], v = neighbours[width + lane];
-      const double above = neighbours[2 * width + lane];
-      double low = jumps_below ? v - rule.mapped(below, other_below / own) : v - below;
-      double high = jumps_above ? rule.mapped(above, other_above / own_above) - v : above - v;
-      if (jumps_above) low *= 0.5;
-      if (jumps_below) high *= 0.5;
-      const double least = std::min(std::abs(low), std::abs(high));
-      rises[lane] = low * high > 0 ? std::copysign(least, low) : 0;
+      const double v = memory[width + lane];
+      const Seen below = seen(rule, memory[lane], faces.below[face], coefficient_above(faces, face));
+      const Seen above =
+          seen(rule, memory[2 * width + lane], coefficient_above(faces, face + 1), faces.below[face + 1]);
+      const double low = v - below.v, high = above.v - v;
+      memory[lane] = low * below.stretch;
+      memory[2 * width + lane] = high * above.stretch;
+      memory[3 * width + lane] = std::min(std::abs(low), std::abs(high));
     }
+  }
+
+  /// State v of a layer with coefficient `other` as one with `own` sees it.
+  struct Seen {
+    double v, stretch;
+  };
+  static Seen seen(const Rule& rule, double v, double other, double own) {
+    if (own == other || !(own > 0) || !(other > 0)) return {v, 1};
+    const double mapped = rule.mapped(v, other / own);
+    const double speed = std::abs(other * rule.slope(v)), own_speed = std::abs(own * rule.slope(mapped));
+    return {mapped, speed + own_speed > 0 ? 2 * speed / (speed + own_speed) : 1};
   }
 
   const Rule& rule_;
   double* v_;
   Faces faces_;
   Vector v0_{}, v1_{}, v2_{}, v3_{}, w1_{}, w2_{}, w3_{}, g0_{}, g1_{}, g2_{};
-  Vector top_{}, stage_top_{}, h_stage_{}, h_{};
+  Vector top_{}, stage_top_{}, h_stage_{}, h_stage_up_{}, h_stage_1_{}, h_stage_2_{}, h_{}, h_up_{};
 };
 
 }  // namespace shearfront::fv

@@ -3,6 +3,7 @@
 
 #include "shearfront/fv/kernel.hpp"
 #include "shearfront/fv/lanes.hpp"
+#include "shearfront/fv/special_faces.hpp"
 
 namespace shearfront::fv {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kCoefficientWeight = 0.5;
 
 /// One pass over the cells, in place: the cells of a vector are written when the fluxes on both sides are
 /// known, and of the cells below only their uppermost flux is needed any more.
-template <Scheme scheme, int width>
+template <Scheme scheme, bool has_ratio, int width>
 SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, std::size_t n) {
   using L = Lanes<width>;
   using Vector = typename L::Vector;
@@ -21,6 +22,7 @@ SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, 
   Vector last{};  // the fluxes of the vector below; only its uppermost counts
   last[width - 1] = h_below;
   for (std::size_t i = 0; i < n; i += width) {
+    const bool is_special = (has_ratio || scheme == Scheme::godunov) && faces.is_special[i / kLanes] != 0;
     Vector l, r, c, h_above, h;
     L::load(l, v + i);
     L::load(r, v + i + 1);
@@ -28,20 +30,32 @@ SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, 
     if constexpr (scheme == Scheme::engquist_osher) {
       const Vector rising = l > zero ? l * l : zero, falling = r < zero ? r * r : zero;
       h_above = c * ((rising + falling) - 1.0) + kRest;
-    } else if (faces.has_jump[i / kLanes] == 0) [[likely]] {
+    } else if (!is_special) [[likely]] {
       // Roundings are monotone: this is the maximum of both sides to the bit.
       const Vector most = l > -r ? l : -r, size = most > zero ? most : zero;
       h_above = c * (size * size - 1.0) + kRest;
     } else {
       Vector c_below;
       L::load(c_below, faces.below + i + 1);
+      if constexpr (has_ratio)
+        for (int lane = 0; lane < width; ++lane)
+          c[lane] = coefficient_above(faces, static_cast<std::ptrdiff_t>(i) + 1 + lane);
       const Vector rising = l > zero ? l * l : zero, falling = r < zero ? r * r : zero;
       const Vector from_below = c_below * (rising - 1.0), from_above = c * (falling - 1.0);
       h_above = (from_below > from_above ? from_below : from_above) + kRest;
     }
-    L::lower(h, last, h_above);
-    last = h_above;
+    Vector up = h_above;  // in the units of the cells above
+    if (has_ratio && is_special) [[unlikely]] {
+      double memory[width];
+      L::store(memory, h_above);
+      to_units_above(faces, static_cast<std::ptrdiff_t>(i) + 1, memory, width, kRest, true);
+      L::load(up, memory);
+    }
+    L::lower(h, last, up);
+    last = up;
     L::store(v + i, l - (h_above - h));
+    if (has_ratio && is_special) [[unlikely]]
+      hold_back_excess(faces, static_cast<std::ptrdiff_t>(i), v + i, width);
   }
   return last[width - 1];
 }
@@ -49,8 +63,9 @@ SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, 
 using Step = double (*)(double*, const Faces&, double, std::size_t);
 
 #define SHEARFRONT_FV_STEP(name, scheme, width, target)                              \
+  template <bool has_ratio>                                                          \
   target double name(double* v, const Faces& faces, double h_below, std::size_t n) { \
-    return step<scheme, width>(v, faces, h_below, n);                                \
+    return step<scheme, has_ratio, width>(v, faces, h_below, n);                     \
   }
 
 SHEARFRONT_FV_STEP(engquist_osher_portable, Scheme::engquist_osher, 2, )
@@ -62,20 +77,23 @@ SHEARFRONT_FV_STEP(engquist_osher_avx512, Scheme::engquist_osher, 8, SHEARFRONT_
 SHEARFRONT_FV_STEP(godunov_avx512, Scheme::godunov, 8, SHEARFRONT_FV_AVX512)
 #endif
 
+template <bool has_ratio>
 Step step_of(Scheme scheme, [[maybe_unused]] Simd simd) {
   const bool is_godunov = scheme == Scheme::godunov;
 #if SHEARFRONT_FV_X86
-  if (simd == Simd::avx512) return is_godunov ? godunov_avx512 : engquist_osher_avx512;
-  if (simd == Simd::avx2) return is_godunov ? godunov_avx2 : engquist_osher_avx2;
+  if (simd == Simd::avx512) return is_godunov ? godunov_avx512<has_ratio> : engquist_osher_avx512<has_ratio>;
+  if (simd == Simd::avx2) return is_godunov ? godunov_avx2<has_ratio> : engquist_osher_avx2<has_ratio>;
 #endif
-  return is_godunov ? godunov_portable : engquist_osher_portable;
+  return is_godunov ? godunov_portable<has_ratio> : engquist_osher_portable<has_ratio>;
 }
 
 class QuadraticKernel final : public Kernel {
  public:
-  QuadraticKernel(Scheme scheme, Simd simd) : step_(step_of(scheme, simd)) {}
+  QuadraticKernel(Scheme scheme, Simd simd)
+      : step_(step_of<false>(scheme, simd)), step_with_ratio_(step_of<true>(scheme, simd)) {}
   FaceBelow step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) const override {
-    return {step_(v, faces, below.h, n), 0, 0, 0};
+    const Step chosen = faces.ratio != nullptr ? step_with_ratio_ : step_;
+    return {chosen(v, faces, below.h, n), 0, 0, 0};
   }
   void half_rises(const double*, const Faces&, double* rises, std::size_t n) const override {
     std::fill_n(rises, n, 0.0);
@@ -85,7 +103,7 @@ class QuadraticKernel final : public Kernel {
   }
 
  private:
-  Step step_;
+  Step step_, step_with_ratio_;
 };
 
 }  // namespace

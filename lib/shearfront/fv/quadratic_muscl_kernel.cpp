@@ -31,53 +31,51 @@ struct QuadraticRule {
   static double mapped(double v, double ratio) {
     return std::copysign(std::sqrt(std::max(0.0, 1 - ratio * ((1 - v) * (1 + v)))), v);
   }
+  static double slope(double v) { return v; }
 };
 
 using Step = FaceBelow (*)(double*, const Faces&, const FaceBelow&, std::size_t);
 
-#define SHEARFRONT_FV_MUSCL(name, width, target)                                                       \
-  template <Limiter limiter>                                                                           \
-  target FaceBelow name##_step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) { \
-    const QuadraticRule<width> rule;                                                                   \
-    return MusclPass<QuadraticRule<width>, limiter, width>(rule, v, faces).advance(below, n);          \
-  }                                                                                                    \
-  template <Limiter limiter>                                                                           \
-  struct name {                                                                                        \
-    static constexpr Step kStep = name##_step<limiter>;                                                \
-  };
+#define SHEARFRONT_FV_MUSCL(name, width, target)                                                         \
+  template <Limiter limiter, bool has_ratio>                                                             \
+  target FaceBelow name(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) {          \
+    const QuadraticRule<width> rule;                                                                     \
+    return MusclPass<QuadraticRule<width>, limiter, has_ratio, width>(rule, v, faces).advance(below, n); \
+  }
 
-SHEARFRONT_FV_MUSCL(Portable, 2, )
+SHEARFRONT_FV_MUSCL(portable, 2, )
 #if SHEARFRONT_FV_X86
-SHEARFRONT_FV_MUSCL(Avx2, 4, SHEARFRONT_FV_AVX2)
-SHEARFRONT_FV_MUSCL(Avx512, 8, SHEARFRONT_FV_AVX512)
+SHEARFRONT_FV_MUSCL(avx2, 4, SHEARFRONT_FV_AVX2)
+SHEARFRONT_FV_MUSCL(avx512, 8, SHEARFRONT_FV_AVX512)
 #endif
 
-template <Limiter limiter>
+template <Limiter limiter, bool has_ratio>
 Step step_of([[maybe_unused]] Simd simd) {
 #if SHEARFRONT_FV_X86
-  if (simd == Simd::avx512) return Avx512<limiter>::kStep;
-  if (simd == Simd::avx2) return Avx2<limiter>::kStep;
+  if (simd == Simd::avx512) return avx512<limiter, has_ratio>;
+  if (simd == Simd::avx2) return avx2<limiter, has_ratio>;
 #endif
-  return Portable<limiter>::kStep;
+  return portable<limiter, has_ratio>;
 }
 
 template <Limiter limiter>
 class QuadraticMusclKernel final : public Kernel {
  public:
-  explicit QuadraticMusclKernel(Simd simd) : step_(step_of<limiter>(simd)) {}
+  explicit QuadraticMusclKernel(Simd simd)
+      : step_(step_of<limiter, false>(simd)), step_with_ratio_(step_of<limiter, true>(simd)) {}
   FaceBelow step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) const override {
-    return step_(v, faces, below, n);
+    return (faces.ratio != nullptr ? step_with_ratio_ : step_)(v, faces, below, n);
   }
   void half_rises(const double* v, const Faces& faces, double* rises, std::size_t n) const override {
     const QuadraticRule<2> rule;
-    MusclPass<QuadraticRule<2>, limiter, 2>::half_rises(rule, v, faces, rises, n);
+    MusclPass<QuadraticRule<2>, limiter, true, 2>::half_rises(rule, v, faces, rises, n);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
     return {QuadraticRule<2>::kRest, 0x1p-52, 0.5, 0.5, true};
   }
 
  private:
-  Step step_;
+  Step step_, step_with_ratio_;
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ std::string refusal(const UnimodalFlux& flux, const SolverOptions& options) {
     return "cells = " + std::to_string(options.cells) + "; must be <= " + std::to_string(kMostCells);
   if (!(options.cfl > 0 && options.cfl <= 1))
     return "cfl = " + number_text(options.cfl) + "; must be > 0 and <= 1";
+  if (options.align_cells || options.local_steps) return "aligned cells and local steps are not there yet";
   return flux.refusal;
 }
 
@@ -140,22 +141,24 @@ std::vector<Sample> sample_cells(const Grid& grid, const CellStates& cells,
   std::vector<Sample> samples(depths.size());
   CompensatedSum<double> below;
   std::size_t cell = 0;
+  // In the order of operations of Profile: the same to the bit.
   for (const std::size_t i : order) {
     for (; cell + 1 < grid.n_cells && grid.edge(cell + 1) <= depths[i]; ++cell)
-      below += (grid.edge(cell + 1) - grid.edge(cell)) * cells.phi[cell];
-    const double mean = cells.phi[cell], rise = cells.half_rise.empty() ? 0 : cells.half_rise[cell];
-    const double d = depths[i] - grid.edge(cell), x = d / (grid.edge(cell + 1) - grid.edge(cell));
-    samples[i] = {mean + rise * (2 * x - 1), below.value() + d * (mean - rise * (1 - x))};
+      below += (grid.edge(cell + 1) - grid.edge(cell)) * ((cells.at_bottom(cell) + cells.at_top(cell)) / 2);
+    const double d = depths[i] - grid.edge(cell), width = grid.edge(cell + 1) - grid.edge(cell);
+    const double bottom = cells.at_bottom(cell), top = cells.at_top(cell);
+    const double phi = bottom == top ? top : bottom + (top - bottom) * (d / width);
+    samples[i] = {phi, below.value() + d * (bottom == top ? top : (bottom + phi) / 2)};
   }
   return samples;
 }
 
 Profile<double> profile_of_cells(const Grid& grid, const CellStates& cells) {
-  std::vector<double> edges(grid.n_cells + 1), below(cells.phi.begin(), cells.phi.end()), above = below;
+  std::vector<double> edges(grid.n_cells + 1), below(grid.n_cells), above(grid.n_cells);
   for (std::size_t j = 0; j <= grid.n_cells; ++j) edges[j] = grid.edge(j);
-  for (std::size_t j = 0; j < cells.half_rise.size(); ++j) {
-    below[j] -= cells.half_rise[j];
-    above[j] += cells.half_rise[j];
+  for (std::size_t j = 0; j < grid.n_cells; ++j) {
+    below[j] = cells.at_bottom(j);
+    above[j] = cells.at_top(j);
   }
   return {std::move(edges), std::move(below), std::move(above)};
 }

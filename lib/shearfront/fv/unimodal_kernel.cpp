@@ -40,6 +40,12 @@ class UnimodalRule {
     return far;
   }
 
+  /// f' up to a factor.
+  [[nodiscard]] double slope(double v) const {
+    constexpr double kStep = 0x1p-18;  // about the cube root of the rounding
+    return value(std::min(1.0, v + kStep)) - value(std::max(-1.0, v - kStep));
+  }
+
   [[nodiscard]] double rising(double v) const {
     const double m = flux_.extremum, l = phi(v);
     return flux_.value(flux_.is_minimum == (l > m) ? l : m);
@@ -72,13 +78,20 @@ class UnimodalKernel final : public Kernel {
   FaceBelow step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) const override {
     double h_below = below.h;
     for (std::size_t i = 0; i < n; ++i) {
+      const auto face = static_cast<std::ptrdiff_t>(i + 1);
       const double rising = rule_.rising(v[i]), falling = rule_.falling(v[i + 1]);
-      const double g = scheme_ == Scheme::engquist_osher
-                           ? faces.above[i + 1] * (rising + (falling - at_extremum_))
-                           : rule_.godunov(rising, falling, faces.below[i + 1], faces.above[i + 1]);
-      const double h_above = UnimodalRule::kRest + g;
+      const double g =
+          scheme_ == Scheme::engquist_osher
+              ? faces.above[face] * (rising + (falling - at_extremum_))
+              : rule_.godunov(rising, falling, faces.below[face], coefficient_above(faces, face));
+      double h_above = UnimodalRule::kRest + g;
+      v[i] -= h_above - h_below;
+      if (faces.ratio != nullptr) {
+        hold_back_excess(faces, face - 1, v + i, 1);
+        to_units_above(faces, face, &h_above, 1, UnimodalRule::kRest, true);
+      }
       // A model's rounding near the ends of its range is unknown here: keep the bounds by force.
-      v[i] = std::clamp(v[i] - (h_above - h_below), -1.0, 1.0);
+      v[i] = std::clamp(v[i], -1.0, 1.0);
       h_below = h_above;
     }
     return {h_below, 0, 0, 0};
@@ -99,17 +112,19 @@ class UnimodalKernel final : public Kernel {
 template <Limiter limiter>
 class UnimodalMusclKernel final : public Kernel {
  public:
-  using Pass = MusclPass<UnimodalRule, limiter, 2>;
+  template <bool has_ratio>
+  using Pass = MusclPass<UnimodalRule, limiter, has_ratio, 2>;
 
   explicit UnimodalMusclKernel(const UnimodalFlux& flux) : rule_(flux) {}
 
   FaceBelow step(double* v, const Faces& faces, const FaceBelow& below, std::size_t n) const override {
-    const FaceBelow above = Pass(rule_, v, faces).advance(below, n);
+    const FaceBelow above = faces.ratio != nullptr ? Pass<true>(rule_, v, faces).advance(below, n)
+                                                   : Pass<false>(rule_, v, faces).advance(below, n);
     for (std::size_t i = 0; i < n; ++i) v[i] = std::clamp(v[i], -1.0, 1.0);
     return above;
   }
   void half_rises(const double* v, const Faces& faces, double* rises, std::size_t n) const override {
-    Pass::half_rises(rule_, v, faces, rises, n);
+    Pass<true>::half_rises(rule_, v, faces, rises, n);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
     return {UnimodalRule::kRest, kQuantum, 0.5, rule_.coefficient_weight(), true};

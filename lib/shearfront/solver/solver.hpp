@@ -37,13 +37,15 @@ struct SolverOptions {
   Reconstruction reconstruct = Reconstruction::constant;
   std::size_t layers = 0;                        ///< smooth a(z): number of layers; 0 lets the solver choose
   std::uint64_t max_collisions = 4'000'000'000;  ///< stop with Status::budget_reached after so many
-  std::size_t cells = 400;                       ///< finite volumes: number of equal cells, 1 to 1e8
+  std::size_t cells = 400;                       ///< finite volumes: number of cells, 1 to 1e8
   /// Finite volumes: time step in terms of the largest for which phi is proved to stay in its range, (0, 1].
   /// That step has the Courant number s max a max |f'| dt / dz = 1 in first order and 1/2 in second.
   double cfl = 1.0;
   Limiter limiter = Limiter::mc;  ///< muscl: what bounds the slopes
   /// engquist-osher: coefficient of a face, harmonic mean of a between the middles of the cells or a(z) there
   FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
+  bool align_cells = false;  ///< finite volumes: edges of cells on interfaces, equal cells within a layer
+  bool local_steps = false;  ///< finite volumes: slow parts of the bed take longer steps
   /// Called now and then with (t, collisions or cell updates so far); return false to stop with
   /// Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
