@@ -19,11 +19,24 @@ struct Variant {
   void (*set)(SolverOptions&);
 };
 
+void align(SolverOptions& o) { o.align_cells = true; }
+void step_locally(SolverOptions& o) { o.local_steps = true; }
+
 constexpr Variant kVariants[] = {
     {"front-tracking", "linear", true, true,
      [](SolverOptions& o) { o.reconstruct = Reconstruction::linear; }},
     {"front-tracking", "singular-mapping", false, false,
      [](SolverOptions& o) { o.grid = GridKind::singular_mapping; }},
+    {"engquist-osher", "align-cells", false, false, align},
+    {"engquist-osher", "local-steps", false, false, step_locally},
+    {"engquist-osher", "face-value", false, false,
+     [](SolverOptions& o) { o.face_coefficient = FaceCoefficient::value; }},
+    {"godunov", "align-cells", false, false, align},
+    {"godunov", "local-steps", false, false, step_locally},
+    {"muscl", "minmod", false, false, [](SolverOptions& o) { o.limiter = Limiter::minmod; }},
+    {"muscl", "van-leer", false, false, [](SolverOptions& o) { o.limiter = Limiter::van_leer; }},
+    {"muscl", "align-cells", false, false, align},
+    {"muscl", "local-steps", false, false, step_locally},
 };
 
 LadderKind kind_of(const Guarantees& g) {
