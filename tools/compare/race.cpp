@@ -91,19 +91,16 @@ class Climb {
     options.progress = limits_.progress;
     const SolverRequest request = request_of(scene_, contestant, t_, rung);
     SolverResult result;
-    double longest = 0;
     const double wall = median_time(
         [&] {
           const auto begin = Clock::now();
           result = solve_with(contestant.solver, scene_, request, options);
-          const double took = seconds_since(begin);
-          longest = std::max(longest, took);
-          spent_ += took;
+          spent_ += seconds_since(begin);
           return result.summary.usable();
         },
         limits_.repeats);
     before_ = last_run_;
-    last_run_ = longest;
+    last_run_ = wall;
     const Summary& summary = result.summary;
     if (!summary.usable()) {
       course.ended = summary.status == Status::interrupted ? "interrupted" : summary.message;
