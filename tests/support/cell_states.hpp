@@ -11,7 +11,7 @@
 namespace shearfront::support {
 
 inline std::vector<double> middles(const Scene<double>& scene, std::size_t n_cells) {
-  const fv::Grid grid{scene.bottom(), scene.top(), n_cells};
+  const fv::Grid grid{scene.bottom(), scene.top(), n_cells, {}, {}};
   std::vector<double> z;
   for (std::size_t j = 0; j < n_cells; ++j) z.push_back(grid.middle(j));
   return z;
@@ -33,7 +33,7 @@ std::vector<std::vector<double>> cell_states(const Scene<double>& scene, const s
 }
 
 inline Profile<double> profile_of(const Scene<double>& scene, const std::vector<double>& phi) {
-  return fv::profile_of_cells({scene.bottom(), scene.top(), phi.size()}, {phi, {}});
+  return fv::profile_of_cells({scene.bottom(), scene.top(), phi.size(), {}, {}}, {phi, {}});
 }
 
 }  // namespace shearfront::support

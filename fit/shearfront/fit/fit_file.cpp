@@ -142,6 +142,8 @@ class FitReader {
     number_from_0_to_1(table, "cfl", options.cfl);
     choose(table, "limiter", kLimiterNames, options.limiter);
     choose(table, "face_coefficient", kFaceCoefficientNames, options.face_coefficient);
+    options.align_cells = table.boolean("align_cells", Need::optional).value_or(false);
+    options.local_steps = table.boolean("local_steps", Need::optional).value_or(false);
     choose(table, "grid", kGridNames, options.grid);
     choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
     table.finish();

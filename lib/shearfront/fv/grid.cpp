@@ -2,6 +2,7 @@
 #include "shearfront/fv/grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shearfront/numeric/sum.hpp"
 
@@ -51,6 +52,27 @@ class MeanRate {
 };
 
 }  // namespace
+
+Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells) {
+  const double bottom = scene.bottom(), top = scene.top();
+  std::vector<double> cuts{bottom};
+  for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate()))
+    if (z > bottom && z < top) cuts.push_back(z);
+  cuts.push_back(top);
+  Grid grid{bottom, top, 0, {bottom}, {}};
+  const auto cells_below = [&](double z) {
+    return std::round((z - bottom) / (top - bottom) * static_cast<double>(n_cells));
+  };
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    const double n = std::max(1.0, cells_below(cuts[k + 1]) - cells_below(cuts[k]));
+    const double thickness = cuts[k + 1] - cuts[k];
+    for (double i = 1; i < n; ++i) grid.edges.push_back(cuts[k] + thickness * (i / n));
+    grid.edges.push_back(cuts[k + 1]);
+    grid.widths.resize(grid.edges.size() - 1, thickness / n);
+  }
+  grid.n_cells = grid.widths.size();
+  return grid;
+}
 
 std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> averages(grid.n_cells);

@@ -7,21 +7,31 @@
 
 namespace shearfront::fv {
 
-/// A uniform grid of n_cells >= 1 cells over [bottom, top]; cell j is [edge(j), edge(j + 1)].
+/// A grid of n_cells >= 1 cells over [bottom, top]; cell j is [edge(j), edge(j + 1)]. Uniform unless there
+/// are edges.
 struct Grid {
   double bottom = 0, top = 1;
   std::size_t n_cells = 1;
+  std::vector<double> edges{};   ///< of the cells, or none
+  std::vector<double> widths{};  ///< of the cells, equal to the bit where cells are equal; as many, or none
 
   /// Ascending in j; edge(0) == bottom and edge(n_cells) == top exactly.
   [[nodiscard]] double edge(std::size_t j) const {
+    if (!edges.empty()) return edges[j];
     if (j == n_cells) return top;
     return bottom + (top - bottom) * (static_cast<double>(j) / static_cast<double>(n_cells));
   }
   [[nodiscard]] double middle(std::size_t j) const {
+    if (!edges.empty()) return edges[j] + (edges[j + 1] - edges[j]) / 2;
     return bottom + (top - bottom) * ((static_cast<double>(j) + 0.5) / static_cast<double>(n_cells));
   }
+  /// Width of the cells; of grids with edges the mean.
   [[nodiscard]] double cell_width() const { return (top - bottom) / static_cast<double>(n_cells); }
 };
+
+/// About `n_cells` cells (each layer at least one, their number in proportion to its thickness), equal within
+/// a layer or between two knots of a, with edges on the interfaces.
+[[nodiscard]] Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells);
 
 /// Mean of phi(z, 0) over every cell, exact to rounding, so the grid starts with the mass of the scene.
 /// Continuous in the heights of the initial jumps. Cost: O(n_cells + jumps).

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shearfront/fv/kernel.hpp"
+#include "shearfront/fv/section.hpp"
 
 namespace shearfront::fv {
 
@@ -26,19 +27,18 @@ struct CellStates {
 /// Guaranteed: the states after n steps depend on n only, to the bit, not on how advance() was called.
 class March {
  public:
-  /// `phi`: averages of the cells. `rates`: s a of the cells or of the faces, walls included, see
-  /// fv/grid.hpp. `cfl`: time step in terms of the largest allowed for the fastest of them, in (0, 1].
-  March(const Kernel& kernel, const UnimodalFlux& flux, const std::vector<double>& phi,
-        const std::vector<double>& rates, double cfl);
+  /// `cfl`: time step in terms of the largest allowed, in (0, 1]; sets data.coefficient and data.fastest.
+  /// With data.octaves one step is that of the slowest cells, and the others make 2, 4, 8, ... meanwhile.
+  March(const Kernel& kernel, const UnimodalFlux& flux, CellData data, double cfl);
 
-  [[nodiscard]] std::size_t n_cells() const { return n_cells_; }
+  [[nodiscard]] std::size_t n_cells() const { return phi_.size(); }
   [[nodiscard]] std::uint64_t n_steps() const { return n_steps_; }
-  /// One step lasts cfl dz / speed(): largest_slope times the largest rate over the largest Courant number. 0
-  /// if nothing can ever move.
+  [[nodiscard]] std::uint64_t updates_per_step() const { return updates_per_step_; }
+  /// One step lasts cfl * reference width / speed(). 0 if nothing can ever move.
   [[nodiscard]] double speed() const { return speed_; }
 
-  /// Cost: one cell update per cell and step. Large grids are swept in blocks that stay in the cache for many
-  /// steps.
+  /// Cost: updates_per_step() cell updates a step. Large grids with equal steps everywhere are swept in
+  /// blocks that stay in the cache for many steps.
   void advance(std::uint64_t steps);
   /// Whether a further step would change nothing. Cost: one step.
   [[nodiscard]] bool is_at_rest();
@@ -47,30 +47,29 @@ class March {
   [[nodiscard]] CellStates states(double fraction);
 
  private:
-  /// `steps` <= kDepth steps of all cells.
-  void sweep(std::vector<double>& v, const std::vector<double>& c, std::size_t steps);
-  [[nodiscard]] Faces faces(const std::vector<double>& c, std::size_t first) const;
-  void find_special_faces();
+  /// All cells, and what lies between the sections: borders[i] between the sections i and i + 1.
+  struct Bed {
+    std::vector<Section> sections;
+    std::vector<Border> borders;
+  };
+  /// A step of length 2^octave of all sections up to that octave.
+  void step(Bed& bed, int octave) const;
 
   const Kernel& kernel_;
-  double lo_, hi_;
-  std::size_t n_cells_, n_padded_;
-  std::uint64_t n_steps_ = 0;
-  bool per_cell_;  ///< coefficients belong to cells
+  double lo_, hi_, quantum_;
+  int slowest_octave_ = 0;
+  std::uint64_t n_steps_ = 0, updates_per_step_ = 0;
   double speed_;
-  FaceBelow bottom_;
-  // With kLanes cells beyond the bottom, and more beyond the top.
-  std::vector<double> v_, c_;
-  std::vector<unsigned char> is_special_;
-  std::vector<double> side_v_, side_c_, rises_;  ///< the last, shortened step
+  Bed bed_, side_;  ///< side_: the last, shortened step
+  std::vector<double> phi_, half_rises_, section_rises_;
 };
 
-/// The state of mass `total` (in cells, sum of phi) in which no face carries a flux: phi = hi at the bottom
-/// and lo above (is_minimum; upside down otherwise), with one mixed cell between (Godunov, muscl) or two
+/// The state of mass `total` (sum of phi * width) in which no face carries a flux: phi = hi at the bottom and
+/// lo above (is_minimum; upside down otherwise), with one mixed cell between (Godunov, muscl) or two
 /// (Engquist-Osher, whose steady shocks have f(alpha) + f(beta) = f(m)). It is the only one: without flux,
 /// a face of Godunov has hi below it or lo above it, one of Engquist-Osher f(max(l, m)) + f(min(r, m)) =
-/// f(m); both force this order of states. Accuracy: rounding.
+/// f(m); both force this order of states. Accuracy: rounding. `widths`: of the cells, in any unit.
 [[nodiscard]] std::vector<double> steady_state(Scheme scheme, const UnimodalFlux& flux, double total,
-                                               std::size_t n_cells);
+                                               const std::vector<double>& widths);
 
 }  // namespace shearfront::fv

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "shearfront/fv/march.hpp"
+#include "shearfront/fv/octaves.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/numeric/sum.hpp"
 
@@ -28,14 +29,7 @@ std::string refusal(const UnimodalFlux& flux, const SolverOptions& options) {
     return "cells = " + std::to_string(options.cells) + "; must be <= " + std::to_string(kMostCells);
   if (!(options.cfl > 0 && options.cfl <= 1))
     return "cfl = " + number_text(options.cfl) + "; must be > 0 and <= 1";
-  if (options.align_cells || options.local_steps) return "aligned cells and local steps are not there yet";
   return flux.refusal;
-}
-
-double sum_of(std::span<const double> xs) {
-  CompensatedSum<double> sum;
-  for (const double x : xs) sum += x;
-  return sum.value();
 }
 
 std::vector<double> rates_of(Scheme scheme, const Scene<double>& scene, const Grid& grid,
@@ -47,18 +41,35 @@ std::vector<double> rates_of(Scheme scheme, const Scene<double>& scene, const Gr
   return is_smooth ? face_values(scene, grid) : cell_rates(scene, grid);
 }
 
+CellData cell_data(Scheme scheme, const Scene<double>& scene, const Grid& grid,
+                   const SolverOptions& options) {
+  CellData data{initial_averages(scene, grid), rates_of(scheme, scene, grid, options), {}, {}, 0, 0};
+  for (const double width : grid.widths) data.narrowness.push_back(grid.cell_width() / width);
+  if (options.local_steps) data.octaves = octaves_of(data);
+  return data;
+}
+
 /// A march through the times of a request.
 class Run {
  public:
   Run(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
       const SolverOptions& options)
       : options_(options),
-        grid_{scene.bottom(), scene.top(), options.cells},
-        march_(kernel, flux, initial_averages(scene, grid_), rates_of(scheme, scene, grid_, options),
-               options.cfl),
+        grid_(options.align_cells ? aligned_grid(scene, options.cells)
+                                  : Grid{scene.bottom(), scene.top(), options.cells, {}, {}}),
+        march_(kernel, flux, cell_data(scheme, scene, grid_, options), options.cfl),
         steps_per_time_(march_.speed() / (options.cfl * grid_.cell_width())),
-        lost_per_step_(kernel.numbers().quantum / 4 / static_cast<double>(options.cells)),
-        steady_(steady_state(scheme, flux, sum_of(march_.states(0).phi), options.cells)) {}
+        lost_per_step_(kernel.numbers().quantum / 4 / static_cast<double>(grid_.n_cells) *
+                       static_cast<double>(march_.updates_per_step()) / static_cast<double>(grid_.n_cells)) {
+    std::vector<double> widths(grid_.n_cells, 1.0);
+    if (!grid_.widths.empty())
+      for (std::size_t j = 0; j < grid_.n_cells; ++j) widths[j] = grid_.widths[j] / grid_.cell_width();
+    CompensatedSum<double> total;
+    const CellStates start = march_.states(0);
+    for (std::size_t j = 0; j < grid_.n_cells; ++j) total += start.phi[j] * widths[j];
+    steady_ = steady_state(scheme, flux, total.value(), widths);
+    relative_widths_ = std::move(widths);
+  }
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] std::uint64_t n_updates() const { return n_updates_; }
@@ -73,7 +84,7 @@ class Run {
     const double steps = t * steps_per_time_, whole = std::floor(steps);
     if (status = march_to(whole, t); status != Status::ok) return {};
     if (is_at_rest_) return march_.states(0);
-    n_updates_ += steps > whole ? options_.cells : 0;
+    n_updates_ += steps > whole ? march_.updates_per_step() : 0;
     return march_.states(steps - whole);
   }
 
@@ -84,11 +95,11 @@ class Run {
       if (!(done < steps)) return Status::ok;
       if (options_.progress && !options_.progress(t * (done / steps), n_updates_)) return Status::interrupted;
       if (static_cast<double>(n_updates_) > kMostUpdates) return Status::budget_reached;
-      const std::uint64_t call = std::clamp<std::uint64_t>(kUpdatesPerCall / options_.cells, 1,
-                                                           std::max(kLeastSteps, options_.cells));
+      const std::uint64_t call = std::clamp<std::uint64_t>(kUpdatesPerCall / march_.updates_per_step(), 1,
+                                                           std::max(kLeastSteps, grid_.n_cells));
       const auto n = static_cast<std::uint64_t>(std::min(static_cast<double>(call), steps - done));
       march_.advance(n);
-      n_updates_ += n * options_.cells;
+      n_updates_ += n * march_.updates_per_step();
       if (march_.n_steps() >= next_check_) check_rest();
     }
     // What rounding has stopped or will have taken by then is too much if the bed is not steady.
@@ -96,13 +107,13 @@ class Run {
   }
 
   void check_rest() {
-    next_check_ = march_.n_steps() + std::max(kLeastSteps, options_.cells);
+    next_check_ = march_.n_steps() + std::max(kLeastSteps, grid_.n_cells);
     is_at_rest_ = march_.is_at_rest();
     if (!is_at_rest_) return;
     double amount = 0, largest = 0;
     const auto phi = march_.states(0).phi;
     for (std::size_t j = 0; j < phi.size(); ++j)
-      largest = std::max(largest, std::abs(amount += phi[j] - steady_[j]));
+      largest = std::max(largest, std::abs(amount += (phi[j] - steady_[j]) * relative_widths_[j]));
     is_steady_ = largest <= kSteadyTolerance * static_cast<double>(phi.size());
   }
 
@@ -111,7 +122,7 @@ class Run {
   March march_;
   double steps_per_time_;
   double lost_per_step_;  ///< bound for what rounding takes from M / height in a step
-  std::vector<double> steady_;
+  std::vector<double> steady_, relative_widths_;
   std::uint64_t n_updates_ = 0, next_check_ = 0;
   bool is_at_rest_ = false, is_steady_ = false;
 };
