@@ -16,7 +16,7 @@ struct UnimodalFlux {
   double extremum = 0.5;     ///< where f is least (is_minimum) or largest
   bool is_minimum = true;    ///< grains of this kind sink (f <= 0); otherwise they rise
   double largest_slope = 1;  ///< max |f'|
-  std::function<double(double)> value;
+  std::function<double(double)> value, derivative;
   bool is_quadratic = false;  ///< f = phi (phi - 1): there is a fast kernel
   std::string refusal;        ///< why f cannot be used; empty if it can
 };
@@ -31,6 +31,7 @@ template <class Model>
   flux.hi = model.kRange[1];
   flux.is_quadratic = std::is_same_v<Model, Quadratic>;
   flux.value = [model](double phi) { return model.value(phi); };
+  flux.derivative = [model](double phi) { return model.derivative(phi); };
   if (model.kExtrema.size() != 1) {
     flux.refusal =
         "flux " + std::string(Model::kName) + " has more than one extremum or none; front-tracking covers it";

@@ -41,10 +41,7 @@ class UnimodalRule {
   }
 
   /// f' up to a factor.
-  [[nodiscard]] double slope(double v) const {
-    constexpr double kStep = 0x1p-18;  // about the cube root of the rounding
-    return value(std::min(1.0, v + kStep)) - value(std::max(-1.0, v - kStep));
-  }
+  [[nodiscard]] double slope(double v) const { return flux_.derivative(phi(v)); }
 
   [[nodiscard]] double rising(double v) const {
     const double m = flux_.extremum, l = phi(v);
