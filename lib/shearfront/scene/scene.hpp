@@ -27,6 +27,24 @@ struct SceneSpec {
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z
 };
 
+/// Adds a problem if s a(z), which every engine computes with, overflows or underflows at a knot or a wall;
+/// between them a(z) is monotone. Precondition: the numbers are right one by one.
+template <Real Scalar>
+void check_scaled_rate(const SceneSpec<Scalar>& spec, Problems& problems) {
+  const auto check = [&](const Scalar& z) {
+    const Scalar a = std::visit([&](const auto& rate) { return rate.value(z); }, spec.shear_rate);
+    const Scalar scaled = spec.scale * a;
+    if (scaled > 0 && is_finite(scaled)) return true;
+    problems.push_back({"shear_rate.scale", number_text(spec.scale),
+                        "must keep s a(z) a positive finite number on the whole domain (a(" + number_text(z) +
+                            ") = " + number_text(a) + ")"});
+    return false;
+  };
+  if (!check(spec.bottom) || !check(spec.top)) return;
+  for (const Scalar& z : std::visit([](const auto& rate) { return rate.knots(); }, spec.shear_rate))
+    if (z > spec.bottom && z < spec.top && !check(z)) return;
+}
+
 /// All that is wrong with a specification, in the order of the entries of a scene file; empty if nothing is.
 template <Real Scalar>
 [[nodiscard]] Problems find_problems(const SceneSpec<Scalar>& spec) {
@@ -50,6 +68,7 @@ template <Real Scalar>
       },
       spec.shear_rate);
   check_number("shear_rate.scale", Range::positive, spec.scale, problems);
+  if (problems.empty()) check_scaled_rate(spec, problems);
   check_number("initial.breaks", Range::any, spec.initial_breaks, problems);
   if (domain_ok) check_breaks("initial.breaks", spec.initial_breaks, spec.bottom, spec.top, problems);
   const auto range = std::visit([](const auto& flux) { return flux.kRange; }, spec.flux);
