@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -148,6 +149,36 @@ TYPED_TEST(ShearRateLaws, EveryFieldRefusesNotANumber) {
       EXPECT_EQ(problems[0].key.rfind(key, 0), 0u);
     }
   }
+}
+
+TEST(TableOfKnotsAnUlpApart, MeansLieBetweenTheValues) {
+  const double z1 = 0.1111110890848754, z2 = std::nextafter(z1, 1.0), z3 = std::nextafter(z2, 1.0);
+  const Table<double> table{{0, z1, z2, z3, 1}, {2.3, 3.4, 1.2, 6.7, 3.3}};
+  for (std::size_t i = 0; i + 1 < table.z.size(); ++i) {
+    const double mean = table.harmonic_mean(table.z[i], table.z[i + 1]);
+    EXPECT_GE(mean, std::min(table.values[i], table.values[i + 1])) << i;
+    EXPECT_LE(mean, std::max(table.values[i], table.values[i + 1])) << i;
+  }
+}
+
+TEST(ScaledRates, MustNotOverflowOrVanish) {
+  SceneSpec<double> spec;
+  spec.initial_values = {0.5};
+  spec.shear_rate = Piecewise<double>{{0.3}, {2.4, 1e200}};
+  for (const double scale : {1e-300, 1.0, 1e100}) {
+    spec.scale = scale;
+    EXPECT_TRUE(find_problems(spec).empty()) << scale;
+  }
+  spec.scale = 1e200;
+  ASSERT_EQ(find_problems(spec).size(), 1u);
+  EXPECT_EQ(
+      find_problems(spec)[0].text(),
+      "shear_rate.scale = 1e+200; must keep s a(z) a positive finite number on the whole domain (a(1) = "
+      "1e+200)");
+  spec.shear_rate = Piecewise<double>{{0.3, 0.6}, {1, 1e-200, 1}};
+  spec.scale = 1e-200;
+  ASSERT_EQ(find_problems(spec).size(), 1u);
+  EXPECT_EQ(find_problems(spec)[0].key, "shear_rate.scale");
 }
 
 }  // namespace

@@ -54,12 +54,14 @@ struct Table {
   /// Harmonic mean over [lo, hi], which must not contain a knot inside: the logarithmic mean of the two end
   /// values.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& lo, const Scalar& hi) const {
-    using std::abs;
     using std::log1p;
-    const std::size_t i = segment(lo + (hi - lo) / Scalar(2));
-    const Scalar slope = (values[i + 1] - values[i]) / (z[i + 1] - z[i]);
-    const Scalar a_lo = values[i] + slope * (lo - z[i]);
-    const Scalar x = slope * (hi - lo) / a_lo;  // relative rise over [lo, hi], > -1
+    const std::size_t i = segment(lo);
+    // By weights in [0, 1]: a slope times a distance may leave the range where points lie next to each other.
+    const auto at = [&](const Scalar& height) {
+      const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
+      return Scalar(values[i] + w * (values[i + 1] - values[i]));
+    };
+    const Scalar a_lo = at(lo), x = (at(hi) - a_lo) / a_lo;  // relative rise over [lo, hi], > -1
     return x == 0 ? a_lo : a_lo * (x / log1p(x));
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return z; }
