@@ -196,8 +196,9 @@ class SolverLaws {
                             [&] { return at(0, request_.times[i]); });
     }
   }
-  /// The scheme's own distance: its cells are equal, while the edges of a profile are rounded.
+  /// The scheme's own distance where its cells are equal: the edges of a profile are rounded.
   [[nodiscard]] double distance(const Profile<double>& a, const Profile<double>& b) const {
+    if (options_.align_cells) return l1_distance(a, b);
     CompensatedSum<double> sum;
     for (std::size_t j = 0; j < a.n_cells(); ++j) sum += std::abs(a.below()[j] - b.below()[j]);
     return sum.value() * (bed_.trial.height() / static_cast<double>(a.n_cells()));

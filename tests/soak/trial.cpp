@@ -179,6 +179,7 @@ class Draw {
     options.cells = static_cast<std::size_t>(chance(0.1) ? make_.integer(1, 8) : make_.integer(9, 200));
     options.cfl = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
     options.max_collisions = 20'000;
+    options.limiter = static_cast<Limiter>(make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1));
   }
 
   SceneMaker make_;
@@ -234,7 +235,8 @@ std::string text_of(const Trial& trial) {
   return "# seed " + std::to_string(trial.seed) + ": times " + number_text(trial.early) + ", " +
          number_text(trial.late) + "; resolution " + number_text(o.resolution) + ", cells " +
          std::to_string(o.cells) + ", cfl " + number_text(o.cfl) + ", layers " + std::to_string(o.layers) +
-         "\n" + text_of(trial.spec);
+         ", limiter " + std::string(kLimiterNames[static_cast<std::size_t>(o.limiter)]) + "\n" +
+         text_of(trial.spec);
 }
 
 SceneSpec<double> upside_down(const SceneSpec<double>& spec) {
