@@ -180,6 +180,8 @@ class Draw {
     options.cfl = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
     options.max_collisions = 20'000;
     options.limiter = static_cast<Limiter>(make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1));
+    options.local_steps = chance(0.3);
+    options.align_cells = chance(0.3);
   }
 
   SceneMaker make_;
@@ -235,7 +237,8 @@ std::string text_of(const Trial& trial) {
   return "# seed " + std::to_string(trial.seed) + ": times " + number_text(trial.early) + ", " +
          number_text(trial.late) + "; resolution " + number_text(o.resolution) + ", cells " +
          std::to_string(o.cells) + ", cfl " + number_text(o.cfl) + ", layers " + std::to_string(o.layers) +
-         ", limiter " + std::string(kLimiterNames[static_cast<std::size_t>(o.limiter)]) + "\n" +
+         ", limiter " + std::string(kLimiterNames[static_cast<std::size_t>(o.limiter)]) +
+         (o.local_steps ? ", local steps" : "") + (o.align_cells ? ", aligned cells" : "") + "\n" +
          text_of(trial.spec);
 }
 
