@@ -38,6 +38,10 @@ struct Candidate {
   }
 };
 
+/// What M(z, .) comes to in the end: z - bottom (phi = 1 all the way below z), the whole mass, or, at the
+/// steady height, both.
+enum class FinalAmount : std::uint8_t { full_below, all_mass, both };
+
 /// A medium in which the Lax-Hopf formula is evaluated.
 template <Real Scalar>
 class Medium {
@@ -47,8 +51,13 @@ class Medium {
   /// value exceeds `upper` when the best one does. Domain: bottom <= z <= top, 0 < t < infinity.
   [[nodiscard]] virtual Candidate<Scalar> best_free(const Scalar& z, const Scalar& t,
                                                     const Scalar& upper) const = 0;
+  /// The same among paths with H > 0 only.
+  [[nodiscard]] virtual Candidate<Scalar> best_moving(const Scalar& z, const Scalar& t) const = 0;
   /// Time a pure state (H = 0) needs between two heights: |int dz / (s a)|.
   [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const = 0;
+  /// Final amount minus the value of a path that best_free(z, t) returned.
+  [[nodiscard]] virtual Scalar shortfall(const Candidate<Scalar>& path, const Scalar& z, const Scalar& t,
+                                         FinalAmount amount) const = 0;
   /// s a(z); at a jump of a the value above it, at the top the value below.
   [[nodiscard]] virtual Scalar rate_at(const Scalar& z) const = 0;
 };

@@ -14,13 +14,13 @@ namespace shearfront::hopf_lax {
 /// constant.
 ///
 ///   x       ascending heights, bottom and top included; a jump on an interface is one point
-///   M       int_bottom^x[i] phi(z, 0) dz, compensated sums
+///   M       int_bottom^x[i] phi(z, 0) dz; M + M_low is the same in twice the digits
 ///   phi     initial concentration of each cell
 ///   layer   layer of each cell
 ///   first   first[k] is the point at boundary k, so the cells of layer k are first[k] .. first[k+1] - 1
 template <Real Scalar>
 struct Cells {
-  std::vector<Scalar> x, M, phi;
+  std::vector<Scalar> x, M, M_low, phi;
   std::vector<std::size_t> layer, first;
 
   Cells(const Scene<Scalar>& scene, const std::vector<Scalar>& boundaries) {
@@ -37,11 +37,16 @@ struct Cells {
         first.push_back(i);
         ++k;
       }
-      M.push_back(sum.value());
+      const TwoSum<Scalar> amount = sum.parts();
+      M.push_back(amount.high);
+      M_low.push_back(amount.low);
       if (i + 1 == x.size()) break;
       phi.push_back(values[piece]);
       layer.push_back(k - 1);
-      sum += (x[i + 1] - x[i]) * values[piece];
+      const TwoSum<Scalar> width(x[i + 1], Scalar(-x[i]));
+      const TwoProduct<Scalar> inside(width.high, values[piece]);
+      sum += inside.high;
+      sum += inside.low + width.low * values[piece];
     }
   }
 

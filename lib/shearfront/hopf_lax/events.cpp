@@ -57,10 +57,13 @@ bool is_steady(const Scene<Scalar>& scene) {
 template <Real Scalar>
 Scalar last_time(const Scene<Scalar>& scene, const Medium<Scalar>& medium, const Scalar& z,
                  const Scalar& mass) {
-  const Scalar target = std::min(Scalar(z - scene.bottom()), mass);
+  const Scalar steady_height = std::min(Scalar(scene.bottom() + mass), scene.top());
+  const auto amount = z < steady_height   ? hopf_lax::FinalAmount::full_below
+                      : z > steady_height ? hopf_lax::FinalAmount::all_mass
+                                          : hopf_lax::FinalAmount::both;
   const Scalar start =
       std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(z, scene.top()));
-  return hopf_lax::final_time(medium, z, target, start, Scalar(scene.top() - scene.bottom()));
+  return hopf_lax::final_time(medium, z, amount, start, Scalar(scene.top() - scene.bottom()));
 }
 
 }  // namespace

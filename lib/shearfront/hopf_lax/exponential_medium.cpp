@@ -40,6 +40,17 @@ bool ExponentialMedium<Scalar>::turns_outside(const Scalar& p0, const Scalar& p,
 template <Real Scalar>
 Candidate<Scalar> ExponentialMedium<Scalar>::best_free(const Scalar& z, const Scalar& t,
                                                        const Scalar& /*upper*/) const {
+  return search(z, t, false);
+}
+
+template <Real Scalar>
+Candidate<Scalar> ExponentialMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t) const {
+  return search(z, t, true);
+}
+
+template <Real Scalar>
+Candidate<Scalar> ExponentialMedium<Scalar>::search(const Scalar& z, const Scalar& t,
+                                                    bool moving_only) const {
   using std::log1p;
   Candidate<Scalar> best;
   // Finite speed: with w = s a(z) t / decay, starts x above z need exp((x - z) / decay) <= 1 + w, starts
@@ -50,7 +61,8 @@ Candidate<Scalar> ExponentialMedium<Scalar>::best_free(const Scalar& z, const Sc
   const Scalar lowest = w < 1 ? Scalar(z + decay_ * log1p(Scalar(-w)) - margin) : cells_.x.front();
   const std::size_t last = cells_.cell_at(highest);
   for (std::size_t i = cells_.cell_at(lowest); i <= last; ++i) {
-    try_cell(z, t, i, best);
+    const bool is_pure = cells_.phi[i] == 0 || cells_.phi[i] == 1;
+    if (!(moving_only && is_pure)) try_cell(z, t, i, best);
     if (i > 0) try_source(z, t, i, best);
   }
   return best;
@@ -118,6 +130,15 @@ void ExponentialMedium<Scalar>::try_cell(const Scalar& z, const Scalar& t, std::
   path.upward = path.p > Scalar(0.5);
   path.source = i;
   if (path.better_than(best)) best = path;
+}
+
+template <Real Scalar>
+Scalar ExponentialMedium<Scalar>::shortfall(const Candidate<Scalar>& path, const Scalar& z,
+                                            const Scalar& /*t*/, FinalAmount amount) const {
+  const Scalar below = z - cells_.x.front();
+  const Scalar& mass = cells_.M.back();
+  const bool full = amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward);
+  return (full ? below : mass) - path.value;
 }
 
 template class ExponentialMedium<double>;

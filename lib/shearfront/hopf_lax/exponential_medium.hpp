@@ -28,12 +28,16 @@ class ExponentialMedium final : public Medium<Scalar> {
 
   [[nodiscard]] Candidate<Scalar> best_free(const Scalar& z, const Scalar& t,
                                             const Scalar& upper) const override;
+  [[nodiscard]] Candidate<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const override;
+  [[nodiscard]] Scalar shortfall(const Candidate<Scalar>& path, const Scalar& z, const Scalar& t,
+                                 FinalAmount amount) const override;
   [[nodiscard]] Scalar rate_at(const Scalar& z) const override;
   [[nodiscard]] const Cells<Scalar>& cells() const { return cells_; }
   [[nodiscard]] const Scalar& decay() const { return decay_; }
 
  private:
+  [[nodiscard]] Candidate<Scalar> search(const Scalar& z, const Scalar& t, bool moving_only) const;
   void try_source(const Scalar& z, const Scalar& t, std::size_t i, Candidate<Scalar>& best) const;
   void try_cell(const Scalar& z, const Scalar& t, std::size_t i, Candidate<Scalar>& best) const;
   [[nodiscard]] bool turns_outside(const Scalar& p0, const Scalar& p, const Scalar& H) const;

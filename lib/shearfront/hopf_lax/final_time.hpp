@@ -6,29 +6,37 @@
 
 namespace shearfront::hopf_lax {
 
-/// First time at which M(z, t) = target, where target = min(z - bottom, m) is the final value at z.
+/// First time at which M(z, t) reaches its final amount.
 ///
-/// Finds the root of N(t) = target, N the least value over paths that do not start at a wall: before the root
-/// N = M is increasing with slope H, after it N > target (or no such path is left). Newton with the known
-/// slope, kept inside a bracket. Paths with H = 0 that tie with the target (a pure region that reached z
-/// before the wall's own path) are told from real ones by kTie: their values differ from the target either by
-/// rounding or by the volume of a missing region. Precondition: M(z, 0) < target. `start` is any positive
-/// guess. Cost: about 10 queries.
+/// Finds the root of N(t) = amount, N the least value over paths that do not start at a wall: before the root
+/// N = M is increasing with slope H, after it N > amount (or no such path is left). Newton with the known
+/// slope, kept inside a bracket, on the shortfall itself: where H is small, the difference of two rounded
+/// amounts would cost u (top - bottom) / H of the time. For the same reason a path with H = 0 that ties with
+/// the amount (a pure region that reached z before the wall's own path; `tie` tells it from one that misses a
+/// real volume) makes way for the best moving one, whose shortfall decides. Precondition: M(z, 0) < amount.
+/// `start` is any positive guess. Cost: about 10 queries.
 template <Real Scalar>
-[[nodiscard]] Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, const Scalar& target,
+[[nodiscard]] Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
                                 const Scalar& start, const Scalar& height) {
   const Scalar u = unit_roundoff<Scalar>();
   const Scalar tie = Scalar(64) * u * height;
+  const auto shortfall = [&](const Candidate<Scalar>& path, const Scalar& time) {
+    return path.kind == PathKind::none ? Scalar(0) : medium.shortfall(path, z, time, amount);
+  };
   Scalar lo(0), hi = infinity<Scalar>(), t = start;
   constexpr int kMaxQueries = 4000;  // bisection of the whole exponent range
   for (int n = 0; n < kMaxQueries; ++n) {
-    const Candidate<Scalar> best = medium.best_free(z, t, infinity<Scalar>());
-    const bool done =
-        best.kind == PathKind::none || best.value >= target || (best.H == 0 && best.value >= target - tie);
-    (done ? hi : lo) = t;
+    Candidate<Scalar> best = medium.best_free(z, t, infinity<Scalar>());
+    Scalar missing = shortfall(best, t);
+    if (best.kind != PathKind::none && best.H == 0 && missing <= tie) {
+      best = medium.best_moving(z, t);
+      missing = shortfall(best, t);
+    }
+    const bool none = best.kind == PathKind::none;
+    (missing > 0 ? lo : hi) = t;
     Scalar next = t;
-    if (best.kind != PathKind::none && best.H > 0) {
-      const Scalar step = (target - best.value) / best.H;
+    if (!none && best.H > 0) {
+      const Scalar step = missing / best.H;
       next = t + step;
       const Scalar size = step < 0 ? Scalar(-step) : step;
       if (size <= Scalar(4) * u * t) return next;

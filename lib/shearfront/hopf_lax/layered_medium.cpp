@@ -8,7 +8,8 @@ namespace shearfront::hopf_lax {
 template <Real Scalar>
 struct LayeredMedium<Scalar>::Query {
   Scalar z, t, upper;
-  std::size_t k;  ///< layer of z
+  std::size_t k;             ///< layer of z
+  bool moving_only = false;  ///< leave out H = 0
 };
 
 namespace {
@@ -68,8 +69,17 @@ LayeredMedium<Scalar>::LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scal
 template <Real Scalar>
 Candidate<Scalar> LayeredMedium<Scalar>::best_free(const Scalar& z, const Scalar& t,
                                                    const Scalar& upper) const {
-  const Query query{z, t, upper, geometry_.layers.layer_at(z)};
-  const std::size_t k = query.k;
+  return search({z, t, upper, geometry_.layers.layer_at(z)});
+}
+
+template <Real Scalar>
+Candidate<Scalar> LayeredMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t) const {
+  return search({z, t, infinity<Scalar>(), geometry_.layers.layer_at(z), true});
+}
+
+template <Real Scalar>
+Candidate<Scalar> LayeredMedium<Scalar>::search(const Query& query) const {
+  const auto& [z, t, upper, k, moving_only] = query;
   Candidate<Scalar> best;
   for (const bool upward : {true, false}) {
     Sweep<Scalar> sweep{
@@ -203,6 +213,7 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
   if (sweep.upward ? phi < half : phi > half) return;
   if (!own && phi == half) return;  // at rest, never leaves its cell
   const Scalar& h = h_cell_[i];
+  if (query.moving_only && h == 0) return;
   if (!own && !(h < sweep.r_min)) return;
   const Scalar& r = geometry_.rate[sweep.start];
   const Scalar speed = r * (sweep.upward ? phi + (phi - Scalar(1)) : (Scalar(1) - phi) - phi);
@@ -254,6 +265,66 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
     path.p = sweep.upward ? (Scalar(1) + q) / Scalar(2) : Scalar(2) * path.H * ir / (Scalar(1) + q);
   }
   if (path.better_than(best)) best = path;
+}
+
+/// sum d (1 - q) / 2 between two heights on the path: what going up gains less than d, or going down more
+/// than 0.
+template <Real Scalar>
+Scalar LayeredMedium<Scalar>::loss(const Candidate<Scalar>& path, const Scalar& z1, const Scalar& z2) const {
+  const Geometry<Scalar>& g = geometry_;
+  const Scalar& lo = std::min(z1, z2);
+  const Scalar& hi = std::max(z1, z2);
+  Scalar sum(0);
+  for (std::size_t k = g.layers.layer_at(lo); k < g.layers.n_layers() && g.layers.boundary(k) < hi; ++k) {
+    const Scalar d = std::min(hi, g.layers.boundary(k + 1)) - std::max(lo, g.layers.boundary(k));
+    if (!(d > 0)) continue;
+    const Scalar q = momentum_root<Scalar>(
+        (g.rate[k] - path.r_reference) + path.r_reference * path.x * path.x, g.inverse_rate[k]);
+    sum += d * (path.H * g.inverse_rate[k] / (Scalar(1) + q));
+  }
+  return Scalar(2) * sum;
+}
+
+/// With U the height gained by the legs of the path that go up, its cost is U + H t - sum d (1 - q) / 2, so
+/// the shortfall is (final amount - initial amount at the start - U) - H t + sum d (1 - q) / 2: the bracket
+/// holds data only, and the other two terms are small when the bracket is.
+template <Real Scalar>
+Scalar LayeredMedium<Scalar>::shortfall(const Candidate<Scalar>& path, const Scalar& z, const Scalar& t,
+                                        FinalAmount amount) const {
+  CompensatedSum<Scalar> sum;
+  if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
+    sum += z;
+    sum += -cells_.x.front();
+  } else {
+    sum += cells_.M.back();
+    sum += cells_.M_low.back();
+  }
+  sum += -cells_.M[path.source];
+  sum += -cells_.M_low[path.source];
+  if (path.kind == PathKind::constant) {
+    const TwoSum<Scalar> inside(path.foot, Scalar(-cells_.x[path.source]));
+    const TwoProduct<Scalar> initial(inside.high, cells_.phi[path.source]);
+    sum += -initial.high;
+    sum += -(initial.low + inside.low * cells_.phi[path.source]);
+  }
+  Scalar lost(0);
+  const auto leg = [&](const Scalar& from, const Scalar& to) {
+    if (from < to) {
+      sum += from;
+      sum += -to;
+    }
+    lost += loss(path, from, to);
+  };
+  if (path.kind == PathKind::waiting) {
+    const Scalar& rest = geometry_.layers.boundary(path.interface);
+    leg(path.foot, rest);
+    leg(rest, z);
+  } else {
+    leg(path.foot, z);
+  }
+  sum += Scalar(-path.H * t);
+  sum += lost;
+  return sum.value();
 }
 
 template class LayeredMedium<double>;

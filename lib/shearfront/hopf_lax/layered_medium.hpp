@@ -37,9 +37,14 @@ class LayeredMedium final : public Medium<Scalar> {
 
   [[nodiscard]] Candidate<Scalar> best_free(const Scalar& z, const Scalar& t,
                                             const Scalar& upper) const override;
+  [[nodiscard]] Candidate<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const override {
     return hopf_lax::travel_time(geometry_, z1, z2, Scalar(0));
   }
+  /// In twice the digits where amounts nearly cancel; error of a few u H t, far below u (top - bottom) where
+  /// little is missing.
+  [[nodiscard]] Scalar shortfall(const Candidate<Scalar>& path, const Scalar& z, const Scalar& t,
+                                 FinalAmount amount) const override;
   [[nodiscard]] Scalar rate_at(const Scalar& z) const override {
     return geometry_.rate[geometry_.layers.layer_at(z)];
   }
@@ -52,11 +57,13 @@ class LayeredMedium final : public Medium<Scalar> {
 
  private:
   struct Query;
+  [[nodiscard]] Candidate<Scalar> search(const Query& query) const;
   void search_layer(const Query& query, Sweep<Scalar>& sweep, Candidate<Scalar>& best) const;
   void search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin, std::size_t end,
                     Candidate<Scalar>& best) const;
   FanState<Scalar> try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i, bool prune,
                               Candidate<Scalar>& best) const;
+  [[nodiscard]] Scalar loss(const Candidate<Scalar>& path, const Scalar& z1, const Scalar& z2) const;
   void try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i, Candidate<Scalar>& best) const;
 
   Geometry<Scalar> geometry_;

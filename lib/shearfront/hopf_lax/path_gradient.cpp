@@ -14,8 +14,9 @@ namespace {
 template <Real Scalar>
 class Legs {
  public:
-  Legs(const Geometry<Scalar>& g, const Candidate<Scalar>& path, LayeredGradient<Scalar>& out)
-      : g_(g), path_(path), out_(out) {}
+  Legs(const Geometry<Scalar>& g, const Candidate<Scalar>& path, std::size_t end,
+       LayeredGradient<Scalar>& out)
+      : g_(g), path_(path), end_(end), out_(out) {}
 
   [[nodiscard]] Scalar q(std::size_t k) const {
     return momentum_root<Scalar>((g_.rate[k] - path_.r_reference) + path_.r_reference * path_.x * path_.x,
@@ -27,8 +28,7 @@ class Legs {
   void add(const Scalar& z1, const Scalar& z2) {
     const Scalar& lo = std::min(z1, z2);
     const Scalar& hi = std::max(z1, z2);
-    Scalar q_below(0), slowness_below(0);
-    bool crossed = false;
+    std::size_t below = kNone;
     for (std::size_t k = g_.layers.layer_at(lo); k < g_.layers.n_layers() && g_.layers.boundary(k) < hi;
          ++k) {
       const Scalar d = std::min(hi, g_.layers.boundary(k + 1)) - std::max(lo, g_.layers.boundary(k));
@@ -37,28 +37,46 @@ class Legs {
       const Scalar qk = q(k), slowness = ir / qk;
       // d / (r^2 q^3) times the fastest rate, as all derivatives of T here: their ratios are what counts.
       const Scalar steep = d * slowness * (g_.fastest * ir) / (qk * qk);
-      const Scalar scaled = (g_.fastest * ir) / qk;
       auto& rate = out_.rates[k - out_.first];
       rate.M += d * slowness * path_.H * ir;
       rate.phi -= steep * (Scalar(1) + qk * qk) / Scalar(2);
-      T_H += Scalar(2) * steep;
+      (k == end_ ? steep_end : steep_others) += steep;
       time += d * slowness;
-      if (crossed) {
-        auto& boundary = out_.boundaries[k - out_.first];
-        boundary.M += (q_below - qk) / Scalar(2);
-        boundary.phi += slowness_below - scaled;
-      }
-      crossed = true;
-      q_below = qk;
-      slowness_below = scaled;
+      if (below != kNone) cross(below, k);
+      below = k;
+    }
+  }
+  [[nodiscard]] Scalar T_H() const { return Scalar(2) * (steep_end + steep_others); }
+  /// Momentum of a path that leaves a height in layer k upwards (downwards).
+  [[nodiscard]] StartMomentum<Scalar> momentum(std::size_t k, bool upward) const {
+    const Scalar qk = q(k), large = (Scalar(1) + qk) / Scalar(2);
+    const Scalar small = Scalar(2) * path_.H * g_.inverse_rate[k] / (Scalar(1) + qk);
+    return upward ? StartMomentum<Scalar>{large, small} : StartMomentum<Scalar>{small, large};
+  }
+
+  Scalar steep_end{0}, steep_others{0}, time{0};
+
+ private:
+  /// The boundary between layers b and a = b + 1: differences of q and of 1 / (r q) in conjugate form, so
+  /// that nearly equal layers lose nothing.
+  void cross(std::size_t b, std::size_t a) {
+    const Scalar &r_b = g_.rate[b], &r_a = g_.rate[a], &ir_b = g_.inverse_rate[b], &ir_a = g_.inverse_rate[a];
+    const Scalar q_b = q(b), q_a = q(a), two(2);
+    auto& boundary = out_.boundaries[a - out_.first];
+    boundary.M += two * (path_.H * ir_a) * ((r_b - r_a) * ir_b) / (q_a + q_b);
+    const Scalar s_b = g_.fastest * ir_b / q_b, s_a = g_.fastest * ir_a / q_a;
+    if (r_a > two * r_b || r_b > two * r_a) {
+      boundary.phi += s_b - s_a;
+    } else {
+      const Scalar ratio = r_a * ir_b;  // of order 1, as is everything below
+      boundary.phi += s_b * ((r_a - r_b) * ir_b) * (ratio + q_b * q_b) / (ratio * q_a * (ratio * q_a + q_b));
     }
   }
 
-  Scalar T_H{0}, time{0};
-
- private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   const Geometry<Scalar>& g_;
   const Candidate<Scalar>& path_;
+  std::size_t end_;
   LayeredGradient<Scalar>& out_;
 };
 
@@ -84,7 +102,7 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
   out.first = lowest;
   out.rates.resize(highest - lowest + 1);
   out.boundaries.resize(highest - lowest + 1);
-  Legs<Scalar> legs(g, path, out);
+  Legs<Scalar> legs(g, path, end, out);
   const Scalar& r_end = g.rate[end];
   const Scalar q_end = legs.q(end), half(0.5);
   const Scalar sign = path.upward ? half : -half;  // phi = 1/2 + sign q_end
@@ -108,10 +126,10 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
     if (comes && goes) out.boundaries[w - lowest].M += outwards * q;
     if (comes) {
       const std::size_t from = medium.cells().layer[fast < w ? path.source : path.source - 1];
-      out.start.M = -(Scalar(1) + outwards * legs.q(from)) / Scalar(2);
+      out.start = legs.momentum(from, fast < w);
     }
     // A source at the interface itself: the start of the way back is what moves.
-    if (!comes && goes) out.start.M = -(Scalar(1) - outwards * q) / Scalar(2);
+    if (!comes && goes) out.start = legs.momentum(fast, fast > w - 1);
     return out;
   }
   if (path.kind == PathKind::constant) {
@@ -123,11 +141,11 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
     if (c == end) {
       // One layer: dM/dr with phi0 (1 - phi0) t also where the path stands still, phi0 = 1/2.
       out.rates[c - lowest].M = phi0 * (Scalar(1) - phi0) * t;
-      out.phi_start = Scalar(1);
+      out.phi_state = Scalar(1);
     } else {
       out.rates[c - lowest].phi += from_H * phi0 * (Scalar(1) - phi0);
       out.rates[end - lowest].phi += from_r;
-      out.phi_start = from_H * g.rate[c] * ((Scalar(1) - phi0) - phi0);
+      out.phi_state = from_H * g.rate[c] * ((Scalar(1) - phi0) - phi0);
     }
     return out;
   }
@@ -137,19 +155,26 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
     const Scalar v = (z - path.foot) / (r_end * t);
     out.rates[end - lowest].M = t * path.H / r_end;
     out.rates[end - lowest].phi = -v / (Scalar(2) * r_end);
-    out.start.M = -(Scalar(1) + v) / Scalar(2);
-    out.start.phi = Scalar(-1) / (Scalar(2) * r_end * t);
+    out.start = legs.momentum(start, path.upward);
+    out.phi_start = Scalar(-1) / (Scalar(2) * r_end * t);
+    out.phi_log_scale = -v / Scalar(2);
     return out;
   }
   legs.add(path.foot, z);
-  const Scalar q_start = legs.q(start), direction = path.upward ? Scalar(1) : Scalar(-1);
-  out.start.M = -(Scalar(1) + direction * q_start) / Scalar(2);
-  out.start.phi = -direction * (g.fastest * g.inverse_rate[start]) / q_start;
-  const Scalar turn = -from_H / legs.T_H;  // dH = -dT / T_H
+  out.start = legs.momentum(start, path.upward);
+  const Scalar T_H = legs.T_H(), turn = -from_H / T_H;  // dH = -dT / T_H
+  const Scalar direction = path.upward ? Scalar(1) : Scalar(-1);
+  out.phi_start = -direction * (g.fastest * g.inverse_rate[start]) / legs.q(start) * turn;
+  out.phi_log_scale = (from_H * g.fastest) * (t / T_H);
   for (Pair& pair : out.rates) pair.phi *= turn;
   for (Pair& pair : out.boundaries) pair.phi *= turn;
-  out.start.phi *= turn;
-  out.rates[end - lowest].phi += from_r;
+  // dq through H and through r_end itself nearly cancel where the end layer is close to its capacity: their
+  // sum is 2 q dq = ((1 - q^2) (steep of the others) - 2 q^2 steep_end) / (r_end steep) dr_end.
+  if (q_end > 0)
+    out.rates[end - lowest].phi =
+        sign *
+        ((Scalar(1) - q_end * q_end) * (legs.steep_others / q_end) - Scalar(2) * q_end * legs.steep_end) /
+        (r_end * T_H);
   return out;
 }
 
@@ -196,7 +221,7 @@ ExponentialGradient<Scalar> path_gradient(const ExponentialMedium<Scalar>& mediu
     const Scalar difference = (E * e - B * B / four) / (E + fan.S);  // E - S
     const Scalar p_E = (one - one / (two * fan.S)) / B;
     const Scalar p_B = -difference / (B * B) - one / (four * fan.S);
-    out.M_start = -p0;
+    out.start = {p0, one_minus_p0};
     out.phi_start = -(p_B * B + p_E * E) / lambda;
     out.phi_log_rate = p_B * B;
     out.phi_decay = p_B * B * (x - lambda) / (lambda * lambda) - p_E * E * (z - x) / (lambda * lambda);

@@ -7,6 +7,17 @@
 /// Derivatives along one path; building blocks of sensitivities().
 namespace shearfront::hopf_lax {
 
+/// Momentum at the start of a path and what it lacks to 1, each to a few units in the last place.
+template <Real Scalar>
+struct StartMomentum {
+  Scalar p{0}, missing{1};
+
+  /// d M / d (height of an initial jump from `below` to anything), the path starting there.
+  [[nodiscard]] Scalar against(const Scalar& below) const {
+    return p > missing ? Scalar((below - Scalar(1)) + missing) : Scalar(below - p);
+  }
+};
+
 /// Derivatives of M and phi with respect to what a layered path depends on besides the initial data: every
 /// rate r_k = s a_k, every inner boundary, and the height of its start (at fixed initial M).
 template <Real Scalar>
@@ -17,8 +28,10 @@ struct LayeredGradient {
   std::size_t first = 0;         ///< layer of rates[0]
   std::vector<Pair> rates;       ///< layers first, first + 1, ...: those the path touches
   std::vector<Pair> boundaries;  ///< boundaries[n]: boundary first + n, n >= 1
-  Pair start;                    ///< height of the source; M without the change of the initial M
-  Scalar phi_start{0};           ///< d phi / d (initial state), constant kind
+  StartMomentum<Scalar> start;
+  Scalar phi_start{0};      ///< d phi / d (height of the source), fan kind
+  Scalar phi_state{0};      ///< d phi / d (initial state), constant kind
+  Scalar phi_log_scale{0};  ///< d phi / d log s
 };
 
 /// Cost: O(layers touched).
@@ -31,8 +44,9 @@ template <Real Scalar>
 struct ExponentialGradient {
   Scalar M_log_rate{0}, phi_log_rate{0};  ///< with respect to log(s amplitude)
   Scalar M_decay{0}, phi_decay{0};
-  Scalar M_start{0}, phi_start{0};  ///< height of the source; M without the change of the initial M
-  Scalar phi_state{0};              ///< d phi / d (initial state), constant kind
+  StartMomentum<Scalar> start;
+  Scalar phi_start{0};  ///< d phi / d (height of the source), fan kind
+  Scalar phi_state{0};  ///< d phi / d (initial state), constant kind
 };
 
 /// Cost: O(1).

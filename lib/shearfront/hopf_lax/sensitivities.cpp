@@ -48,14 +48,15 @@ std::size_t piece_at(const Scene<Scalar>& scene, const Scalar& x) {
 
 /// The source at `path.foot` moves: an initial jump, or an interface without one.
 template <Real Scalar>
-void add_start(const Scene<Scalar>& scene, const Candidate<Scalar>& path, const Scalar& M_start,
-               const Scalar& phi_start, std::size_t boundary, Sensitivities<Scalar>& out) {
+void add_start(const Scene<Scalar>& scene, const Candidate<Scalar>& path,
+               const hopf_lax::StartMomentum<Scalar>& start, const Scalar& phi_start, std::size_t boundary,
+               Sensitivities<Scalar>& out) {
   const std::size_t j = jump_at(scene, path.foot);
   if (j < scene.initial_breaks().size()) {
-    out.M.initial_break(j) += scene.initial_values()[j] + M_start;
+    out.M.initial_break(j) += start.against(scene.initial_values()[j]);
     out.phi.initial_break(j) += phi_start;
   } else if (boundary > 0 && boundary <= out.M.shear_rate_breaks().size()) {
-    out.M.shear_rate_break(boundary - 1) += scene.initial_values()[piece_at(scene, path.foot)] + M_start;
+    out.M.shear_rate_break(boundary - 1) += start.against(scene.initial_values()[piece_at(scene, path.foot)]);
     out.phi.shear_rate_break(boundary - 1) += phi_start;
   }
 }
@@ -103,11 +104,9 @@ void add_path(const Scene<Scalar>& scene, const LayeredMedium<Scalar>& medium, c
   const Scalar& s = scene.scale();
   const auto& layers = medium.layers();
   const auto* table = std::get_if<Table<Scalar>>(&scene.shear_rate());
-  Scalar phi_scale(0);
   for (std::size_t n = 0; n < gradient.rates.size(); ++n) {
     const std::size_t k = gradient.first + n;
     const auto& [dM, dphi] = gradient.rates[n];
-    phi_scale += dphi * layers.shear_rate(k);
     if (table != nullptr) {
       spread(*table, layers.boundary(k), layers.boundary(k + 1), s, dM, dphi, out);
       continue;
@@ -119,14 +118,14 @@ void add_path(const Scene<Scalar>& scene, const LayeredMedium<Scalar>& medium, c
       out.phi.shear_rate_break(k - 1) += gradient.boundaries[n].phi;
     }
   }
-  out.phi.scale = phi_scale;
+  out.phi.scale = gradient.phi_log_scale / s;
   if (path.kind == PathKind::constant)
-    out.phi.initial_value(piece_at(scene, medium.cells().x[path.source])) += gradient.phi_start;
+    out.phi.initial_value(piece_at(scene, medium.cells().x[path.source])) += gradient.phi_state;
   if (path.kind == PathKind::fan || path.kind == PathKind::waiting) {
     const auto& boundaries = layers.boundaries();
     const auto it = std::lower_bound(boundaries.begin(), boundaries.end(), path.foot);
     const bool on_boundary = table == nullptr && it != boundaries.end() && *it == path.foot;
-    add_start(scene, path, gradient.start.M, gradient.start.phi,
+    add_start(scene, path, gradient.start, gradient.phi_start,
               on_boundary ? static_cast<std::size_t>(it - boundaries.begin()) : 0, out);
   }
 }
@@ -143,7 +142,7 @@ void add_path(const Scene<Scalar>& scene, const ExponentialMedium<Scalar>& mediu
   out.phi.decay = gradient.phi_decay;
   if (path.kind == PathKind::constant)
     out.phi.initial_value(piece_at(scene, medium.cells().x[path.source])) += gradient.phi_state;
-  if (path.kind == PathKind::fan) add_start(scene, path, gradient.M_start, gradient.phi_start, 0, out);
+  if (path.kind == PathKind::fan) add_start(scene, path, gradient.start, gradient.phi_start, 0, out);
 }
 
 template <Real Scalar>

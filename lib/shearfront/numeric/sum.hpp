@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
+#include <concepts>
+
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
@@ -15,6 +18,16 @@ struct TwoSum {
   }
 };
 
+/// Product and rounding error of one multiplication: a b == high + low exactly for double (one fused
+/// multiply-add), with low = 0 for the other scalars. Domain: no overflow and no underflow of low.
+template <Real S>
+struct TwoProduct {
+  S high, low{0};
+  TwoProduct(const S& a, const S& b) : high(a * b) {
+    if constexpr (std::same_as<S, double>) low = std::fma(a, b, -high);
+  }
+};
+
 /// Running sum with error feedback (Neumaier 1974): the error of value() is at most 2 u |sum| + O(n u^2) sum
 /// |x|.
 template <Real S>
@@ -27,6 +40,8 @@ class CompensatedSum {
     return *this;
   }
   [[nodiscard]] S value() const { return sum_ + low_; }
+  /// The sum in twice the digits.
+  [[nodiscard]] TwoSum<S> parts() const { return {sum_, low_}; }
 
  private:
   S sum_{0}, low_{0};

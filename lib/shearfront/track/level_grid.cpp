@@ -4,6 +4,8 @@
 #include <boost/sort/pdqsort/pdqsort.hpp>
 #include <concepts>
 
+#include "shearfront/numeric/sum.hpp"
+
 namespace shearfront {
 
 namespace {
@@ -26,16 +28,38 @@ struct LevelGrid<S>::Draft {
     Level level;
     std::size_t wanted;
   };
-  static bool before(const Level& a, const Level& b) {
-    if (a.value != b.value) return a.value < b.value;
-    if (a.home != b.home) return a.home < b.home;
-    return a.p < b.p;
-  }
-  static bool is_same(const Level& a, const Level& b) { return !before(a, b) && !before(b, a); }
-  static void sort(std::vector<Extra>& extras) {
-    std::sort(extras.begin(), extras.end(),
-              [](const Extra& a, const Extra& b) { return before(a.level, b.level); });
-  }
+  /// The order of levels: by the flux of the data they come from, of which `value` is the rounded number. Two
+  /// states one rounding apart would otherwise change places, or be taken for one.
+  struct Order {
+    const std::vector<Class>& classes;
+
+    bool operator()(const Level& a, const Level& b) const {
+      if (a.home == b.home && a.home >= 0) return a.p < b.p;
+      constexpr int kRoundings = 8;  // a value carries fewer
+      const S gap = a.value < b.value ? b.value - a.value : a.value - b.value;
+      if (gap > S(kRoundings) * unit_roundoff<S>() * (a.value + b.value)) return a.value < b.value;
+      const TwoSum<S> x = unrounded(a), y = unrounded(b);
+      if (x.high != y.high) return x.high < y.high;
+      if (x.low != y.low) return x.low < y.low;
+      if (a.home != b.home) return a.home < b.home;
+      return a.p < b.p;
+    }
+    [[nodiscard]] bool is_same(const Level& a, const Level& b) const {
+      return !(*this)(a, b) && !(*this)(b, a);
+    }
+    void sort(std::vector<Extra>& extras) const {
+      std::sort(extras.begin(), extras.end(),
+                [this](const Extra& a, const Extra& b) { return (*this)(a.level, b.level); });
+    }
+    /// 4 c p (1 - p) in twice the digits.
+    [[nodiscard]] TwoSum<S> unrounded(const Level& level) const {
+      if (level.home < 0) return {level.value, S(0)};
+      const S& c = classes[static_cast<std::size_t>(level.home)].capacity;
+      const TwoSum<S> rest(S(1), S(-level.p));
+      const TwoProduct<S> x(S(4) * c, level.p), y(x.high, rest.high);
+      return {y.high, y.low + (x.low * rest.high + x.high * rest.low)};
+    }
+  };
 
   /// phi of a wanted state on the falling branch; exact, because 1 - phi is for phi >= 1/2.
   static S falling(const S& phi) { return phi + phi <= S(1) ? phi : S(1) - phi; }
@@ -102,6 +126,7 @@ struct LevelGrid<S>::Draft {
   /// Merges vertices and extras (both ascending) into the grid, equal levels once; the level index of each
   /// wanted state.
   static std::vector<State> merge(LevelGrid& grid, Levels vertices, const std::vector<Extra>& extras) {
+    const Order before{grid.classes_};
     std::vector<State> level_of(extras.size());
     if (extras.empty()) {
       grid.levels_ = std::move(vertices);
@@ -110,7 +135,8 @@ struct LevelGrid<S>::Draft {
       grid.levels_.reserve(vertices.size() + extras.size());
       std::size_t next = 0;
       const auto add = [&](const Level& level) {
-        if (grid.levels_.empty() || !is_same(grid.levels_.back(), level)) grid.levels_.push_back(level);
+        if (grid.levels_.empty() || !before.is_same(grid.levels_.back(), level))
+          grid.levels_.push_back(level);
       };
       for (const Extra& e : extras) {
         while (next < vertices.size() && !before(e.level, vertices[next])) add(vertices[next++]);
@@ -239,17 +265,18 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
     extras.push_back({std::move(level), i});
   }
   Draft::make_monotone(vertices, extras);
-  Draft::sort(extras);
+  const typename Draft::Order order{grid.classes_};
+  order.sort(extras);
   std::size_t n_distinct = 0;
   for (std::size_t i = 0; i < extras.size(); ++i)
-    if (i == 0 || !Draft::is_same(extras[i - 1].level, extras[i].level)) ++n_distinct;
+    if (i == 0 || !order.is_same(extras[i - 1].level, extras[i].level)) ++n_distinct;
   const bool on_chords = n_distinct > kMaxExactStates && n_distinct > vertices.size();
   if (on_chords) {
     grid.levels_ = vertices;
     Draft::link(grid);
     Draft::place_on_chords(grid, extras, wanted);
     for (Extra& e : extras) e.level.vertex_below = e.level.vertex_above = e.level.ordinal = 0;
-    Draft::sort(extras);
+    order.sort(extras);
   }
   const std::vector<State> level_of = Draft::merge(grid, std::move(vertices), extras);
   if (on_chords) Draft::tabulate(grid);

@@ -104,6 +104,24 @@ class LevelGrid {
     return (falling_l ? S(-2) : S(2)) * capacity(layer) * difference;
   }
 
+  /// speed(l, m) - speed(m, r), which is rate (phi_l - phi_r) between vertices: without cancellation where
+  /// the two speeds are nearly equal.
+  [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r) const {
+    const State t = top(layer);
+    const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
+    const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
+    if (level_l.home == kOnChord || level_r.home == kOnChord ||
+        levels_[index(m <= t ? m : 2 * t - m)].home == kOnChord)
+      return speed(layer, l, m) - speed(layer, m, r);
+    const bool falling_l = l <= t, falling_r = r <= t;
+    if (falling_l == falling_r) {
+      const S difference = p_difference(layer, level_l, level_r);
+      return rate(layer) * (falling_l ? difference : S(-difference));
+    }
+    const S sum = root(layer, level_l) + root(layer, level_r);
+    return (falling_l ? S(-2) : S(2)) * capacity(layer) * sum;
+  }
+
   /// Bound for |speed| in all layers.
   [[nodiscard]] S fastest() const { return S(4) * classes_.back().capacity; }
 
@@ -161,6 +179,17 @@ class LevelGrid {
   [[nodiscard]] S falling_p(std::size_t layer, const Level& h, const S& q) const {
     if (h.home == static_cast<std::int32_t>(layer_capacity_[layer])) return h.p;
     return h.value / (S(2) * capacity(layer) * (S(1) + q));
+  }
+  /// falling_p(a) - falling_p(b) of two vertex levels, from the difference of the levels.
+  [[nodiscard]] S p_difference(std::size_t layer, const Level& a, const Level& b) const {
+    const auto own = static_cast<std::int32_t>(layer_capacity_[layer]);
+    if (a.home == own && b.home == own) return a.p - b.p;
+    const S sum = root(layer, a) + root(layer, b);
+    if (!(sum > 0)) return S(0);
+    S rise = a.value - b.value;
+    if (a.home == b.home && a.home >= 0)
+      rise = S(4) * classes_[static_cast<std::size_t>(a.home)].capacity * (a.p - b.p) * (S(1) - (a.p + b.p));
+    return rise / (S(2) * capacity(layer) * sum);
   }
   [[nodiscard]] S falling_phi(std::size_t layer, State i) const {
     const Level& h = levels_[index(i)];

@@ -48,7 +48,8 @@ struct RunLimits {
 /// "hyperfast").
 ///
 /// Guaranteed:
-///   (1) which waves leave a point is decided on integers; rounding moves fronts, it never changes states;
+///   (1) which waves leave a point, and whether two fronts of a convex layer ever meet, is decided on
+///       integers; rounding moves fronts, it never changes states;
 ///   (2) mass is conserved at every event to a few units in the last place of the largest height, however
 ///   many events:
 ///       positions are unevaluated sums of two numbers and a front leaves from the point that conserves mass;
@@ -77,7 +78,9 @@ class Tracker {
     // In the order of t + skew z. A meeting can only influence another one that waves of speed <= fastest()
     // can reach from it, and that one has a greater key; so this order respects every influence, like that of
     // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
-    collect(t, Scalar(1) / (Scalar(2) * grid_->fastest()));
+    // Denormal speeds have no finite skew; then in the order of t.
+    const Scalar skew = Scalar(1) / (Scalar(2) * grid_->fastest());
+    collect(t, is_finite(skew) ? skew : Scalar(0));
     while (!queue_.empty()) {
       const Meeting<Scalar> next = queue_.first();
       queue_.pop();
@@ -257,13 +260,21 @@ class Tracker {
     n.meets = infinity<Scalar>();
   }
 
-  /// Whether the fronts i and j = next(i) can meet at all; for fronts of one fan the answer comes from the
-  /// states.
-  [[nodiscard]] bool can_meet(Index i, Index j) const {
+  /// Speed at which the nodes i and j = next(i) approach; not positive if they never meet. Two fronts of a
+  /// convex layer meet if and only if the state below both exceeds the state above both (neither does in one
+  /// chord of the polygon), and where their speeds nearly cancel the difference comes from these states.
+  [[nodiscard]] Scalar closing_speed(Index i, Index j) const {
     const Node &a = nodes_[i], &b = nodes_[j];
-    if constexpr (Grid::kUnimodalConvex)
-      if (!is_boundary(i) && !is_boundary(j) && a.below < a.above && b.below < b.above) return false;
-    return a.speed > b.speed;
+    const Scalar closing = a.speed - b.speed;
+    if constexpr (Grid::kUnimodalConvex) {
+      if (!is_boundary(i) && !is_boundary(j)) {
+        if (!(a.below > b.above)) return Scalar(0);
+        constexpr int kCancelling = 64;
+        if (Scalar(kCancelling) * size(closing) < size(a.speed) + size(b.speed))
+          return grid_->speed_drop(a.layer, a.below, a.above, b.above);
+      }
+    }
+    return closing;
   }
 
   /// Predicts the meeting of node i with its upper neighbour; true if there is one.
@@ -271,13 +282,15 @@ class Tracker {
     Node& a = nodes_[i];
     unschedule(a);
     const Index j = a.next;
-    if (j == kNone || !can_meet(i, j)) return false;
+    if (j == kNone) return false;
+    const Scalar closing = closing_speed(i, j);
+    if (!(closing > 0)) return false;
     const Node& b = nodes_[j];
     const Scalar& base = std::max(a.t, b.t);
     // Anchors first: they are close when the fronts are, and then their difference is exact.
     const Scalar gap =
         (b.z - a.z) + ((b.z_low + b.speed * (base - b.t)) - (a.z_low + a.speed * (base - a.t)));
-    const Scalar t = gap > 0 ? base + gap / (a.speed - b.speed) : base;
+    const Scalar t = gap > 0 ? base + gap / closing : base;
     if (!(t < infinity<Scalar>())) {
       ++n_unreachable_;
       return false;
@@ -434,23 +447,32 @@ class Tracker {
 
   /// Where the fronts a .. b meet: the point from which one front l | r carries the mass they bring. Their
   /// positions at the computed time differ by rounding errors of that time; taking any one of them would lose
-  /// mass at every event.
+  /// mass at every event. Counted from the strongest front, which hardly moves: were it another one, the
+  /// rounding of the distance between the two would go into the position at full weight, event after event.
   [[nodiscard]] TwoSum<Scalar> meeting_point(Index a, Index b, State l, State r) const {
-    const Node& first = nodes_[a];
-    const std::size_t layer = first.layer;
-    Scalar shift = first.z_low + first.speed * (now_ - first.t);
+    const std::size_t layer = nodes_[a].layer;
+    const auto jump = [&](const Node& n) {
+      return Scalar(grid_->phi(layer, n.below) - grid_->phi(layer, n.above));
+    };
+    Index strongest = a;
+    for (Index i = a; i != b;) {
+      i = nodes_[i].next;
+      if (size(jump(nodes_[i])) > size(jump(nodes_[strongest]))) strongest = i;
+    }
+    const Node& anchor = nodes_[strongest];
+    Scalar shift = anchor.z_low + anchor.speed * (now_ - anchor.t);
     CompensatedSum<Scalar> moment;
     Scalar widest(0);
     for (Index i = a;; i = nodes_[i].next) {
       const Node& n = nodes_[i];
-      const Scalar offset = (n.z - first.z) + ((n.z_low + n.speed * (now_ - n.t)) - shift);
-      moment += offset * (grid_->phi(layer, n.below) - grid_->phi(layer, n.above));
+      const Scalar offset = (n.z - anchor.z) + ((n.z_low + n.speed * (now_ - n.t)) - shift);
+      moment += offset * jump(n);
       widest = std::max(widest, size(offset));
       if (i == b) break;
     }
     shift +=
         l == r ? Scalar(0) : bounded(moment.value() / (grid_->phi(layer, l) - grid_->phi(layer, r)), widest);
-    return TwoSum<Scalar>(first.z, shift);
+    return TwoSum<Scalar>(anchor.z, shift);
   }
   /// A weak outgoing front must not magnify rounding errors.
   [[nodiscard]] static Scalar bounded(const Scalar& correction, const Scalar& widest) {
@@ -463,10 +485,15 @@ class Tracker {
     Node &first = nodes_[a], &second = nodes_[b];
     const Scalar speed = grid_->speed(first.layer, l, r);
     // meeting_point() for two fronts: by Rankine-Hugoniot the weights of mass are those of speed.
-    Scalar shift = first.z_low + first.speed * (now_ - first.t);
-    const Scalar offset = (second.z - first.z) + ((second.z_low + second.speed * (now_ - second.t)) - shift);
-    shift += bounded(offset * ((speed - first.speed) / (second.speed - first.speed)), size(offset));
-    const TwoSum<Scalar> z(first.z, shift);
+    const Scalar moved_first = first.z_low + first.speed * (now_ - first.t);
+    const Scalar moved_second = second.z_low + second.speed * (now_ - second.t);
+    const Scalar offset = (second.z - first.z) + (moved_second - moved_first);
+    const Scalar weight = (speed - first.speed) / (second.speed - first.speed);  // of the second front
+    const bool from_second = weight + weight > Scalar(1);
+    const Scalar correction =
+        bounded(offset * (from_second ? weight - Scalar(1) : Scalar(weight)), size(offset));
+    const TwoSum<Scalar> z(from_second ? second.z : first.z,
+                           (from_second ? moved_second : moved_first) + correction);
     begin_view(z.high, CollisionView<Scalar>::kNoBoundary);
     if constexpr (Observer::kActive) view_.incoming = {view_of(a), view_of(b)};
     remove(b);
