@@ -6,7 +6,7 @@
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/track/level_grid.hpp"
-#include "shearfront/track/tracker.hpp"
+#include "shearfront/track/piece.hpp"
 
 namespace shearfront {
 

@@ -34,7 +34,7 @@ struct LevelGrid<S>::Draft {
     const std::vector<Class>& classes;
 
     bool operator()(const Level& a, const Level& b) const {
-      if (a.home == b.home && a.home >= 0) return a.p < b.p;
+      if (a.home == b.home) return a.home >= 0 || a.value == b.value ? a.p < b.p : a.value < b.value;
       constexpr int kRoundings = 8;  // a value carries fewer
       const S gap = a.value < b.value ? b.value - a.value : a.value - b.value;
       if (gap > S(kRoundings) * unit_roundoff<S>() * (a.value + b.value)) return a.value < b.value;

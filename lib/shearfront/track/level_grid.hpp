@@ -104,15 +104,15 @@ class LevelGrid {
     return (falling_l ? S(-2) : S(2)) * capacity(layer) * difference;
   }
 
-  /// speed(l, m) - speed(m, r), which is rate (phi_l - phi_r) between vertices: without cancellation where
-  /// the two speeds are nearly equal.
-  [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r) const {
+  /// speed(l, m) - speed(m, r), given its rounded value: between vertices it is rate (phi_l - phi_r), without
+  /// the cancellation of nearly equal speeds.
+  [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r, const S& rounded) const {
     const State t = top(layer);
     const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
     const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
     if (level_l.home == kOnChord || level_r.home == kOnChord ||
         levels_[index(m <= t ? m : 2 * t - m)].home == kOnChord)
-      return speed(layer, l, m) - speed(layer, m, r);
+      return rounded;
     const bool falling_l = l <= t, falling_r = r <= t;
     if (falling_l == falling_r) {
       const S difference = p_difference(layer, level_l, level_r);

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/numeric/sum.hpp"
+#include "shearfront/riemann/in_layer.hpp"
+#include "shearfront/riemann/interface.hpp"
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/track/agenda.hpp"
+#include "shearfront/track/front_list.hpp"
+#include "shearfront/track/meeting_point.hpp"
+#include "shearfront/track/observers.hpp"
+#include "shearfront/track/piece.hpp"
+
+namespace shearfront {
+
+/// The fronts of a bed, when they meet, and what happens when they do. A Tracker decides up to which time.
+template <StateGrid Grid, class Observer>
+class FrontSystem {
+ public:
+  using Scalar = typename Grid::Scalar;
+
+  /// Times of the first and last wave at a boundary.
+  struct Waves {
+    std::optional<Scalar> first, last;
+  };
+
+  FrontSystem(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, Observer observer)
+      : grid_(&grid), observer_(std::move(observer)), fronts_(grid, count_fronts(grid, pieces)) {
+    start(pieces);
+  }
+
+  [[nodiscard]] const Grid& grid() const { return *grid_; }
+  [[nodiscard]] Observer& observer() { return observer_; }
+  [[nodiscard]] const Observer& observer() const { return observer_; }
+  [[nodiscard]] const FrontList<Scalar>& fronts() const { return fronts_; }
+  [[nodiscard]] Agenda<Grid>& agenda() { return agenda_; }
+  [[nodiscard]] const Agenda<Grid>& agenda() const { return agenda_; }
+  [[nodiscard]] const Waves& waves(std::size_t boundary) const { return waves_[boundary]; }
+  [[nodiscard]] const Scalar& time() const { return now_; }
+  void set_time(const Scalar& t) { now_ = t; }
+  [[nodiscard]] const Scalar& last_collision() const { return last_collision_; }
+  [[nodiscard]] std::uint64_t n_collisions() const { return collisions_; }
+  [[nodiscard]] std::size_t n_fronts() const { return fronts_.n_fronts(); }
+  [[nodiscard]] std::size_t n_fronts_max() const { return n_fronts_max_; }
+
+  /// Handles the meeting of node i with its upper neighbour, and of all others that meet in the same point,
+  /// at the time predicted for it.
+  void collide(FrontIndex i) {
+    now_ = fronts_[i].meets;
+    FrontIndex a = i, b = fronts_[i].next;
+    while (fronts_[a].prev != kNoFront && !(fronts_[fronts_[a].prev].meets > now_)) a = fronts_[a].prev;
+    while (!(fronts_[b].meets > now_)) b = fronts_[b].next;
+    ++collisions_;
+    last_collision_ = std::max(last_collision_, now_);
+    const State l = fronts_[a].below, r = fronts_[b].above;
+    FrontIndex boundary = kNoFront;
+    for (FrontIndex k = a;; k = fronts_[k].next) {
+      if (fronts_.is_boundary(k)) boundary = k;
+      if (k == b) break;
+    }
+    if (boundary == kNoFront) {
+      if constexpr (Grid::kUnimodalConvex)
+        if (fronts_[a].next == b && l > r) return merge(a, b, l, r);
+      collide_in_layer(a, b, l, r);
+    } else {
+      collide_at_boundary(a, b, boundary, l, r);
+    }
+    n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
+  }
+
+ private:
+  using Node = FrontNode<Scalar>;
+  void schedule(FrontIndex i) { agenda_.schedule(*grid_, fronts_, i, now_); }
+
+  /// Fronts that leave the jumps of the initial state; those of interfaces are fewer than the slack of a
+  /// vector.
+  [[nodiscard]] static std::size_t count_fronts(const Grid& grid, const std::vector<Piece<Scalar>>& pieces) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i)
+      if (pieces[i].layer == pieces[i + 1].layer)
+        solve_in_layer(grid, pieces[i].layer, pieces[i].state, pieces[i + 1].state,
+                       [&](State, State) { ++count; });
+    return count;
+  }
+
+  void start(const std::vector<Piece<Scalar>>& pieces) {
+    const std::size_t n = fronts_.n_boundaries();
+    SHEARFRONT_EXPECTS(!pieces.empty() && pieces.back().layer + 2 == n, "pieces fill the stack of layers");
+    waves_.resize(n);
+    const auto start_boundary = [&](std::size_t k, State l, State r) {
+      const std::size_t before = n_fronts();
+      const auto boundary = static_cast<FrontIndex>(k);
+      begin_view(fronts_[boundary].z, k);
+      emit_at_boundary(boundary, l, r);
+      if (n_fronts() > before) waves_[k] = {now_, now_};
+      end_view();
+    };
+    start_boundary(0, 0, pieces.front().state);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Piece<Scalar>& piece = pieces[i];
+      if (i + 1 == pieces.size()) {
+        start_boundary(n - 1, piece.state, 0);
+      } else if (pieces[i + 1].layer != piece.layer) {
+        start_boundary(piece.layer + 1, piece.state, pieces[i + 1].state);
+      } else {
+        begin_view(piece.top, CollisionView<Scalar>::kNoBoundary);
+        const auto top_of_layer = static_cast<FrontIndex>(piece.layer + 1);
+        emit_in_layer(fronts_[top_of_layer].prev, piece.layer, piece.state, pieces[i + 1].state, piece.top,
+                      Scalar(0));
+        end_view();
+      }
+    }
+    n_fronts_max_ = n_fronts();
+    for (FrontIndex i = 0; i != kNoFront; i = fronts_[i].next) schedule(i);
+  }
+
+  /// A new front between states l and r at (z + z_low, now), inserted above node `under`.
+  FrontIndex emit(FrontIndex under, std::size_t layer, State l, State r, const Scalar& z,
+                  const Scalar& z_low) {
+    const FrontIndex i = fronts_.insert_above(under);
+    Node& n = fronts_[i];
+    n.z = z;
+    n.z_low = z_low;
+    n.t = now_;
+    n.speed = grid_->speed(layer, l, r);
+    n.meets = infinity<Scalar>();
+    n.below = l;
+    n.above = r;
+    n.layer = static_cast<std::uint32_t>(layer);
+    if constexpr (Observer::kActive) view_.outgoing.push_back(fronts_.view_of(i));
+    return i;
+  }
+  /// Solves the Riemann problem inside `layer` and inserts its fronts above `under`; the last node inserted.
+  FrontIndex emit_in_layer(FrontIndex under, std::size_t layer, State l, State r, const Scalar& z,
+                           const Scalar& z_low) {
+    FrontIndex last = under;
+    solve_in_layer(*grid_, layer, l, r, [&](State a, State b) { last = emit(last, layer, a, b, z, z_low); });
+    return last;
+  }
+  /// Solves the Riemann problem at boundary b between the states l and r that meet there. Returns the topmost
+  /// node.
+  FrontIndex emit_at_boundary(FrontIndex b, State l, State r) {
+    const Scalar z = fronts_[b].z, zero(0);
+    const std::size_t n_layers = grid_->n_layers();
+    if (b == 0) {
+      fronts_[b].above = solve_bottom_wall(*grid_, r);
+    } else if (b == n_layers) {
+      fronts_[b].below = solve_top_wall(*grid_, l);
+    } else {
+      const StatePair at_rest = solve_interface(*grid_, b - 1, l, r);
+      fronts_[b].below = at_rest.below;
+      fronts_[b].above = at_rest.above;
+    }
+    if (b > 0) emit_in_layer(fronts_[b].prev, b - 1, l, fronts_[b].below, z, zero);
+    return b < n_layers ? emit_in_layer(b, b, fronts_[b].above, r, z, zero) : b;
+  }
+
+  /// The commonest event, two fronts of a convex layer that become one shock: node a is used again, node b
+  /// goes.
+  void merge(FrontIndex a, FrontIndex b, State l, State r) {
+    Node &first = fronts_[a], &second = fronts_[b];
+    const Scalar speed = grid_->speed(first.layer, l, r);
+    const TwoSum<Scalar> z = merging_point(first, second, speed, now_);
+    begin_view(z.high, CollisionView<Scalar>::kNoBoundary);
+    if constexpr (Observer::kActive) view_.incoming = {fronts_.view_of(a), fronts_.view_of(b)};
+    remove(b);
+    agenda_.unschedule(first);
+    first.z = z.high;
+    first.z_low = z.low;
+    first.t = now_;
+    first.speed = speed;
+    first.above = r;
+    if constexpr (Observer::kActive) view_.outgoing = {fronts_.view_of(a)};
+    end_view();
+    schedule(first.prev);
+    schedule(a);
+  }
+  void collide_in_layer(FrontIndex a, FrontIndex b, State l, State r) {
+    const TwoSum<Scalar> z = meeting_point(*grid_, fronts_, a, b, l, r, now_);
+    const FrontIndex under = fronts_[a].prev;
+    const std::size_t layer = fronts_[a].layer;
+    begin_view(z.high, CollisionView<Scalar>::kNoBoundary);
+    remove_all(a, b, kNoFront);
+    const FrontIndex top = emit_in_layer(under, layer, l, r, z.high, z.low);
+    end_view();
+    schedule(under);
+    if (top != under) schedule(top);
+  }
+  void collide_at_boundary(FrontIndex a, FrontIndex b, FrontIndex boundary, State l, State r) {
+    const FrontIndex under = fronts_[a].prev;
+    begin_view(fronts_[boundary].z, boundary);
+    remove_all(a, b, boundary);
+    const FrontIndex top = emit_at_boundary(boundary, l, r);
+    end_view();
+    Waves& waves = waves_[boundary];
+    waves.first = waves.first ? std::min(*waves.first, now_) : now_;
+    waves.last = waves.last ? std::max(*waves.last, now_) : now_;
+    // Fronts that leave one point separate: only the outermost pairs are new.
+    if (under != kNoFront) schedule(under);
+    schedule(top);
+  }
+
+  void remove(FrontIndex i) {
+    agenda_.unschedule(fronts_[i]);
+    fronts_.remove(i);
+  }
+  void remove_all(FrontIndex a, FrontIndex b, FrontIndex keep) {
+    for (FrontIndex k = a;;) {
+      const FrontIndex next = fronts_[k].next;
+      const bool last = k == b;
+      if (k != keep) {
+        if constexpr (Observer::kActive) view_.incoming.push_back(fronts_.view_of(k));
+        remove(k);
+      } else {
+        agenda_.unschedule(fronts_[k]);
+      }
+      if (last) break;
+      k = next;
+    }
+  }
+
+  void begin_view(const Scalar& z, std::size_t boundary) {
+    if constexpr (Observer::kActive) {
+      view_.t = now_;
+      view_.z = z;
+      view_.boundary = boundary;
+      view_.incoming.clear();
+      view_.outgoing.clear();
+    }
+  }
+  void end_view() {
+    if constexpr (Observer::kActive) observer_.collision(*grid_, view_);
+  }
+
+  const Grid* grid_;
+  Observer observer_;
+  CollisionView<Scalar> view_{};
+  FrontList<Scalar> fronts_;
+  Agenda<Grid> agenda_;
+  std::vector<Waves> waves_;
+  Scalar now_{0}, last_collision_{0};
+  std::size_t n_fronts_max_ = 0;
+  std::uint64_t collisions_ = 0;
+};
+
+}  // namespace shearfront
