@@ -108,15 +108,13 @@ void ExponentialMedium<Scalar>::try_source(const Scalar& z, const Scalar& t, std
 template <Real Scalar>
 void ExponentialMedium<Scalar>::try_cell(const Scalar& z, const Scalar& t, std::size_t i,
                                          Candidate<Scalar>& best) const {
-  using std::log;
   using std::log1p;
   const Scalar& p0 = cells_.phi[i];
   const Scalar b = rate_at(z) * t / decay_;
   const FootRoot<Scalar> root(b, p0);
   if (!root.exists) return;
   Candidate<Scalar> path;
-  // Far below its foot a path has E next to 0, which e = E - 1 keeps badly.
-  path.foot = z - decay_ * (root.E + root.E < Scalar(1) ? Scalar(log(root.E)) : Scalar(log1p(root.e)));
+  path.foot = z - decay_ * root.log_E();
   if (!(path.foot >= cells_.x[i] && path.foot <= cells_.x[i + 1])) return;
   const Scalar h = p0 * (Scalar(1) - p0);
   const Scalar B = b * root.E;

@@ -41,13 +41,22 @@ struct FootRoot {
     const Scalar bs = b > one ? one : b;
     const Scalar c = unit - bs * twist;
     const Scalar D = sqrt(Scalar(c * c + Scalar(4) * bs * bs * h));
-    const Scalar sum = c < zero ? Scalar(Scalar(4) * bs * bs * h / (D - c)) : Scalar(c + D);
+    const Scalar product = Scalar(4) * bs * bs * h;  // (D - c) (D + c)
+    const Scalar sum = c < zero ? Scalar(product / (D - c)) : Scalar(c + D);
     if (!(sum > zero)) {
       exists = false;
       return;
     }
     E = Scalar(2) * unit / sum;
-    e = Scalar(4) * bs * (twist * unit - bs * h) / (sum * ((Scalar(2) * unit - c) + D));
+    const Scalar rest = c < zero ? Scalar(D - c) : Scalar(product / sum);  // D - c
+    e = Scalar(4) * bs * (twist * unit - bs * h) / (sum * (Scalar(2) * unit + rest));
+  }
+
+  /// log E, to a few units in the last place both near E = 1 and near E = 0.
+  [[nodiscard]] Scalar log_E() const {
+    using std::log;
+    using std::log1p;
+    return E < Scalar(0.5) ? Scalar(log(E)) : Scalar(log1p(e));
   }
 };
 

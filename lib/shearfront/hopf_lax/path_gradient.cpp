@@ -173,7 +173,7 @@ LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium, const
   if (q_end > 0)
     out.rates[end - lowest].phi =
         sign *
-        ((Scalar(1) - q_end * q_end) * (legs.steep_others / q_end) - Scalar(2) * q_end * legs.steep_end) /
+        (Scalar(4) * path.H / r_end * (legs.steep_others / q_end) - Scalar(2) * q_end * legs.steep_end) /
         (r_end * T_H);
   return out;
 }
@@ -218,13 +218,14 @@ ExponentialGradient<Scalar> path_gradient(const ExponentialMedium<Scalar>& mediu
     const FanMomenta<Scalar> fan(B, e);
     p0 = fan.p0;
     one_minus_p0 = fan.one_minus_p0;
-    const Scalar difference = (E * e - B * B / four) / (E + fan.S);  // E - S
-    const Scalar p_E = (one - one / (two * fan.S)) / B;
-    const Scalar p_B = -difference / (B * B) - one / (four * fan.S);
+    // p = 1/2 + (E - S) / B: with d p / d log B = E (1 - S) / (S B) the sum of both logarithmic derivatives
+    // is E / (2 S B), which keeps them apart from their rounding.
+    const Scalar by_B = -E * ((e / B + B / four) / fan.S / (one + fan.S));
+    const Scalar by_both = E / (two * B) / fan.S;
     out.start = {p0, one_minus_p0};
-    out.phi_start = -(p_B * B + p_E * E) / lambda;
-    out.phi_log_rate = p_B * B;
-    out.phi_decay = p_B * B * (x - lambda) / (lambda * lambda) - p_E * E * (z - x) / (lambda * lambda);
+    out.phi_start = -by_both / lambda;
+    out.phi_log_rate = by_B;
+    out.phi_decay = (by_B * (z - lambda) - by_both * (z - x)) / (lambda * lambda);
   } else {
     p0 = medium.cells().phi[path.source];
     one_minus_p0 = one - p0;
