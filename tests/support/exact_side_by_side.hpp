@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "support/closeness.hpp"
+
+/// The exact engine in double and in 50 digits, compared point by point.
+namespace shearfront::support {
+
+/// A place and a time where the exact solution is asked for.
+struct Point {
+  double z, t;
+};
+
+/// The largest differences between two evaluations. M is relative to the height of the bed, phi, H and times
+/// to themselves, derivatives (each times its parameter, heights times the height of the bed) to the largest
+/// of the same quantity at the same point.
+struct ExactDifferences {
+  std::size_t points = 0;
+  std::size_t other_path = 0;  ///< points where another path is the minimum: a shock, or the edge of a fan
+  std::size_t other_time = 0;  ///< times that only one of the two has
+  double M = 0, phi = 0, H = 0, first = 0, last = 0, dM = 0, dphi = 0;
+
+  void add(const ExactDifferences& other) {
+    points += other.points;
+    other_path += other.other_path;
+    other_time += other.other_time;
+    for (const auto member :
+         {&ExactDifferences::M, &ExactDifferences::phi, &ExactDifferences::H, &ExactDifferences::first,
+          &ExactDifferences::last, &ExactDifferences::dM, &ExactDifferences::dphi})
+      this->*member = std::max(this->*member, other.*member);
+  }
+};
+
+/// Everything the exact engine says about a scene, at some points.
+template <Real Scalar>
+struct ExactRun {
+  Scene<Scalar> scene;
+  Timeline<Scalar> timeline;
+  std::vector<Sensitivities<Scalar>> values;
+  std::vector<hopf_lax::Candidate<Scalar>> paths;
+
+  /// Without `timeline` only the points are evaluated.
+  ExactRun(const Scene<Scalar>& of, const std::vector<Point>& points, bool with_timeline = true) : scene(of) {
+    if (with_timeline) timeline = exact_timeline(scene);
+    const ExactSolution<Scalar> solution(scene);
+    for (const Point& p : points) {
+      values.push_back(sensitivities(solution, Scalar(p.z), Scalar(p.t)));
+      paths.push_back(solution.path(Scalar(p.z), Scalar(p.t)));
+    }
+  }
+};
+
+namespace exact_side_by_side_detail {
+
+/// Every derivative of a gradient times its parameter.
+template <Real Scalar>
+std::vector<Scalar> scaled(const Scene<Scalar>& scene, const Gradient<Scalar>& gradient) {
+  std::vector<Scalar> all;
+  const Scalar height = scene.top() - scene.bottom();
+  const auto add = [&](const auto& derivatives, const auto& parameter) {
+    for (std::size_t i = 0; i < derivatives.size(); ++i) all.push_back(derivatives[i] * parameter(i));
+  };
+  const auto in_heights = [&](std::size_t) { return height; };
+  const auto plain = [](std::size_t) { return Scalar(1); };
+  if (const auto* layers = std::get_if<Piecewise<Scalar>>(&scene.shear_rate()))
+    add(gradient.shear_rate_values(), [&](std::size_t i) { return layers->values[i]; });
+  add(gradient.shear_rate_breaks(), in_heights);
+  add(gradient.initial_breaks(), in_heights);
+  add(gradient.initial_values(), plain);
+  all.push_back(gradient.scale * scene.scale());
+  if (const auto* smooth = std::get_if<Exponential<Scalar>>(&scene.shear_rate())) {
+    all.push_back(gradient.amplitude * smooth->amplitude);
+    all.push_back(gradient.decay * smooth->decay);
+  }
+  return all;
+}
+
+template <Real A, Real B>
+double difference(const std::vector<A>& x, const std::vector<B>& y) {
+  B largest(0), worst(0);
+  const auto size = [](const B& v) { return v < 0 ? B(-v) : v; };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    largest = std::max(largest, size(y[i]));
+    worst = std::max(worst, size(B(x[i]) - y[i]));
+  }
+  return largest > 0 ? to_double(B(worst / largest)) : to_double(worst);
+}
+
+}  // namespace exact_side_by_side_detail
+
+/// `run` against `oracle`, which has at least its precision.
+template <Real A, Real B>
+[[nodiscard]] ExactDifferences compare(const ExactRun<A>& run, const ExactRun<B>& oracle) {
+  using namespace exact_side_by_side_detail;
+  ExactDifferences out;
+  const auto time = [&](const std::optional<A>& x, const std::optional<B>& y, double& worst) {
+    if (x.has_value() != y.has_value()) {
+      ++out.other_time;
+    } else if (x) {
+      worst = std::max(worst, relative_error(B(*x), *y));
+    }
+  };
+  time(run.timeline.t0, oracle.timeline.t0, out.first);
+  time(run.timeline.t1, oracle.timeline.t1, out.first);
+  time(run.timeline.t_star, oracle.timeline.t_star, out.last);
+  for (std::size_t i = 0; i < oracle.timeline.interfaces.size(); ++i) {
+    time(run.timeline.interfaces[i].first, oracle.timeline.interfaces[i].first, out.first);
+    time(run.timeline.interfaces[i].last, oracle.timeline.interfaces[i].last, out.last);
+  }
+  const B height = oracle.scene.top() - oracle.scene.bottom();
+  out.points = run.values.size();
+  for (std::size_t i = 0; i < run.values.size(); ++i) {
+    const auto& mine = run.values[i];
+    const auto& theirs = oracle.values[i];
+    out.M = std::max(out.M, std::abs(to_double(B((B(mine.value.M) - theirs.value.M) / height))));
+    const auto &p = run.paths[i], &q = oracle.paths[i];
+    if (p.kind != q.kind || p.source != q.source || p.upward != q.upward || p.interface != q.interface) {
+      ++out.other_path;
+      continue;
+    }
+    out.phi = std::max(out.phi, relative_error(B(mine.value.phi), theirs.value.phi));
+    out.H = std::max(out.H, relative_error(B(mine.value.H), theirs.value.H));
+    out.dM = std::max(out.dM, difference(scaled(run.scene, mine.M), scaled(oracle.scene, theirs.M)));
+    out.dphi = std::max(out.dphi, difference(scaled(run.scene, mine.phi), scaled(oracle.scene, theirs.phi)));
+  }
+  return out;
+}
+
+}  // namespace shearfront::support
