@@ -3,7 +3,8 @@
 // is the largest error and, in brackets, how far the 50-digit result moves when the numbers of the scene are
 // moved by up to their own rounding (s among them, which moves every t): what no computation in double can
 // avoid.
-//   shearfront_stability_table [scenes]     number of random scenes, default 10000
+//   shearfront_stability_table [scenes [text]]     number of random scenes, default 10000; only rows whose
+//                                                  name, "tracker: ..." or "exact: ...", contains the text
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,7 @@ using support::Differences;
 using support::ExactDifferences;
 using support::ExactRun;
 using support::HardCase;
+using support::HardPoints;
 using support::Point;
 
 /// Digits lost: how many powers of ten an error exceeds the rounding of one double.
@@ -100,46 +102,65 @@ void evaluate(const Scene<double>& scene, const std::vector<Point>& points, bool
         oracle));
 }
 
-void tracker_table(int n_scenes) {
+/// Which rows are asked for.
+struct Rows {
+  int n_scenes = 10000;
+  std::string text;
+
+  [[nodiscard]] bool wanted(const std::string& name) const { return name.find(text) != std::string::npos; }
+};
+
+void tracker_table(const Rows& rows) {
   std::printf(
       "| case | collisions | unmatched | out of order | time | place | fronts | M | t* | digits lost | "
       "of them not by the data |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const HardCase& c : support::hard_cases()) {
-    Differences error, moved;
-    track(c.scene, c.resolution, c.times, c.n_moves, error, moved);
-    print(c.name, error, moved, c.n_moves > 0);
+  for (const bool slow : {false, true}) {
+    for (const HardCase& c : slow ? support::slow_hard_cases() : support::hard_cases()) {
+      if (!rows.wanted("tracker: " + c.name)) continue;
+      Differences error, moved;
+      track(c.scene, c.resolution, c.times, c.n_moves, error, moved);
+      print(c.name, error, moved, c.n_moves > 0);
+    }
   }
   Differences error, moved;
-  for (int n = 0; n < n_scenes; ++n)
+  const std::string random = std::to_string(rows.n_scenes) + " random scenes";
+  if (!rows.wanted("tracker: " + random)) return;
+  for (int n = 0; n < rows.n_scenes; ++n)
     track(support::random_scene(static_cast<std::uint64_t>(n)), 0.1,
           {support::random_time(static_cast<std::uint64_t>(n))}, 1, error, moved);
-  print(std::to_string(n_scenes) + " random scenes", error, moved, true);
+  print(random, error, moved, true);
 }
 
-void exact_table(int n_scenes) {
+void exact_table(const Rows& rows) {
   std::printf(
       "| case | points | other path | M | phi | H | first times | last times | dM | dphi | digits lost | "
       "of them not by the data |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const auto& c : support::hard_points()) {
-    ExactDifferences error, moved;
-    evaluate(c.scene, c.points, c.with_timeline, c.n_moves, error, moved);
-    print(c.name, error, moved, c.n_moves > 0);
+  for (const bool slow : {false, true}) {
+    for (const HardPoints& c : slow ? support::slow_hard_points() : support::hard_points()) {
+      if (!rows.wanted("exact: " + c.name)) continue;
+      ExactDifferences error, moved;
+      evaluate(c.scene, c.points, c.with_timeline, c.n_moves, error, moved);
+      print(c.name, error, moved, c.n_moves > 0);
+    }
   }
   ExactDifferences error, moved;
-  for (int n = 0; n < n_scenes; ++n) {
+  const std::string random = std::to_string(rows.n_scenes) + " random scenes";
+  if (!rows.wanted("exact: " + random)) return;
+  for (int n = 0; n < rows.n_scenes; ++n) {
     const Scene<double> scene = support::random_scene(static_cast<std::uint64_t>(n));
     evaluate(scene, support::random_points(scene, 10, static_cast<std::uint64_t>(n)), true, 1, error, moved);
   }
-  print(std::to_string(n_scenes) + " random scenes", error, moved, true);
+  print(random, error, moved, true);
 }
 
 }  // namespace
 }  // namespace shearfront
 
 int main(int argc, char** argv) {
-  constexpr int kScenes = 10000;
-  const int n_scenes = argc > 1 ? std::atoi(argv[1]) : kScenes;
-  shearfront::tracker_table(n_scenes);
+  shearfront::Rows rows;
+  if (argc > 1) rows.n_scenes = std::atoi(argv[1]);
+  if (argc > 2) rows.text = argv[2];
+  shearfront::tracker_table(rows);
   std::printf("\n");
-  shearfront::exact_table(n_scenes);
+  shearfront::exact_table(rows);
 }

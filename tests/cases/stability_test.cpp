@@ -71,7 +71,6 @@ void check(const Scene<double>& scene, const std::vector<support::Point>& points
 
 TEST(Stability, TrackerKeepsItsDigitsInHardCases) {
   for (const HardCase& c : support::hard_cases()) {
-    if (c.slow) continue;
     SCOPED_TRACE(c.name);
     check(c.scene, c.resolution, c.times, std::min(c.n_moves, 2), c.rounding);
   }
@@ -79,7 +78,6 @@ TEST(Stability, TrackerKeepsItsDigitsInHardCases) {
 
 TEST(Stability, ExactEngineKeepsItsDigitsInHardCases) {
   for (const HardPoints& c : support::hard_points()) {
-    if (c.slow) continue;
     SCOPED_TRACE(c.name);
     check(c.scene, c.points, c.with_timeline, std::min(c.n_moves, 2));
   }

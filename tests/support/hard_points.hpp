@@ -21,7 +21,6 @@ struct HardPoints {
   std::vector<Point> points;
   int n_moves = 4;            ///< how often the scene's numbers are moved, to see what that changes
   bool with_timeline = true;  ///< off where the event times of all interfaces would take minutes
-  bool slow = false;          ///< seconds in 50 digits
 };
 
 /// A time for looking at random scene number `number`.
@@ -114,10 +113,15 @@ struct HardPoints {
       {"exponential a, contrast e^100", exponential(1, 0.01, 1), points_at({1e-3, 1e10, 1e20, 1e30})},
       {"exponential a, nearly constant", exponential(1, 1e9, 1), points_at({0.1, 0.5, 1, 1.5})},
       {"1000 random layers", many_layers(1000, 11), points_at({0.03, 1}), 1, false},
-      {"10000 random layers", many_layers(10000, 12), {{0.1, 0.3}, {0.4, 0.03}, {0.6, 1}}, 1, false, true},
-      {"1e6 jumps", many_jumps(1000000, 13), random_points(many_jumps(1000000, 13), 50, 1), 1, true, true},
   };
   return cases;
+}
+
+/// Those that take seconds to minutes in 50 digits.
+[[nodiscard]] inline std::vector<HardPoints> slow_hard_points() {
+  const Scene<double> jumps = many_jumps(1000000, 13);
+  return {{"10000 random layers", many_layers(10000, 12), {{0.1, 0.3}, {0.4, 0.03}, {0.6, 1}}, 1, false},
+          {"1e6 jumps", jumps, random_points(jumps, 50, 1), 1}};
 }
 
 }  // namespace shearfront::support
