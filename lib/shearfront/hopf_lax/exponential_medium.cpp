@@ -79,14 +79,15 @@ void ExponentialMedium<Scalar>::try_source(const Scalar& z, const Scalar& t, std
   const Scalar one(1), two(2);
   if (!(below < above)) return;  // no optimal path starts where M(., 0) is concave
   const Scalar B = rate_[i] * t / decay_;
-  Scalar e = expm1(Scalar((z - cells_.x[i]) / decay_));
+  const Scalar log_E = (z - cells_.x[i]) / decay_;
+  Scalar e = expm1(log_E);
   // At the edges of the fan rounding must not leave a height to neither the fan nor the state beside it.
   const auto size = [](const Scalar& v) { return v < 0 ? Scalar(-v) : v; };
   const Scalar of_height = (size(z) + size(cells_.x[i])) / decay_ * (one + e);
   const Scalar rounding = Scalar(16) * unit_roundoff<Scalar>() * (B + size(e) + of_height);
   if (e > B + rounding || B + e < -rounding || !(B > 0)) return;
   e = std::min(B, std::max(Scalar(-B), e));
-  const FanMomenta<Scalar> fan(B, e);
+  const FanMomenta<Scalar> fan(B, log_E, e);
   // Moving the start must not pay: below <= p0 <= above.
   const Scalar slack = one / Scalar(1 << 20);
   if (fan.p0 < below - slack || fan.p0 > above + slack) return;

@@ -11,11 +11,12 @@ namespace shearfront::hopf_lax {
 /// Domain: B > 0, -min(1, B) <= e <= B. Guaranteed: relative accuracy of p0, 1 - p0 and p.
 template <Real Scalar>
 struct FanMomenta {
-  Scalar S, p0, one_minus_p0, p;
+  Scalar E, S, p0, one_minus_p0, p;
 
-  FanMomenta(const Scalar& B, const Scalar& e) {
+  /// log_E = (z - z0) / decay, e = E - 1; next to E = 0 the logarithm knows E better.
+  FanMomenta(const Scalar& B, const Scalar& log_E, const Scalar& e) : E(stretch(log_E, e)) {
     using std::sqrt;
-    const Scalar one(1), half(0.5), E = one + e;
+    const Scalar one(1), half(0.5);
     const Scalar half_B = B * half;
     // Beyond 2^400 the square would overflow a double and E no longer matters.
     const Scalar large = Scalar(std::ldexp(1.0, 400));
@@ -23,6 +24,12 @@ struct FanMomenta {
     p0 = half_B < one ? Scalar((B + e) / (B * (S + (one - half_B)))) : Scalar(half + (S - one) / B);
     one_minus_p0 = ((B - e) / B) / (half_B + one + S);
     p = E * ((B + e) / B) / (half_B + E + S);
+  }
+
+ private:
+  [[nodiscard]] static Scalar stretch(const Scalar& log_E, const Scalar& e) {
+    using std::exp;
+    return e + e < Scalar(-1) ? Scalar(exp(log_E)) : Scalar(Scalar(1) + e);
   }
 };
 

@@ -214,8 +214,9 @@ ExponentialGradient<Scalar> path_gradient(const ExponentialMedium<Scalar>& mediu
   const Scalar B = medium.rate_at(x) * t / lambda;
   Scalar p0, one_minus_p0;
   if (path.kind == PathKind::fan) {
-    const Scalar e = expm1(Scalar((z - x) / lambda)), E = one + e;
-    const FanMomenta<Scalar> fan(B, e);
+    const Scalar log_E = (z - x) / lambda, e = expm1(log_E);
+    const FanMomenta<Scalar> fan(B, log_E, e);
+    const Scalar& E = fan.E;
     p0 = fan.p0;
     one_minus_p0 = fan.one_minus_p0;
     // p = 1/2 + (E - S) / B: with d p / d log B = E (1 - S) / (S B) the sum of both logarithmic derivatives
@@ -238,7 +239,8 @@ ExponentialGradient<Scalar> path_gradient(const ExponentialMedium<Scalar>& mediu
     const Scalar p_b = -h * (E - b * F_b / F_E);  // p = p0 - b E h
     out.phi_log_rate = p_b * b;
     out.phi_decay = p_b * b * (z - lambda) / (lambda * lambda);
-    out.phi_state = one + b * E * twist + h * b * F_p / F_E;
+    // 1 + b E twist, by the equation of E without cancellation, and the change of E.
+    out.phi_state = E + h * (b * E) * (b * E) + h * b * F_p / F_E;
   }
   const Scalar Ht = path.H * t;
   out.M_log_rate = Ht;

@@ -32,9 +32,14 @@ struct LevelGrid<S>::Draft {
   /// states one rounding apart would otherwise change places, or be taken for one.
   struct Order {
     const std::vector<Class>& classes;
+    bool rounded = false;  ///< by the rounded number after all: where there are levels on chords
 
     bool operator()(const Level& a, const Level& b) const {
-      if (a.home == b.home) return a.home >= 0 || a.value == b.value ? a.p < b.p : a.value < b.value;
+      if (rounded) {
+        if (a.value != b.value) return a.value < b.value;
+        return a.home != b.home ? a.home < b.home : a.p < b.p;
+      }
+      if (a.home == b.home) return a.p < b.p;
       constexpr int kRoundings = 8;  // a value carries fewer
       const S gap = a.value < b.value ? b.value - a.value : a.value - b.value;
       if (gap > S(kRoundings) * unit_roundoff<S>() * (a.value + b.value)) return a.value < b.value;
@@ -53,7 +58,6 @@ struct LevelGrid<S>::Draft {
     }
     /// 4 c p (1 - p) in twice the digits.
     [[nodiscard]] TwoSum<S> unrounded(const Level& level) const {
-      if (level.home < 0) return {level.value, S(0)};
       const S& c = classes[static_cast<std::size_t>(level.home)].capacity;
       const TwoSum<S> rest(S(1), S(-level.p));
       const TwoProduct<S> x(S(4) * c, level.p), y(x.high, rest.high);
@@ -125,8 +129,8 @@ struct LevelGrid<S>::Draft {
 
   /// Merges vertices and extras (both ascending) into the grid, equal levels once; the level index of each
   /// wanted state.
-  static std::vector<State> merge(LevelGrid& grid, Levels vertices, const std::vector<Extra>& extras) {
-    const Order before{grid.classes_};
+  static std::vector<State> merge(LevelGrid& grid, Levels vertices, const std::vector<Extra>& extras,
+                                  const Order& before) {
     std::vector<State> level_of(extras.size());
     if (extras.empty()) {
       grid.levels_ = std::move(vertices);
@@ -265,7 +269,7 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
     extras.push_back({std::move(level), i});
   }
   Draft::make_monotone(vertices, extras);
-  const typename Draft::Order order{grid.classes_};
+  typename Draft::Order order{grid.classes_};
   order.sort(extras);
   std::size_t n_distinct = 0;
   for (std::size_t i = 0; i < extras.size(); ++i)
@@ -276,9 +280,10 @@ typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& sta
     Draft::link(grid);
     Draft::place_on_chords(grid, extras, wanted);
     for (Extra& e : extras) e.level.vertex_below = e.level.vertex_above = e.level.ordinal = 0;
+    order.rounded = true;
     order.sort(extras);
   }
-  const std::vector<State> level_of = Draft::merge(grid, std::move(vertices), extras);
+  const std::vector<State> level_of = Draft::merge(grid, std::move(vertices), extras, order);
   if (on_chords) Draft::tabulate(grid);
   built.states.resize(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i)
