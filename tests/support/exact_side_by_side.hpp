@@ -121,7 +121,8 @@ template <Real A, Real B>
     const auto& mine = run.values[i];
     const auto& theirs = oracle.values[i];
     out.M = std::max(out.M, std::abs(to_double(B((B(mine.value.M) - theirs.value.M) / height))));
-    const auto &p = run.paths[i], &q = oracle.paths[i];
+    const auto& p = run.paths[i];
+    const auto& q = oracle.paths[i];
     if (p.kind != q.kind || p.source != q.source || p.upward != q.upward || p.interface != q.interface) {
       ++out.other_path;
       continue;
