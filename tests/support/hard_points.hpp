@@ -117,7 +117,8 @@ struct HardPoints {
   return cases;
 }
 
-/// Those that take seconds to minutes in 50 digits; the event times of 1e6 jumps would take hours.
+/// Those that take seconds to minutes in 50 digits; those of 1e6 jumps without event times, which take
+/// more than ten minutes.
 [[nodiscard]] inline std::vector<HardPoints> slow_hard_points() {
   const std::vector<Point> points{{0.1, 0.3}, {0.4, 0.03}, {0.6, 1}};
   return {{"10000 random layers", many_layers(10000, 12), points, 1, false},
