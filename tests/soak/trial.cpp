@@ -15,6 +15,8 @@ namespace {
 
 using support::SceneMaker;
 
+constexpr double kMostUpdates = 2e7;  // of cells in a run, about 0.1 s
+
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : make_(seed) {}
@@ -181,7 +183,24 @@ class Draw {
     options.max_collisions = 20'000;
     options.limiter = static_cast<Limiter>(make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1));
     options.local_steps = chance(0.3);
-    options.align_cells = chance(0.3);
+    options.align_cells = chance(0.3) && aligned_updates(trial) < kMostUpdates;
+  }
+
+  /// Cell updates of a run on aligned cells with equal steps: a thin layer gets a cell of its own, and that
+  /// cell sets the step of all.
+  static double aligned_updates(const Trial& trial) {
+    const SceneSpec<double>& spec = trial.spec;
+    const Scene<double> scene(spec);
+    std::vector<double> cuts = std::visit([](const auto& a) { return a.knots(); }, spec.shear_rate);
+    cuts.insert(cuts.begin(), spec.bottom);
+    cuts.push_back(spec.top);
+    const auto cells = static_cast<double>(trial.options.cells);
+    double thinnest = (spec.top - spec.bottom) / cells, fastest = 0;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      if (cuts[i + 1] > cuts[i]) thinnest = std::min(thinnest, cuts[i + 1] - cuts[i]);
+      for (const double z : {cuts[i], cuts[i + 1]}) fastest = std::max(fastest, scene.shear_rate_at(z));
+    }
+    return cells * (trial.late * (spec.scale * fastest) / (thinnest * trial.options.cfl));
   }
 
   SceneMaker make_;
