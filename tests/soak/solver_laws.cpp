@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "shearfront/solver/all.hpp"
@@ -183,7 +184,11 @@ class SolverLaws {
     const SolverResult v = run<Solver>(larger, request_, options_, findings_),
                        w = run<Solver>(other, request_, options_, findings_);
     if (!v.summary.usable() || !w.summary.usable()) return;
-    const double height = bed_.trial.height(), slack = 1e-12 * height;
+    // Cells are as wide as their rounded edges say, not as the scheme has it.
+    const double size = std::max(std::abs(bed_.scene.bottom()), std::abs(bed_.scene.top()));
+    const double height = bed_.trial.height(),
+                 slack = 1e-12 * height + 2 * std::numeric_limits<double>::epsilon() * size *
+                                              static_cast<double>(result.profiles[0].n_cells());
     const double mass_gap = Scene<double>(larger).mass() - bed_.scene.mass();
     // A time between two steps is reached by a shorter step from the one before: S_f = (1 - f) I + f S_1
     // contracts like a step, but dist(n + f) may lie below dist(n + 1). All lie below dist(0).

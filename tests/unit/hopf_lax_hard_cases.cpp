@@ -277,6 +277,28 @@ TEST(ExactHardCases, TinyAndHugeScales) {
   }
 }
 
+// s a(z) is an ordinary number in the bed, but s amplitude, the rate far below it, is none. The same scene in
+// another unit of time, a power of two, is the same to the bit.
+TEST(ExactHardCases, ExponentialRatesWhoseAmplitudeOverflows) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Exponential<double>{0x1p200, 0x1p-7};
+  spec.scale = 0x1p900;
+  spec.bottom = 1.25;
+  spec.top = 1.3125;
+  spec.initial_breaks = {1.28};
+  spec.initial_values = {0, 1};
+  const Scene<double> scene(spec);
+  spec.scale = 1;
+  const Scene<double> slow(spec);
+  ASSERT_TRUE(std::isinf(scene.scale() * 0x1p200));
+  const ExactSolution<double> fast_solution(scene), slow_solution(slow);
+  const double t = (spec.top - spec.bottom) / slow.shear_rate_at(1.28);
+  for (const double z : {1.25, 1.26, 1.27, 1.28, 1.29, 1.3, 1.3125}) {
+    EXPECT_EQ(fast_solution.M(z, std::ldexp(t, -900)), slow_solution.M(z, t)) << z;
+    EXPECT_EQ(fast_solution.phi(z, std::ldexp(t, -900)), slow_solution.phi(z, t)) << z;
+  }
+}
+
 TEST(ExactHardCases, ConstantStates) {
   for (const double a_above : {0.5, 2.0, 8.0}) {
     const ExactSolution<double> zero{Scene<double>(layered({0.4}, {2, a_above}, {}, {0}))};

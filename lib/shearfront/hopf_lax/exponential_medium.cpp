@@ -11,7 +11,8 @@ namespace shearfront::hopf_lax {
 
 template <Real Scalar>
 ExponentialMedium<Scalar>::ExponentialMedium(const Scene<Scalar>& scene)
-    : scaled_amplitude_(scene.scale() * std::get<Exponential<Scalar>>(scene.shear_rate()).amplitude),
+    : scale_(scene.scale()),
+      amplitude_(std::get<Exponential<Scalar>>(scene.shear_rate()).amplitude),
       decay_(std::get<Exponential<Scalar>>(scene.shear_rate()).decay),
       cells_(scene, {scene.bottom(), scene.top()}) {
   for (const Scalar& x : cells_.x) rate_.push_back(rate_at(x));
@@ -20,7 +21,7 @@ ExponentialMedium<Scalar>::ExponentialMedium(const Scene<Scalar>& scene)
 template <Real Scalar>
 Scalar ExponentialMedium<Scalar>::rate_at(const Scalar& z) const {
   using std::exp;
-  return scaled_amplitude_ * exp(Scalar(-z / decay_));
+  return scale_ * (amplitude_ * exp(Scalar(-z / decay_)));  // s amplitude, the rate at z = 0, may overflow
 }
 
 template <Real Scalar>

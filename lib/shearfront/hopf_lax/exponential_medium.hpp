@@ -42,7 +42,7 @@ class ExponentialMedium final : public Medium<Scalar> {
   void try_cell(const Scalar& z, const Scalar& t, std::size_t i, Candidate<Scalar>& best) const;
   [[nodiscard]] bool turns_outside(const Scalar& p0, const Scalar& p, const Scalar& H) const;
 
-  Scalar scaled_amplitude_, decay_;
+  Scalar scale_, amplitude_, decay_;
   Cells<Scalar> cells_;
   std::vector<Scalar> rate_;  ///< s a at the points of cells_
 };
