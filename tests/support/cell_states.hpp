@@ -10,24 +10,33 @@
 /// The cells of a finite-volume solution, through the interface of all solvers.
 namespace shearfront::support {
 
-inline std::vector<double> middles(const Scene<double>& scene, std::size_t n_cells) {
-  const fv::Grid grid{scene.bottom(), scene.top(), n_cells, {}, {}};
+/// The grid a solver takes.
+inline fv::Grid grid_of(const Scene<double>& scene, const SolverOptions& options) {
+  return options.align_cells ? fv::aligned_grid(scene, options.cells)
+                             : fv::Grid{scene.bottom(), scene.top(), options.cells, {}, {}};
+}
+
+inline std::vector<double> middles(const fv::Grid& grid) {
   std::vector<double> z;
-  for (std::size_t j = 0; j < n_cells; ++j) z.push_back(grid.middle(j));
+  for (std::size_t j = 0; j < grid.n_cells; ++j) z.push_back(grid.middle(j));
   return z;
+}
+inline std::vector<double> middles(const Scene<double>& scene, std::size_t n_cells) {
+  return middles(fv::Grid{scene.bottom(), scene.top(), n_cells, {}, {}});
 }
 
 /// phi of all cells, one vector per time. Fails loudly, by an empty result, if there is none.
 template <class Solver>
 std::vector<std::vector<double>> cell_states(const Scene<double>& scene, const std::vector<double>& times,
                                              const SolverOptions& options) {
-  const SolverResult result = Solver::solve(scene, {times, middles(scene, options.cells)}, options);
+  const fv::Grid grid = grid_of(scene, options);
+  const SolverResult result = Solver::solve(scene, {times, middles(grid)}, options);
   std::vector<std::vector<double>> states;
   if (!result.summary.usable()) return states;
   for (std::size_t i = 0; i < times.size(); ++i) {
     states.emplace_back();
-    for (std::size_t j = 0; j < options.cells; ++j)
-      states.back().push_back(result.samples[i * options.cells + j].phi);
+    for (std::size_t j = 0; j < grid.n_cells; ++j)
+      states.back().push_back(result.samples[i * grid.n_cells + j].phi);
   }
   return states;
 }

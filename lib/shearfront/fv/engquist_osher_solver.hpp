@@ -4,7 +4,7 @@
 
 namespace shearfront {
 
-/// Engquist-Osher scheme, first order, on options.cells equal cells with Courant number options.cfl:
+/// Engquist-Osher scheme, first order, on options.cells cells with Courant number options.cfl:
 ///
 ///   F = s a_face ( f(max(u_l, m)) + f(min(u_r, m)) - f(m) ),   f(m) the minimum of f,
 ///
@@ -16,7 +16,7 @@ namespace shearfront {
 /// Source: Engquist & Osher (1981), Math. Comp. 36, 321-351; Towers (2000), SIAM J. Numer. Anal. 38, 681-698.
 struct EngquistOsherSolver {
   static constexpr std::string_view kName = "engquist-osher";
-  static constexpr std::string_view kDescription = "Engquist-Osher scheme on equal cells, one rate per face";
+  static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.any_scene = g.has_profiles = true;

@@ -4,7 +4,7 @@
 
 namespace shearfront {
 
-/// Godunov scheme, first order, on options.cells equal cells with Courant number options.cfl:
+/// Godunov scheme, first order, on options.cells cells with Courant number options.cfl:
 ///
 ///   F = max( s a_l f(max(u_l, m)), s a_r f(min(u_r, m)) ),   f(m) the minimum of f,
 ///
@@ -16,7 +16,7 @@ namespace shearfront {
 /// Source: Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42, 179-208.
 struct GodunovSolver {
   static constexpr std::string_view kName = "godunov";
-  static constexpr std::string_view kDescription = "Godunov scheme on equal cells, one rate per cell";
+  static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.any_scene = g.has_profiles = true;

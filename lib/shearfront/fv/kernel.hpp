@@ -39,6 +39,9 @@ struct KernelNumbers {
 inline constexpr std::size_t kLanes = 8;
 inline constexpr std::size_t kReadAhead = 4 * kLanes;
 
+/// Of the two cells at a face, the one with the shorter time step, if they belong to different sections.
+enum class FasterSide : unsigned char { none, below, above };
+
 /// Coefficients of the faces; face i lies between the cells i - 1 and i. Where a is continuous both sides
 /// have the same. A face with 0 on one side carries no flux: the walls.
 ///
@@ -50,8 +53,10 @@ struct Faces {
   const double* below;              ///< below[i]: coefficient of face i on its lower side
   const double* above;              ///< on its upper side
   const unsigned char* is_special;  ///< whether sides differ, or ratio != 1, at a face 8 i ... 8 i + 8
-  const double* ratio = nullptr;    ///< none: 1 everywhere
+  const double* ratio = nullptr;    ///< none: 1 everywhere, and none of the following
   double* remainder = nullptr;
+  const FasterSide* faster_side = nullptr;
+  double* carry = nullptr;  ///< between sections: flux that is less than a quantum of the faster cell
 };
 
 /// What a step leaves at a face for the cells above it: the cell below has gone on to the next step.
@@ -70,7 +75,9 @@ struct FaceBelow {
 ///   (1) the sum of v over all cells never changes, not even by rounding (quadratic kernel);
 ///   (2) tails do not fade into subnormal numbers, which cost a hundred times the time of normal ones;
 ///   (3) a face without flux (walls, rest) has h == rest exactly: steady states are kept forever;
-///   (4) v stays in [-1, 1].
+///   (4) v stays in [-1, 1]: in first order |G| at a face is at most the room its two cells leave, a whole
+///       number of quanta, and rounding is monotone; second order: fv/muscl_pass.hpp; faces between cells
+///       with unequal steps: fv/section.hpp; with unequal widths what does not fit waits in `remainder`.
 /// Price: a flux that changes v by less than quantum / 2 in a step is lost. The scheme for M is monotone too,
 /// so errors of M at most add up: |error of M| <= quantum / 4 * dz * steps, about 1e-16 s a_max t.
 class Kernel {

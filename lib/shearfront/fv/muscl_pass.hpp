@@ -56,11 +56,26 @@ struct Slope {
 /// second ahead of the cells that are written, by a vector or two; nothing but v goes to memory.
 ///
 /// `Rule` is what depends on the flux (quadratic_muscl_kernel.cpp, unimodal_kernel.cpp):
-///   kRest; flux(g, top, minus_bottom, c), G of a face from the states at it, the upper one with its sign
-///   changed; flux_at_jump(g, top, minus_bottom, c_below, c_above); mapped(own, v, ratio), the state whose
-///   flux in the own layer is that of v in a layer of `ratio` times the rate, on the branch of v, or the
-///   extremum if the own layer cannot carry it.
+///   kRest, kQuantum; flux(g, top, minus_bottom, c), G of a face from the states at it, the upper one with
+///   its sign changed; flux_at_jump(g, top, minus_bottom, c_below, c_above); mapped(own, v, ratio), the state
+///   whose flux in the own layer is that of v in a layer of `ratio` times the rate, on the branch of v, or
+///   the extremum if the own layer cannot carry it.
 /// `has_ratio`: faces.ratio is there.
+///
+/// Why v stays in [-1, 1] (quadratic flux, G <= 0; in quanta q; the lower bound is the mirror image). Take a
+/// cell with v = 1 - d, d a whole number. Flux a through its upper face fills it, flux b through its lower
+/// face empties it; a1, a2, b1, b2 are the sizes of both stages as computed, w = 1 - d' the state after the
+/// first, d' = d - [a1] + [b1], [ ] rounding to whole quanta. Both edges of a cell are within 2 d of 1 (half
+/// rises are no larger than the room), so a1 <= c (1 - (1 - 2 d)^2) <= d - d^2 for c <= 1/4; where the cell
+/// is flat, a1 <= c 2 d <= d / 2. It is flat for d < 2^-24; otherwise d^2 >= 16 q, which is 8 q more than the
+/// roundings inside a1. The same holds for a2 with d'. To show: [(a1 + a2) / 2] < d + (b1 + b2) / 2 + 1/2,
+/// since then v' = 1 - d + [(a1 + a2) / 2] - [(b1 + b2) / 2] < 1 + q, and v' is a whole number of quanta.
+///   d = 0: a1 = 0, d' = [b1]. Flat: a2 / 2 <= [b1] / 4, which rounds to 0 up to [b1] = 2 (ties go to even),
+///     and [b1] / 4 + 1/2 <= b1 / 2 from [b1] = 3. Else (a1 + a2) / 2 + 1/2 <= [b1] / 2 - 7/2 < b1 / 2.
+///   d = 1: flat. a1 <= 1/2, so [a1] = 0 and d' = 1 + [b1]. Flat in the second stage: (a1 + a2) / 2 <= 1/2 +
+///     [b1] / 4, which rounds to 0 for [b1] = 0 and is less than 1 + b1 / 2 else; not flat: 8 q to spare.
+///   d >= 2: a1 + a2 <= a1 + d - [a1] + [b1] <= d + b1 + 1, so the left side is at most
+///     d / 2 + b1 / 2 + 1 <= d + b1 / 2.
 template <class Rule, Limiter limiter, bool has_ratio, int width>
 class MusclPass {
   using L = Lanes<width>;
@@ -126,8 +141,12 @@ class MusclPass {
     fluxes(g0_, top_, i, below, v0_, above);
     h_stage_ = g0_ + Rule::kRest;
     h_stage_up_ = h_stage_;
-    if (has_ratio && is_special(faces_, i)) [[unlikely]]
-      turn_to_units_above(h_stage_up_, i, 0, width, false);
+    if (has_ratio && is_special(faces_, i)) [[unlikely]] {
+      double h_up[width];
+      for (int lane = 0; lane < width; ++lane)
+        h_up[lane] = stage_flux(faces_, i + lane, g0_[lane], Rule::kRest).above;
+      L::load(h_stage_up_, h_up);
+    }
     L::higher(h_above, h_below, h_stage_);
     w1_ = v1_ - (h_above - (has_ratio ? h_stage_1_ : h_below));
   }
@@ -139,18 +158,22 @@ class MusclPass {
     L::lower(below, w3_, w2_);
     L::higher(above, w2_, w1_);
     fluxes(g, stage_top_, i, below, w2_, above);
-    h_ = 0.5 * (g2_ + g) + Rule::kRest;
+    g = 0.5 * (g2_ + g);
+    h_ = g + Rule::kRest;
     h_up_ = h_;
-    if (has_ratio && is_special(faces_, i)) [[unlikely]]
-      turn_to_units_above(h_up_, i, first, last, true);
-  }
-
-  SHEARFRONT_FV_INLINE void turn_to_units_above(Vector& h, std::ptrdiff_t i, int first, int last,
-                                                bool keeps_remainder) const {
-    double memory[width];
-    L::store(memory, h);
-    to_units_above(faces_, i + first, memory + first, last - first, Rule::kRest, keeps_remainder);
-    L::load(h, memory);
+    if (has_ratio && is_special(faces_, i)) [[unlikely]] {
+      double h[width], h_up[width];
+      L::store(h, h_);
+      L::store(h_up, h_up_);
+      for (int lane = first; lane < last; ++lane) {
+        const FaceFlux flux = step_flux(faces_, i + lane, g[lane], lane == 0 ? v3_[width - 1] : v2_[lane - 1],
+                                        v2_[lane], Rule::kRest, Rule::kQuantum);
+        h[lane] = flux.below;
+        h_up[lane] = flux.above;
+      }
+      L::load(h_, h);
+      L::load(h_up_, h_up);
+    }
   }
 
   /// Fluxes through the faces below the cells v = v[i], v[i + 1], ... with neighbours below and above.

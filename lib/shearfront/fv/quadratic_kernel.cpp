@@ -23,17 +23,17 @@ SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, 
   last[width - 1] = h_below;
   for (std::size_t i = 0; i < n; i += width) {
     const bool is_special = (has_ratio || scheme == Scheme::godunov) && faces.is_special[i / kLanes] != 0;
-    Vector l, r, c, h_above, h;
+    Vector l, r, c, g, h;
     L::load(l, v + i);
     L::load(r, v + i + 1);
     L::load(c, faces.above + i + 1);
     if constexpr (scheme == Scheme::engquist_osher) {
       const Vector rising = l > zero ? l * l : zero, falling = r < zero ? r * r : zero;
-      h_above = c * ((rising + falling) - 1.0) + kRest;
+      g = c * ((rising + falling) - 1.0);
     } else if (!is_special) [[likely]] {
       // Roundings are monotone: this is the maximum of both sides to the bit.
       const Vector most = l > -r ? l : -r, size = most > zero ? most : zero;
-      h_above = c * (size * size - 1.0) + kRest;
+      g = c * (size * size - 1.0);
     } else {
       Vector c_below;
       L::load(c_below, faces.below + i + 1);
@@ -42,14 +42,19 @@ SHEARFRONT_FV_INLINE double step(double* v, const Faces& faces, double h_below, 
           c[lane] = coefficient_above(faces, static_cast<std::ptrdiff_t>(i) + 1 + lane);
       const Vector rising = l > zero ? l * l : zero, falling = r < zero ? r * r : zero;
       const Vector from_below = c_below * (rising - 1.0), from_above = c * (falling - 1.0);
-      h_above = (from_below > from_above ? from_below : from_above) + kRest;
+      g = from_below > from_above ? from_below : from_above;
     }
-    Vector up = h_above;  // in the units of the cells above
+    Vector h_above = g + kRest, up = h_above;  // in the units of the cells above
     if (has_ratio && is_special) [[unlikely]] {
-      double memory[width];
-      L::store(memory, h_above);
-      to_units_above(faces, static_cast<std::ptrdiff_t>(i) + 1, memory, width, kRest, true);
-      L::load(up, memory);
+      double below[width], above[width];
+      for (int lane = 0; lane < width; ++lane) {
+        const FaceFlux flux = step_flux(faces, static_cast<std::ptrdiff_t>(i) + 1 + lane, g[lane], l[lane],
+                                        r[lane], kRest, kQuantum);
+        below[lane] = flux.below;
+        above[lane] = flux.above;
+      }
+      L::load(h_above, below);
+      L::load(up, above);
     }
     L::lower(h, last, up);
     last = up;

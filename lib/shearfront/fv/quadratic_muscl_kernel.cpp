@@ -12,7 +12,8 @@ namespace {
 template <int width>
 struct QuadraticRule {
   using Vector = typename Vectors<width>::Type;
-  static constexpr double kRest = 1.5;  // |G| <= 1/4, so h is in [1, 2] where doubles are 2^-52 apart
+  // |G| <= 1/4, so h is in [1, 2] where doubles are 2^-52 apart
+  static constexpr double kRest = 1.5, kQuantum = 0x1p-52;
 
   SHEARFRONT_FV_INLINE static void flux(Vector& g, const Vector& top, const Vector& minus_bottom,
                                         const Vector& c) {
@@ -71,7 +72,7 @@ class QuadraticMusclKernel final : public Kernel {
     MusclPass<QuadraticRule<2>, limiter, true, 2>::half_rises(rule, v, faces, rises, n);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
-    return {QuadraticRule<2>::kRest, 0x1p-52, 0.5, 0.5, true};
+    return {QuadraticRule<2>::kRest, QuadraticRule<2>::kQuantum, 0.5, 0.5, true};
   }
 
  private:

@@ -59,8 +59,12 @@ Section::Section(const Kernel& kernel, const CellData& data, std::size_t first, 
   if (has_ratio) {
     ratio_.assign(n_padded_ + kReadAhead, 1.0);
     remainder_.assign(n_padded_ + kReadAhead, 0.0);
+    carry_.assign(n_padded_ + kReadAhead, 0.0);
+    faster_side_.assign(n_padded_ + kReadAhead, FasterSide::none);
     for (std::size_t i = 1; i < n_all; ++i)
       ratio_[i] = unit_of(data, begin + i) / unit_of(data, begin + i - 1);
+    if (copies_below_ > 0) faster_side_[copies_below_] = FasterSide::above;
+    if (copies_above_ > 0) faster_side_[copies_below_ + n] = FasterSide::below;
   }
   is_per_cell_ = is_per_cell;
   is_special_.assign((n_padded_ + kReadAhead) / kLanes, 0);
@@ -72,10 +76,12 @@ Section::Section(const Kernel& kernel, const CellData& data, std::size_t first, 
 
 Faces Section::faces(std::size_t first) {
   const double* above = c_.data() + kLanes + first;
-  Faces faces{is_per_cell_ ? above - 1 : above, above, is_special_.data() + first / kLanes, nullptr, nullptr};
+  Faces faces{is_per_cell_ ? above - 1 : above, above, is_special_.data() + first / kLanes};
   if (!ratio_.empty()) {
     faces.ratio = ratio_.data() + first;
     faces.remainder = remainder_.data() + first;
+    faces.faster_side = faster_side_.data() + first;
+    faces.carry = carry_.data() + first;
   }
   return faces;
 }
@@ -128,16 +134,10 @@ void Border::deliver(Section& below, Section& above, double quantum) {
   Section& fast = is_faster_below_ ? below : above;
   const int halvings = std::abs(below.octave_ - above.octave_);
   const double n_steps = std::ldexp(1.0, halvings);
-  // What the fast side has not got or given because of roundings, the slow side gives or gets.
   const std::size_t face = fast.copies_below_ + (is_faster_below_ ? fast.n_ : 0);
-  double& remainder = fast.remainder_[face];
-  if (is_faster_below_) {
-    owed_ += remainder / n_steps;
-    remainder = 0;
-  } else {
-    owed_ += (remainder - last_remainder_) / (fast.ratio_[face] * n_steps);
-    last_remainder_ = remainder;
-  }
+  // What has not come through the border yet.
+  owed_ += (is_faster_below_ ? 1 : -1) * fast.remainder_[face] / n_steps;
+  fast.remainder_[face] = fast.carry_[face] = 0;
   // Means from the innermost cell outwards: the flux through its inner face is the same in all steps, and
   // every other face gets a whole number of quanta.
   std::array<double, kCells> states{};
@@ -162,15 +162,6 @@ void Border::deliver(Section& below, Section& above, double quantum) {
   };
   for (std::size_t i = kCells; i-- > 0;) pass_on(i);
   for (std::size_t i = 0; i < kCells; ++i) pass_on(i);
-  // Or across the border; between cells of unequal width a quantum is not a quantum, and waits.
-  const double ratio = fast.ratio_[face];
-  if (excess != 0 && ratio == (is_faster_below_ ? n_steps : 1 / n_steps))
-    for (std::size_t i = 0; i < std::min(kCells, fast.n_); ++i) {
-      double& state = is_faster_below_ ? below.states()[below.n_ - 1 - i] : above.states()[i];
-      const double wanted = state + excess;
-      state = std::clamp(wanted, -1.0, 1.0);
-      excess = wanted - state;
-    }
   owed_ += excess;
   for (std::size_t i = 0; i < kCells; ++i) slow(below, above, i) = states[i];
   for (std::size_t i = 0; i < kLanes; ++i) copy(below, above, i) = slow(below, above, i);

@@ -30,6 +30,22 @@ struct CellData {
 /// kBorderCells cells, all that the border can have influenced, get the mean of the sums instead. So a slow
 /// cell's step is the mean of full steps of its own length, each of which keeps the bounds and is monotone in
 /// first order, and what crosses the border is the same amount on both sides.
+///
+/// Where cells have equal widths the mass is kept to the bit and v stays in [-1, 1]. The flux x through the
+/// border, in quanta of the faster cell's step, is rounded down in size, and what is left is carried to the
+/// next of the n steps that a slow one takes; the last carry, less than a quantum, has not moved and is
+/// forgotten. The slow cell changes by n times whole quanta in every step, by whole quanta in their mean. x
+/// is cut to the room in the faster cell, so that no carry takes more than there is. (A rounding to nearest
+/// would be amplified by n in the slow cell, which then lacks the room for it.) The bounds, notation of
+/// MusclPass:
+///   fast cell, x filling it: at most its room. x emptying it: the sum falls short by less than a quantum in
+///     any step, and [(a1 + a2) / 2] <= d + b1 / 2 was all that was used there: v' < 1 + q.
+///   slow cell, x emptying it: the same, for the mean of the steps; with the cells beside it, each of which
+///     is in its bounds in every step, the sum of all kBorderCells, a whole number, has room in them.
+///   slow cell, x filling it: the mean of x <= (a1 + a2) / 2 <= (d + a1 - [a1] + [b1]) / 2, and what leaves
+///     through the other face is at least b1 / 2 - 1/2 >= [b1] / 2 - 3/4: v' < 1 + q for d >= 1; for d = 0,
+///     a1 = 0 and x <= [b1] / 4.
+/// In first order a face is bounded on its own, as in Kernel.
 /// Source: Osher & Sanders (1983), Math. Comp. 41, 321-336; two stages: Constantinescu & Sandu (2007), J.
 /// Sci. Comput. 33, 239-278.
 class Section {
@@ -64,7 +80,8 @@ class Section {
   std::size_t first_, n_, copies_below_, copies_above_, n_padded_;
   FaceBelow bottom_;
   // With kLanes cells beyond the lowest, and more beyond the highest.
-  std::vector<double> v_, c_, ratio_, remainder_;
+  std::vector<double> v_, c_, ratio_, remainder_, carry_;
+  std::vector<FasterSide> faster_side_;
   std::vector<unsigned char> is_special_;
 };
 
@@ -89,8 +106,7 @@ class Border {
 
   bool is_faster_below_;
   std::array<Sum, kCells> sums_{};
-  double owed_ = 0;            ///< change of the slow cell at the border that is less than a quantum
-  double last_remainder_ = 0;  ///< of the border's face after the last delivery
+  double owed_ = 0;  ///< change of the slow cells that waits; 0 on cells of equal width
 };
 
 }  // namespace shearfront::fv

@@ -14,7 +14,7 @@
 namespace shearfront::fv {
 namespace {
 
-constexpr std::size_t kMostCells = 100'000'000;  // 4 GB
+constexpr std::size_t kMostCells = 100'000'000;  // 6 to 14 GB
 constexpr double kMostUpdates = 1e15;            // some days
 // The caller is asked for leave to go on after so many cell updates, some hundredths of a second.
 constexpr std::uint64_t kUpdatesPerCall = 1 << 24;

@@ -10,21 +10,25 @@
 
 namespace shearfront::fv {
 
-/// Both finite-volume solvers: u_j -= dt / dz (F_{j+1/2} - F_{j-1/2}) on options.cells equal cells, with no
-/// flux through the walls.
+/// All finite-volume solvers: u_j -= dt / dz (F_{j+1/2} - F_{j-1/2}), in two stages for muscl, with no flux
+/// through the walls. On options.cells equal cells, or with options.align_cells on about as many with edges
+/// on the interfaces (aligned_grid()).
 ///
-/// Time steps: dt = cfl dz / (s max a max |f'|), the same for the whole run. The state at a time t between
-/// n dt and (n + 1) dt comes from one shorter step that starts at n dt; the march itself goes on from n dt.
-/// So (1) what comes out at t does not depend on the other times asked for; (2) it is a continuous function
-/// of t and of the numbers of the scene: where n changes, the shorter step has become a whole one, or
-/// nothing (equal steps, n = ceil(t / dt), would jump there).
-/// phi is constant in a cell, M is linear and consistent with it. t = infinity gives the steady state of the
-/// grid (fv/march.hpp) without a march, and a march that has come to rest stops.
+/// Time steps: dt = cfl C dz / (s max a max |f'|), C = 1 in first order and 1/2 for muscl; the same for the
+/// whole run. With options.local_steps that is the step of the fastest cells; others take steps 2, 4, 8, ...
+/// times as long where their rate allows it (octaves_of()), and dt below is that of the slowest. The state at
+/// a time t between n dt and (n + 1) dt comes from one shorter step that starts at n dt; the march itself
+/// goes on from n dt. So (1) what comes out at t does not depend on the other times asked for; (2) it is a
+/// continuous function of t and of the numbers of the scene: where n changes, the shorter step has become a
+/// whole one, or nothing (equal steps, n = ceil(t / dt), would jump there). phi is constant in a cell (linear
+/// for muscl), M is its integral. t = infinity gives the steady state of the grid (fv/march.hpp) without a
+/// march, and a march that has come to rest stops.
 ///
 /// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one extremum),
 /// interrupted (options.progress said so), not_converged (the rates differ so much that rounding stopped the
 /// slow cells), budget_reached (1e15 cell updates).
-/// Cost: cells * (t / dt) cell updates; tests/bench/fv_bench.cpp. Memory: 40 bytes per cell.
+/// Cost: cells * (t / dt) cell updates, with local steps each cell by its own dt; tests/bench/fv_bench.cpp.
+/// Memory: 56 bytes per cell, 72 for muscl; 66 more where cells or steps differ; 32 per cell of a profile.
 [[nodiscard]] SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
                                  const SolverOptions& options);
 

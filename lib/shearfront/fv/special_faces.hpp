@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "shearfront/fv/kernel.hpp"
@@ -13,24 +14,49 @@ inline double coefficient_above(const Faces& faces, std::ptrdiff_t face) {
   return faces.ratio != nullptr && is_of_cell ? faces.above[face] / faces.ratio[face] : faces.above[face];
 }
 
-/// Turns the fluxes h of n faces into the units of the cells above. With `keeps_remainder` what the rounding
-/// leaves is kept.
-inline void to_units_above(const Faces& faces, std::ptrdiff_t face, double* h, int n, double rest,
-                           bool keeps_remainder) {
-  for (int lane = 0; lane < n; ++lane, ++face) {
-    if (faces.ratio[face] == 1) continue;
-    const double amount =
-        faces.ratio[face] * (h[lane] - rest) + (keeps_remainder ? faces.remainder[face] : 0);
-    h[lane] = rest + amount;
-    if (keeps_remainder) faces.remainder[face] = amount - (h[lane] - rest);
+/// A flux in the units of the cell below the face and of the one above, as h.
+struct FaceFlux {
+  double below, above;
+};
+
+/// Flux g of a face, in the units of the cell below, for one of the stages of a step.
+inline FaceFlux stage_flux(const Faces& faces, std::ptrdiff_t face, double g, double rest) {
+  return {rest + g, rest + faces.ratio[face] * g};
+}
+
+/// Flux g of a face for a whole step, rounded; what the rounding leaves is kept. `v_below`, `v_above`: the
+/// cells at the face before the step. Between sections: Section says what is guaranteed and why.
+inline FaceFlux step_flux(const Faces& faces, std::ptrdiff_t face, double g, double v_below, double v_above,
+                          double rest, double quantum) {
+  const double ratio = faces.ratio[face];
+  if (ratio == 1) return {rest + g, rest + g};
+  double& remainder = faces.remainder[face];
+  const FasterSide faster = faces.faster_side[face];
+  if (faster == FasterSide::none) {
+    const double below = rest + g, amount = ratio * (below - rest) + remainder, above = rest + amount;
+    remainder = amount - (above - rest);
+    return {below, above};
   }
+  // In quanta of the faster cell.
+  const bool is_below = faster == FasterSide::below, is_down = g < 0;
+  const double room =
+      (is_below ? (is_down ? 1 - v_below : v_below + 1) : (is_down ? v_above + 1 : 1 - v_above)) / quantum;
+  double& carry = faces.carry[face];
+  const double wanted = std::min((is_below ? 1 : ratio) * std::abs(g) / quantum, room);
+  const double size = std::min(std::floor(wanted + carry), room);
+  carry += wanted - size;
+  const double amount = is_down ? -size * quantum : size * quantum;
+  const double slow_amount = (is_below ? amount * ratio : amount / ratio) + remainder;
+  const double fast = rest + amount, slow = rest + slow_amount;
+  remainder = slow_amount - (slow - rest);
+  return is_below ? FaceFlux{fast, slow} : FaceFlux{slow, fast};
 }
 
 /// A remainder can push a cell that is all but pure beyond its bounds: the excess waits, too. `v`: states of
 /// the cells above n faces.
 inline void hold_back_excess(const Faces& faces, std::ptrdiff_t face, double* v, int n) {
   for (int lane = 0; lane < n; ++lane, ++face) {
-    if (faces.ratio[face] == 1) continue;
+    if (faces.ratio[face] == 1 || faces.faster_side[face] != FasterSide::none) continue;
     const double bounded = std::clamp(v[lane], -1.0, 1.0);
     faces.remainder[face] += v[lane] - bounded;
     v[lane] = bounded;

@@ -9,14 +9,12 @@
 namespace shearfront::fv {
 namespace {
 
-// |f| <= largest_slope (hi - lo) / 2 gives |G| <= 1, so h is in [2, 4] where doubles are 2^-51 apart.
-constexpr double kQuantum = 0x1p-51;
-
 /// What MusclPass needs to know, by calls of the flux, lane by lane.
 class UnimodalRule {
  public:
   using Vector = Vectors<2>::Type;
-  static constexpr double kRest = 3;
+  // |f| <= largest_slope (hi - lo) / 2 gives |G| <= 1, so h is in [2, 4] where doubles are 2^-51 apart.
+  static constexpr double kRest = 3, kQuantum = 0x1p-51;
 
   explicit UnimodalRule(UnimodalFlux flux) : flux_(std::move(flux)) {}
 
@@ -81,15 +79,15 @@ class UnimodalKernel final : public Kernel {
           scheme_ == Scheme::engquist_osher
               ? faces.above[face] * (rising + (falling - at_extremum_))
               : rule_.godunov(rising, falling, faces.below[face], coefficient_above(faces, face));
-      double h_above = UnimodalRule::kRest + g;
-      v[i] -= h_above - h_below;
-      if (faces.ratio != nullptr) {
-        hold_back_excess(faces, face - 1, v + i, 1);
-        to_units_above(faces, face, &h_above, 1, UnimodalRule::kRest, true);
-      }
+      constexpr double kRest = UnimodalRule::kRest;
+      FaceFlux h{kRest + g, kRest + g};
+      if (faces.ratio != nullptr)
+        h = step_flux(faces, face, g, v[i], v[i + 1], kRest, UnimodalRule::kQuantum);
+      v[i] -= h.below - h_below;
+      if (faces.ratio != nullptr) hold_back_excess(faces, face - 1, v + i, 1);
       // A model's rounding near the ends of its range is unknown here: keep the bounds by force.
       v[i] = std::clamp(v[i], -1.0, 1.0);
-      h_below = h_above;
+      h_below = h.above;
     }
     return {h_below, 0, 0, 0};
   }
@@ -97,7 +95,7 @@ class UnimodalKernel final : public Kernel {
     std::fill_n(rises, n, 0.0);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
-    return {UnimodalRule::kRest, kQuantum, 1, rule_.coefficient_weight(), false};
+    return {UnimodalRule::kRest, UnimodalRule::kQuantum, 1, rule_.coefficient_weight(), false};
   }
 
  private:
@@ -124,7 +122,7 @@ class UnimodalMusclKernel final : public Kernel {
     Pass<true>::half_rises(rule_, v, faces, rises, n);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
-    return {UnimodalRule::kRest, kQuantum, 0.5, rule_.coefficient_weight(), true};
+    return {UnimodalRule::kRest, UnimodalRule::kQuantum, 0.5, rule_.coefficient_weight(), true};
   }
 
  private:
