@@ -238,7 +238,7 @@ TEST(FvKernels, AllInstructionSetsAgreeToTheBit) {
       SCOPED_TRACE("cells " + std::to_string(n_cells) + ", choice " + std::to_string(choice));
       const fv::Grid grid = support::grid_of(scene, options);
       const fv::CellData data = cell_data(scheme, scene, grid, options.local_steps);
-      const int n_steps = n_cells > 1000 ? 90 : 301;
+      const int n_steps = n_cells > 100 ? 70 : 301;
       const auto portable = fv::quadratic_kernel(scheme, limiter, Simd::portable);
       fv::March reference(*portable, flux, data, 1);
       for (int step = 0; step < n_steps; ++step) reference.advance(1);
