@@ -8,6 +8,7 @@
 
 #include "shearfront/fv/grid.hpp"
 #include "shearfront/fv/march.hpp"
+#include "shearfront/solver/all.hpp"
 
 namespace shearfront {
 namespace {
@@ -58,13 +59,55 @@ BENCHMARK_CAPTURE(march, engquist_osher_portable, fv::Scheme::engquist_osher, fv
 BENCHMARK_CAPTURE(march, godunov_avx512, fv::Scheme::godunov, fv::Simd::avx512)->Apply(sizes);
 BENCHMARK_CAPTURE(march, godunov_avx2, fv::Scheme::godunov, fv::Simd::avx2)->Apply(sizes);
 BENCHMARK_CAPTURE(march, godunov_portable, fv::Scheme::godunov, fv::Simd::portable)->Apply(sizes);
-BENCHMARK_CAPTURE(march, muscl_minmod_avx512, fv::Scheme::muscl, fv::Simd::avx512, Limiter::minmod)
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(march, muscl_mc_avx512, fv::Scheme::muscl, fv::Simd::avx512, Limiter::mc)->Apply(sizes);
-BENCHMARK_CAPTURE(march, muscl_van_leer_avx512, fv::Scheme::muscl, fv::Simd::avx512, Limiter::van_leer)
-    ->Apply(sizes);
-BENCHMARK_CAPTURE(march, muscl_mc_avx2, fv::Scheme::muscl, fv::Simd::avx2, Limiter::mc)->Apply(sizes);
-BENCHMARK_CAPTURE(march, muscl_mc_portable, fv::Scheme::muscl, fv::Simd::portable, Limiter::mc)->Apply(sizes);
+#define SHEARFRONT_MUSCL_BENCH(limiter)                                                                     \
+  BENCHMARK_CAPTURE(march, muscl_##limiter##_avx512, fv::Scheme::muscl, fv::Simd::avx512, Limiter::limiter) \
+      ->Apply(sizes);                                                                                       \
+  BENCHMARK_CAPTURE(march, muscl_##limiter##_avx2, fv::Scheme::muscl, fv::Simd::avx2, Limiter::limiter)     \
+      ->Apply(sizes);                                                                                       \
+  BENCHMARK_CAPTURE(march, muscl_##limiter##_portable, fv::Scheme::muscl, fv::Simd::portable,               \
+                    Limiter::limiter)                                                                       \
+      ->Apply(sizes)
+SHEARFRONT_MUSCL_BENCH(minmod);
+SHEARFRONT_MUSCL_BENCH(mc);
+SHEARFRONT_MUSCL_BENCH(van_leer);
+
+Scene<double> contrast_1000() {
+  SceneSpec<double> spec = example_1().spec();
+  spec.shear_rate = Piecewise<double>{{0.5}, {1000, 1}};
+  return Scene<double>(spec);
+}
+Scene<double> exponential() {
+  SceneSpec<double> spec = example_1().spec();
+  spec.shear_rate = Exponential<double>{0.87 / 0.205, 0.205};
+  spec.scale = 13.60;
+  return Scene<double>(spec);
+}
+
+/// A whole run to time t with 800 cells; the argument says whether with local steps.
+template <class Solver>
+void run_to(benchmark::State& state, const Scene<double>& scene, double t) {
+  SolverOptions options;
+  options.cells = 800;
+  options.local_steps = state.range(0) == 1;
+  std::uint64_t updates = 0;
+  for (auto _ : state) updates = Solver::solve(scene, {{t}, {0.5}}, options).summary.cell_updates;
+  state.counters["updates"] = static_cast<double>(updates);
+}
+void godunov_to(benchmark::State& state, const Scene<double>& scene, double t) {
+  run_to<GodunovSolver>(state, scene, t);
+}
+void muscl_to(benchmark::State& state, const Scene<double>& scene, double t) {
+  run_to<MusclSolver>(state, scene, t);
+}
+void with_and_without(benchmark::internal::Benchmark* bench) {
+  bench->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+}
+#define SHEARFRONT_LOCAL_BENCH(name, scene, t)                            \
+  BENCHMARK_CAPTURE(godunov_to, name, scene, t)->Apply(with_and_without); \
+  BENCHMARK_CAPTURE(muscl_to, name, scene, t)->Apply(with_and_without)
+SHEARFRONT_LOCAL_BENCH(example_1, example_1(), 6);
+SHEARFRONT_LOCAL_BENCH(contrast_1000, contrast_1000(), 0.4);
+SHEARFRONT_LOCAL_BENCH(exponential, exponential(), 0.9);
 
 }  // namespace
 }  // namespace shearfront
