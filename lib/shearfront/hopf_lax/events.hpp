@@ -21,9 +21,10 @@ struct TimelineOptions {
 ///
 /// Guarantees: layered and exponential a: first arrivals to a few units in the last place of Scalar (times
 /// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
-/// the change; tabulated a: order 3/2 in the layer height. Only breaks of a layered a are listed as
-/// interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first arrivals, some 20 queries per last
-/// change. Source: May, Shearer & Daniels (2010), Section 3, for two layers.
+/// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
+/// M: the change before it is reported); tabulated a: order 3/2 in the layer height. Only breaks of a layered
+/// a are listed as interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first arrivals, some 20
+/// queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two layers.
 template <Real Scalar>
 [[nodiscard]] Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options = {});
 
