@@ -24,9 +24,8 @@ namespace shearfront::fv {
 /// for muscl), M is its integral. t = infinity gives the steady state of the grid (fv/march.hpp) without a
 /// march, and a march that has come to rest stops.
 ///
-/// The mass is that of the scene to the bit of 2^-53 per cell on equal cells. On cells of unequal widths what
-/// rounding leaves of a flux waits at the face between them: 1e-14 as a rule; where a layer thinner than 1e-5
-/// of the bed is pure, muscl has let 2e-13 of the height pile up there in 2e6 steps.
+/// The mass is that of the scene to the bit of 2^-53 per cell on equal cells, to rounding on others, where
+/// what rounding leaves of a flux waits at the face between two widths.
 ///
 /// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one extremum),
 /// interrupted (options.progress said so), not_converged (the rates differ so much that rounding stopped the

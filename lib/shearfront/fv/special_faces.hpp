@@ -31,14 +31,10 @@ inline FaceFlux step_flux(const Faces& faces, std::ptrdiff_t face, double g, dou
   const double ratio = faces.ratio[face];
   if (ratio == 1) return {rest + g, rest + g};
   double& remainder = faces.remainder[face];
-  const FasterSide faster = faces.faster_side[face];
-  if (faster == FasterSide::none) {
-    const double below = rest + g, amount = ratio * (below - rest) + remainder, above = rest + amount;
-    remainder = amount - (above - rest);
-    return {below, above};
-  }
-  // In quanta of the faster cell.
-  const bool is_below = faster == FasterSide::below, is_down = g < 0;
+  // In quanta of the faster cell; of the one below where both take the same steps. A rounding to nearest
+  // would stop a small flux for good, and what goes on arriving at a thin cell beyond the face had to wait
+  // there.
+  const bool is_below = faces.faster_side[face] != FasterSide::above, is_down = g < 0;
   const double room =
       (is_below ? (is_down ? 1 - v_below : v_below + 1) : (is_down ? v_above + 1 : 1 - v_above)) / quantum;
   double& carry = faces.carry[face];
