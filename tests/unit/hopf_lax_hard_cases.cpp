@@ -65,6 +65,18 @@ TEST(ExactHardCases, NextToAJumpWhoseStateIsNextToOneHalf) {
     }
 }
 
+TEST(ExactHardCases, NoFluxThroughAnInterfaceExceedsWhatTheLayerAboveCarries) {
+  // The fan sets out within rounding of the interface, from the layer that carries a little more.
+  const double z = 0.4724065368652349, above = 1.0084867162819546;
+  const ExactSolution<double> solution{Scene<double>(
+      layered({z}, {1.00848671628316, above}, {std::nextafter(z, 0.0)}, {0.5000000000516142, 1}))};
+  for (const double t : {6.8e-6, 2.9e-5, 0.01}) {
+    const auto value = solution.at(z, t);
+    EXPECT_LE(value.H, above / 4);
+    EXPECT_NEAR(value.H, above * value.phi * (1 - value.phi), 1e-15);
+  }
+}
+
 TEST(ExactHardCases, PathsFromFarAboveInAnExponentialMedium) {
   // Where a falls by e^-15, characteristics come down from where a is e^-9 of what it is here.
   SceneSpec<double> spec;

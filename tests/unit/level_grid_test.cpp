@@ -77,6 +77,41 @@ TEST(LevelGrid, StatesOnAChordBetweenNearlyEqualCapacitiesKeepTheirPhi) {
     EXPECT_NEAR(built.grid.phi(wanted[i].layer, built.states[i]), wanted[i].phi, 1e-16) << i;
 }
 
+TEST(LevelGrid, SpeedsOfNearlyParallelFrontsNextToOneHalfDifferByTheirStates) {
+  // States of layers of nearly equal capacity: their fluxes are all but the same, their concentrations not.
+  support::SceneMaker maker(support::seed_of(62));
+  for (int number = 0; number < 200; ++number) {
+    const double a = maker.uniform(0.1, 9), b = a * (1 + std::pow(10.0, maker.uniform(-15.5, -9)));
+    const auto near_half = [&] { return 0.5 + maker.uniform(-1, 1) * std::pow(10.0, maker.uniform(-9, -5)); };
+    const std::vector<LayerState<double>> wanted{
+        {0, near_half()}, {0, near_half()}, {1, near_half()}, {1, 0.5}};
+    const auto stack = stack_of({a, b});
+    const auto built = LevelGrid<double>::exact_levels(stack, 0.1, wanted);
+    const LayerStack<Real50> stack50({Real50(0), Real50(0.5), Real50(1)}, {Real50(a), Real50(b)}, Real50(1),
+                                     {true});
+    std::vector<LayerState<Real50>> wanted50;
+    for (const auto& w : wanted) wanted50.push_back({w.layer, Real50(w.phi)});
+    const auto built50 = LevelGrid<Real50>::exact_levels(stack50, Real50(0.1), wanted50);
+    for (std::size_t layer = 0; layer < 2; ++layer) {
+      const State middle = built.grid.bottom_state(layer) / 2;
+      for (std::size_t i = 0; i < wanted.size(); ++i)
+        for (std::size_t j = 0; j < wanted.size(); ++j) {
+          const State l = built.states[i], r = built.states[j];
+          const State top = built.grid.n_states(layer) - 1;
+          if (l > top || r > top || l == r) continue;
+          const auto& grid50 = built50.grid;
+          const double expected =
+              to_double(Real50(grid50.rate(layer) * (grid50.phi(layer, built50.states[i]) -
+                                                     grid50.phi(layer, built50.states[j]))));
+          const double rounded = built.grid.speed(layer, l, middle) - built.grid.speed(layer, middle, r);
+          const double drop = built.grid.speed_drop(layer, l, middle, r, rounded);
+          EXPECT_NEAR(drop, expected, 1e-13 * std::abs(expected) + 1e-22)
+              << "scene " << number << ", layer " << layer << ", states " << i << " " << j;
+        }
+    }
+  }
+}
+
 TEST(LevelGrid, WantedStatesAreExactToTheBit) {
   const std::vector<LayerState<double>> wanted{{0, 0.3},       {1, 0.7}, {1, 1e-9}, {0, 0.5 + 1e-12},
                                                {1, 1 - 1e-10}, {0, 0.5}, {1, 0},    {0, 1}};

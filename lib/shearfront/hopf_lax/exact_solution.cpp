@@ -59,7 +59,9 @@ typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_from(const Ca
   const Scalar high = std::min(Scalar(z - scene_.bottom()), mass_);
   value.M = z == scene_.top() ? mass_ : std::max(low, std::min(high, path.value));
   value.phi = std::min(Scalar(1), std::max(Scalar(0), path.p));
-  value.H = path.H;
+  // A path may end on an interface with a flux that only the layer it comes from can carry, if it sets out
+  // within rounding of the interface: no flux through it exceeds what the layer above carries.
+  value.H = std::min(path.H, Scalar(medium_->rate_at(z) / Scalar(4)));
   return value;
 }
 

@@ -166,7 +166,9 @@ class LevelGrid {
     S rest = c - h.value;
     if (h.home >= 0) {
       const S& home = classes_[static_cast<std::size_t>(h.home)].capacity;
-      if (home <= c) {  // both terms are >= 0: no cancellation even where h is close to c
+      // The difference of the capacities is exact below 2 c (Sterbenz), so next to 1/2, where h is close to
+      // c, only q itself is rounded.
+      if (home <= S(2) * c) {
         const S q = S(1) - S(2) * h.p;
         rest = (c - home) + home * (q * q);
       }
@@ -186,10 +188,19 @@ class LevelGrid {
     if (a.home == own && b.home == own) return a.p - b.p;
     const S sum = root(layer, a) + root(layer, b);
     if (!(sum > 0)) return S(0);
-    S rise = a.value - b.value;
-    if (a.home == b.home && a.home >= 0)
-      rise = S(4) * classes_[static_cast<std::size_t>(a.home)].capacity * (a.p - b.p) * (S(1) - (a.p + b.p));
-    return rise / (S(2) * capacity(layer) * sum);
+    return rise(a, b) / (S(2) * capacity(layer) * sum);
+  }
+  /// a.value - b.value of two vertex levels, from the concentrations they were made of where those lose less.
+  [[nodiscard]] S rise(const Level& a, const Level& b) const {
+    if (a.home < 0 || b.home < 0) return a.value - b.value;
+    const S& c_a = classes_[static_cast<std::size_t>(a.home)].capacity;
+    const S q_a = S(1) - S(2) * a.p, q_b = S(1) - S(2) * b.p;
+    if (a.home == b.home) return S(2) * c_a * (a.p - b.p) * (q_a + q_b);
+    // Next to 1/2 the values are all but the capacities, whose difference is exact (Sterbenz) if there is
+    // anything to lose.
+    if (!(q_a + q_b < S(1))) return a.value - b.value;
+    const S& c_b = classes_[static_cast<std::size_t>(b.home)].capacity;
+    return (c_a - c_b) + (c_b * (q_b * q_b) - c_a * (q_a * q_a));
   }
   [[nodiscard]] S falling_phi(std::size_t layer, State i) const {
     const Level& h = levels_[index(i)];
