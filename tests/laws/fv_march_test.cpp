@@ -167,6 +167,40 @@ TEST(FvMarch, KeepsMassNextToAThinPureCell) {
 }
 
 // One octave of rates on equal cells: the same run.
+TEST(FvMarch, KeepsMassBesideSlowCellsOfUnequalWidth) {
+  for (int number = 0; number < 6; ++number) {
+    SceneMaker maker = maker_of(number);
+    std::vector<double> breaks, values{maker.uniform(1, 128)};
+    for (double z = 0; breaks.size() < 24; values.push_back(std::exp2(maker.uniform(0, 7))))
+      breaks.push_back(z += maker.uniform(0.0005, 0.04));
+    SceneSpec<double> spec;
+    spec.shear_rate = Piecewise<double>{breaks, values};
+    spec.initial_breaks = {0.2, 0.5};
+    spec.initial_values = {maker.uniform(0, 1), maker.uniform(0, 1), maker.uniform(0, 1)};
+    const Scene<double> scene(spec);
+    SolverOptions options;
+    options.cells = 5;  // more than a few in no layer
+    options.align_cells = options.local_steps = true;
+    for (const Scheme scheme : {Scheme::engquist_osher, Scheme::godunov, Scheme::muscl}) {
+      const auto result = fv::solve(scheme, scene, {{0.5, 2}, {1.0}}, options);
+      ASSERT_GT(result.summary.cell_updates, 10'000u);
+      for (const Sample& sample : result.samples) EXPECT_NEAR(sample.M, scene.mass(), 2e-15) << number;
+    }
+  }
+}
+
+TEST(FvMarch, AveragesOfEqualStatesAreThatState) {
+  SceneMaker maker = maker_of(0);
+  for (int number = 0; number < 100; ++number) {
+    SceneSpec<double> spec;
+    spec.shear_rate = Piecewise<double>{{}, {1}};
+    spec.initial_breaks = maker.heights(30, 0, 1);
+    spec.initial_values.assign(31, number % 2 == 0 ? 1 : maker.uniform(0, 1));
+    for (const double phi : fv::initial_averages(Scene<double>(spec), {0, 1, 7, {}, {}}))
+      EXPECT_EQ(phi, spec.initial_values[0]);
+  }
+}
+
 TEST(FvMarch, LocalStepsChangeNothingWithinAnOctave) {
   SceneMaker maker = maker_of(0);
   const Scene<double> scene(maker.data(6, SceneMaker::Order::random, 12));

@@ -80,14 +80,14 @@ std::vector<double> initial_averages(const Scene<double>& scene, const Grid& gri
   for (std::size_t j = 0; j < grid.n_cells; ++j) {
     const double begin = grid.edge(j), end = grid.edge(j + 1);
     CompensatedSum<double> sum;
-    std::size_t n_pieces = 0;
-    double phi = 0;
+    double least = scene.initial_phi(begin), most = least;
     for_pieces(scene.initial_breaks(), next, begin, end, [&](double lo, double hi) {
-      phi = scene.initial_phi(lo);
+      const double phi = scene.initial_phi(lo);
       sum += (hi - lo) * phi;
-      ++n_pieces;
+      least = std::min(least, phi), most = std::max(most, phi);
     });
-    averages[j] = n_pieces == 1 ? phi : sum.value() / (end - begin);
+    averages[j] =
+        std::clamp(sum.value() / (end - begin), least, most);  // exact where the cell is all one state
   }
   return averages;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "shearfront/fv/special_faces.hpp"
 
@@ -130,39 +131,55 @@ void Border::collect(Section& below, Section& above, double quantum) {
   }
 }
 
+bool Border::has_equal_cells(const Section& fast) const {
+  if (fast.ratio_.empty()) return true;
+  const std::size_t n = fast.copies_below_ + (is_faster_below_ ? fast.n_ : 0);  // cells below the border
+  for (std::size_t i = 1; i < kCells; ++i)
+    if (fast.ratio_[is_faster_below_ ? n + i : n - i] != 1) return false;
+  return true;
+}
+
 void Border::deliver(Section& below, Section& above, double quantum) {
   Section& fast = is_faster_below_ ? below : above;
   const int halvings = std::abs(below.octave_ - above.octave_);
   const double n_steps = std::ldexp(1.0, halvings);
   const std::size_t face = fast.copies_below_ + (is_faster_below_ ? fast.n_ : 0);
   // What has not come through the border yet.
-  owed_ += (is_faster_below_ ? 1 : -1) * fast.remainder_[face] / n_steps;
+  owed_[0] += (is_faster_below_ ? 1 : -1) * fast.remainder_[face] / n_steps;
   fast.remainder_[face] = fast.carry_[face] = 0;
-  // Means from the innermost cell outwards: the flux through its inner face is the same in all steps, and
-  // every other face gets a whole number of quanta.
+  // Means from the innermost cell outwards: the flux through its inner face is the same in all steps. Between
+  // cells of equal width every other face gets a whole number of quanta; a quantum is not the same amount in
+  // cells of unequal width, so there each keeps what it is owed.
+  const bool is_equal = has_equal_cells(fast);
   std::array<double, kCells> states{};
   Sum sum = 0, delivered = 0;
   for (std::size_t i = kCells; i-- > 0;) {
-    sum += sums_[i];
+    sum = sums_[i] + (is_equal ? sum : 0);
+    delivered = is_equal ? delivered : 0;
     const Sum mean = (sum + (Sum{1} << halvings) / 2) >> halvings;
     states[i] = copy(below, above, i) + static_cast<double>(mean - delivered) * quantum;
     delivered = mean;
     sums_[i] = 0;
+    if (!is_equal || i == 0)
+      owed_[i] += static_cast<double>(sum - (delivered << halvings)) / n_steps * quantum;
   }
-  owed_ += static_cast<double>(sum - (delivered << halvings)) / n_steps * quantum;
-  const double due = std::nearbyint(owed_ / quantum) * quantum;
-  owed_ -= due;
-  states[0] += due;
-  // Roundings may leave a cell that is all but pure a quantum beyond its bounds: there is room beside it.
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const double due = std::nearbyint(owed_[i] / quantum) * quantum;
+    owed_[i] -= due;
+    states[i] += due;
+  }
+  // Roundings may leave a cell that is all but pure a quantum beyond its bounds: there is room beside it, or,
+  // where cells are unequal, in time.
   double excess = 0;
   const auto pass_on = [&](std::size_t i) {
     const double wanted = states[i] + excess;
     states[i] = std::clamp(wanted, -1.0, 1.0);
     excess = wanted - states[i];
+    if (!is_equal) owed_[i] += std::exchange(excess, 0);
   };
   for (std::size_t i = kCells; i-- > 0;) pass_on(i);
   for (std::size_t i = 0; i < kCells; ++i) pass_on(i);
-  owed_ += excess;
+  owed_[0] += excess;
   for (std::size_t i = 0; i < kCells; ++i) slow(below, above, i) = states[i];
   for (std::size_t i = 0; i < kLanes; ++i) copy(below, above, i) = slow(below, above, i);
 }

@@ -103,10 +103,12 @@ class Border {
   /// Cell i from the border of the slower one, and its copy.
   [[nodiscard]] double& slow(Section& below, Section& above, std::size_t i) const;
   [[nodiscard]] double& copy(Section& below, Section& above, std::size_t i) const;
+  /// Whether all slow cells at the border have the same width.
+  [[nodiscard]] bool has_equal_cells(const Section& fast) const;
 
   bool is_faster_below_;
   std::array<Sum, kCells> sums_{};
-  double owed_ = 0;  ///< change of the slow cells that waits; 0 on cells of equal width
+  std::array<double, kCells> owed_{};  ///< changes of the slow cells that wait; 0 on cells of equal width
 };
 
 }  // namespace shearfront::fv
