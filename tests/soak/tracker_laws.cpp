@@ -51,6 +51,15 @@ double polygon_rounding(const Bed& bed, double resolution) {
   return bed.t_rounding() + 4 * resolution * largest;
 }
 
+/// What 1 - phi loses of the initial states, as a flux: the mirror image starts from others by so much.
+double rounding_of_states(const Bed& bed) {
+  double moved = 0, fastest = 0;
+  for (const double phi : bed.layered.initial_values())
+    moved = std::max(moved, std::abs((1 - (1 - phi)) - phi));
+  for (std::size_t k = 0; k < bed.stack.n_layers(); ++k) fastest = std::max(fastest, bed.stack.rate(k));
+  return moved * fastest;
+}
+
 /// Whether the states are counted to decide how the grid takes them: rounding may make two of one.
 bool may_use_chords(const Bed& bed) {
   return bed.stack.n_layers() + bed.scene.initial_values().size() > LevelGrid<double>::kMaxExactStates;
@@ -249,7 +258,7 @@ void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double
   mirrored.advance_to(t + rounding);
   const Profile<double> later = mirrored.profile();
   const double n_moved = static_cast<double>(bed.stack.n_layers() + bed.scene.initial_values().size()),
-               slack = 4 * bed.M_rounding() +
+               slack = 4 * bed.M_rounding() + rounding_of_states(bed) * t +
                        (2 * kMassSlack + 4 * unit_roundoff<double>() * n_moved) * bed.trial.largest_height();
   for (const double z : bed.heights) {
     const double reflected = bed.scene.bottom() + (bed.scene.top() - z), below = z - bed.scene.bottom();
