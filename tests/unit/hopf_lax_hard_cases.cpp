@@ -77,6 +77,20 @@ TEST(ExactHardCases, NoFluxThroughAnInterfaceExceedsWhatTheLayerAboveCarries) {
   }
 }
 
+TEST(ExactHardCases, APureBedHasTheMassOfItsHeight) {
+  SceneMaker maker(support::seed_of(63));
+  for (int number = 0; number < 200; ++number) {
+    auto spec = layered({}, {1}, {maker.uniform(-6e3, 1e3)}, {1, 1});
+    spec.bottom = maker.uniform(-2e4, -1e4), spec.top = maker.uniform(1e4, 2e4);
+    const ExactSolution<double> solution{Scene<double>(spec)};
+    EXPECT_EQ(solution.mass(), spec.top - spec.bottom);
+    for (const double t : {0.0, 1.0, 1e5, infinity<double>()}) {
+      EXPECT_EQ(solution.M(spec.bottom, t), 0);
+      EXPECT_EQ(solution.M(spec.top, t), solution.mass());
+    }
+  }
+}
+
 TEST(ExactHardCases, PathsFromFarAboveInAnExponentialMedium) {
   // Where a falls by e^-15, characteristics come down from where a is e^-9 of what it is here.
   SceneSpec<double> spec;

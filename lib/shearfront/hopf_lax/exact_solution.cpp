@@ -84,7 +84,7 @@ typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z,
       if (!(lo < z)) break;
       sum += (std::min(z, i == jumps.size() ? scene_.top() : jumps[i]) - lo) * scene_.initial_values()[i];
     }
-    value.M = sum.value();
+    value.M = z == scene_.top() ? mass_ : std::min(sum.value(), mass_);
     value.H = medium_->rate_at(z) * value.phi * (Scalar(1) - value.phi);
     return value;
   }

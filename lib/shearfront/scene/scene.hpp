@@ -131,7 +131,10 @@ class Scene {
       const Scalar& hi = i == breaks.size() ? spec_.top : breaks[i];
       sum += (hi - lo) * spec_.initial_values[i];
     }
-    return sum.value();
+    // No more than the height: where all of the bed is pure, that is the mass to the bit.
+    const Scalar height = spec_.top - spec_.bottom;
+    const auto [least, most] = std::minmax_element(spec_.initial_values.begin(), spec_.initial_values.end());
+    return std::clamp(sum.value(), Scalar(*least * height), Scalar(*most * height));
   }
 
  private:
