@@ -24,8 +24,7 @@ std::string counted(std::size_t n, std::string_view noun) {
 
 std::string layers_text(const Scene<double>& scene) {
   if (!scene.is_layered()) return "smooth shear rate";
-  const auto n = std::visit([](const auto& a) { return a.knots().size(); }, scene.shear_rate());
-  return counted(n + 1, "layer");
+  return counted(scene.knots().size() + 1, "layer");
 }
 
 std::string summary_text(const Scene<double>& scene) {

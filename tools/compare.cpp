@@ -16,7 +16,7 @@
 #include "compare/report.hpp"
 #include "plot/error_time.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/hopf_lax/medium.hpp"
+#include "shearfront/hopf_lax/refusal.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -105,15 +105,14 @@ int compare_with_paper(const CompareArguments& arguments) {
 }
 
 void check_scene(const Scene<double>& scene, const std::string& path) {
-  if (!std::holds_alternative<Quadratic>(scene.flux()))
-    throw InputError(printable(path), "",
-                     "has a flux other than quadratic: there is no exact solution to compare with");
+  if (const std::string reason = hopf_lax::refusal(scene); !reason.empty())
+    throw InputError(printable(path), "", "has no exact solution to compare with: " + reason);
 }
 
-/// For tabulated a(z) the exact engine solves a staircase.
+/// For tabulated a(z), and smooth beds of other fluxes, the exact engine solves a staircase.
 void note_staircase(const Scene<double>& scene, const ExactSolution<double>& exact,
                     const std::vector<double>& times) {
-  if (hopf_lax::has_exact_medium(scene)) return;
+  if (exact.is_exact()) return;
   double worst = 0;
   constexpr int kHeights = 100;
   for (const double t : times)
@@ -121,10 +120,10 @@ void note_staircase(const Scene<double>& scene, const ExactSolution<double>& exa
       const double z = scene.bottom() + (scene.top() - scene.bottom()) * i / kHeights;
       worst = std::max(worst, exact.at(z, t).M_error);
     }
-  note(fmt::format(
-      "a(z) is a table: errors are measured against a staircase of {} layers, whose own error of M "
-      "is about {:.1e}; differences below that mean nothing",
-      exact.n_layers(), worst));
+  note(
+      fmt::format("{}: errors are measured against a staircase of {} layers, whose own error of M "
+                  "is about {:.1e}; differences below that mean nothing",
+                  scene.is_plain() ? "a(z) is a table" : "the bed varies smoothly", exact.n_layers(), worst));
 }
 
 /// Says which ladders ended early and why. Returns whether there is any result.

@@ -27,6 +27,10 @@ std::string entries() {
     all += info.key;
     if constexpr (!std::is_same_v<std::decay_t<decltype(member)>, double>) all += "[]";
     if (info.range == Range::positive) all += " > 0";
+    if (info.is_optional) all += " (optional)";
+  });
+  visit_choices(model, [&](const ChoiceInfo& info, const auto&) {
+    all += fmt::format("{}{} {}", all.empty() ? "" : ", ", info.key, fmt::join(info.names, "|"));
   });
   return all;
 }
@@ -87,9 +91,9 @@ std::string unknowns() {
     spec.shear_rate = A{};
     visit(spec, "shear_rate.", A::kName);
   });
-  FluxList::for_each([&]<class F>() {
+  FluxList<double>::for_each([&]<class F>() {
     SceneSpec<double> spec;
-    spec.flux = F{};
+    spec.fluxes = {F{}};
     visit(spec, "flux.", F::kName);
   });
   std::stable_partition(fields.begin(), fields.end(), [](const Field& f) { return !f.models.empty(); });
@@ -100,10 +104,9 @@ std::string unknowns() {
 
 int list() {
   std::string all = "Fluxes (flux.model)\n";
-  TextTable fluxes({"name", "f(phi)", "range", "entries"});
-  FluxList::for_each([&]<class F>() {
-    fluxes.add({std::string(F::kName), std::string(F::kFormula),
-                fmt::format("{} <= phi <= {}", F::kRange[0], F::kRange[1]), entries<F>()});
+  TextTable fluxes({"name", "f(phi)", "states", "entries"});
+  FluxList<double>::for_each([&]<class F>() {
+    fluxes.add({std::string(F::kName), std::string(F::kFormula), std::string(F::kStates), entries<F>()});
   });
   all += indented(fluxes.text()) + "\nShear rates (shear_rate.model)\n";
   TextTable rates({"name", "a(z)", "entries"});

@@ -37,7 +37,7 @@ void march(benchmark::State& state, fv::Scheme scheme, fv::Simd simd, Limiter li
       0,
       0};
   const auto kernel = fv::quadratic_kernel(scheme, limiter, simd);
-  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic<double>{});
   const std::uint64_t steps = std::max<std::uint64_t>(64, (1 << 22) / grid.n_cells);
   // No matter what the states are, the work is the same: there are no branches and no subnormal numbers.
   fv::March run(*kernel, flux, data, 1.0);

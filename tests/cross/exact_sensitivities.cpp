@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

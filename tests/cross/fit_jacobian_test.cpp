@@ -12,6 +12,7 @@
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/scene/entries.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront::fit {

@@ -115,7 +115,7 @@ double error_inside_a_fan(Limiter limiter, std::size_t n, double begin, double e
   for (std::size_t j = 0; j < n; ++j) data.phi.push_back(average(j, begin));
   data.rates = fv::face_values(scene, grid);
   const auto kernel = fv::quadratic_kernel(fv::Scheme::muscl, limiter);
-  fv::March march(*kernel, fv::unimodal_flux(Quadratic{}), data, 1);
+  fv::March march(*kernel, fv::unimodal_flux(Quadratic<double>{}), data, 1);
   const double steps = (end - begin) * march.speed() / grid.cell_width();
   march.advance(static_cast<std::uint64_t>(steps));
   const fv::CellStates cells = march.states(steps - std::floor(steps));
@@ -191,8 +191,8 @@ TEST(FvGodunov, AgreesWithANaiveScheme) {
 
 struct Skewed {  // convex on [0, 1], minimum away from 1/2: (3 m^2 + 2 m - 2 = 0)
   static constexpr std::string_view kName = "skewed";
-  static constexpr std::array<double, 2> kRange{0.0, 1.0};
-  static constexpr std::array<double, 1> kExtrema{0.54858377035486353};
+  static StateRange<double> range() { return {}; }
+  static std::vector<double> extrema() { return {0.54858377035486353}; }
   static double value(double phi) { return phi * (phi - 1) * (1 + phi / 2); }
   static double derivative(double phi) { return (1.5 * phi + 1) * phi - 1; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exactly integrated L1 error: closed forms, plain quadrature, and 50 digits.
 #include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 #include "shearfront/flux/skeleton.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/type_list.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -20,7 +21,9 @@ class FluxLaws : public testing::Test {};
 struct ModelName {
   template <class Model>
   static std::string GetName(int) {
-    return std::string(Model::kName);
+    std::string name(Model::kName);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
   }
 };
 
@@ -28,76 +31,144 @@ template <class List>
 struct AsTestTypes;
 template <class... Model>
 struct AsTestTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model..., SkeletonFlux>;
+  using Type = testing::Types<Model..., SkeletonFlux<double>>;
 };
-TYPED_TEST_SUITE(FluxLaws, AsTestTypes<FluxList>::Type, ModelName);
+TYPED_TEST_SUITE(FluxLaws, AsTestTypes<FluxList<double>>::Type, ModelName);
 
-template <class Model>
-std::vector<double> states() {
+/// Calls visit(flux, lowest, highest, largest |f'|) for every sample.
+template <class Model, class Visit>
+void for_samples(Visit&& visit) {
+  int number = 0;
+  for (const Model& flux : Model::samples()) {
+    SCOPED_TRACE("sample " + std::to_string(number++));
+    Problems problems;
+    flux.fields(flux, [&](const FieldInfo& info, const auto& member) {
+      check_number(std::string(info.key), info.range, member, problems);
+    });
+    flux.check("", problems);
+    ASSERT_TRUE(problems.empty()) << problems[0].text();
+    const auto [lowest, highest] = flux.range();
+    double steepest = 0;
+    for (int i = 0; i <= 1000; ++i)
+      steepest = std::max(steepest, std::abs(flux.derivative(lowest + (highest - lowest) * i / 1000)));
+    visit(flux, lowest, highest, steepest);
+  }
+}
+
+std::vector<double> states(double lowest, double highest, int n = 40) {
   std::vector<double> phi;
-  for (int i = 0; i <= 40; ++i)
-    phi.push_back(Model::kRange[0] + (Model::kRange[1] - Model::kRange[0]) * i / 40);
+  for (int i = 0; i < n; ++i) phi.push_back(lowest + (highest - lowest) * i / n);
+  phi.push_back(highest);
   return phi;
 }
 
-TYPED_TEST(FluxLaws, VanishesAtBothPureStates) {
-  for (const auto& flux : TypeParam::samples())
-    for (const double end : TypeParam::kRange) EXPECT_EQ(flux.value(end), 0.0);
+TYPED_TEST(FluxLaws, StatesAreARangeWithAFiniteFlux) {
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    EXPECT_LT(lowest, highest);
+    EXPECT_GT(steepest, 0);
+    for (const double phi : states(lowest, highest)) EXPECT_TRUE(std::isfinite(flux.value(phi))) << phi;
+  });
 }
 
-TYPED_TEST(FluxLaws, DerivativeIsTheLimitOfDifferences) {
-  const Real50 h("1e-15");
-  for (const auto& flux : TypeParam::samples())
-    for (const double p : states<TypeParam>()) {
-      const Real50 phi(p);
-      const Real50 difference = (flux.value(Real50(phi + h)) - flux.value(Real50(phi - h))) / (2 * h);
-      EXPECT_NEAR(to_double(Real50(flux.derivative(phi) - difference)), 0.0, 1e-25) << p;
+TYPED_TEST(FluxLaws, DerivativeIsTheSlopeAbove) {
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    const auto all = states(lowest, highest);
+    for (const double p : all) {
+      // Two one-sided differences, whose errors of first order cancel; to the inside at the upper end.
+      const Real50 h = (p == highest ? -1 : 1) * Real50("1e-15") * (highest - lowest), phi(p);
+      const auto difference = [&](const Real50& step) {
+        return Real50((flux50.value(Real50(phi + step)) - flux50.value(phi)) / step);
+      };
+      const Real50 slope = 2 * difference(h / 2) - difference(h);
+      EXPECT_NEAR(to_double(Real50(flux50.derivative(phi) - slope)), 0.0, 1e-19 * steepest) << p;
+      EXPECT_NEAR(flux.derivative(p), to_double(slope), 1e-14 * steepest) << p;
     }
+  });
 }
 
 TYPED_TEST(FluxLaws, SecantIsTheSlopeOfTheChord) {
-  for (const auto& flux : TypeParam::samples())
-    for (const double p : states<TypeParam>())
-      for (const double q : states<TypeParam>()) {
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    const auto all = states(lowest, highest);
+    for (const double p : all)
+      for (const double q : all) {
         if (p == q) {
-          EXPECT_NEAR(flux.secant(p, q), flux.derivative(p), 1e-15);
+          EXPECT_NEAR(flux.secant(p, q), flux.derivative(p), 1e-14 * steepest);
         } else {
-          EXPECT_NEAR(flux.secant(p, q), (flux.value(q) - flux.value(p)) / (q - p), 1e-13);
-          EXPECT_NEAR(flux.secant(p, q), flux.secant(q, p), 1e-15);
+          const Real50 rise = flux50.value(Real50(q)) - flux50.value(Real50(p));
+          EXPECT_NEAR(flux.secant(p, q), to_double(Real50(rise / (Real50(q) - Real50(p)))), 1e-14 * steepest)
+              << p << " " << q;
+          EXPECT_NEAR(flux.secant(p, q), flux.secant(q, p), 1e-15 * steepest);
         }
       }
+  });
 }
 
 TYPED_TEST(FluxLaws, SecantOfCloseStatesDoesNotCancel) {
-  for (const auto& flux : TypeParam::samples())
-    for (const double p : states<TypeParam>()) {
-      const double q = std::nextafter(p, 0.5);
-      EXPECT_NEAR(flux.secant(p, q), flux.derivative(p), 1e-14);
-    }
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    for (const double p : states(lowest, highest))
+      for (const double d : {1e-15, 1e-12, 1e-8, 1e-4}) {
+        const double q = p < highest ? p + d * (highest - p) : p - d * (p - lowest);
+        if (q == p) continue;
+        const Real50 rise = flux50.value(Real50(q)) - flux50.value(Real50(p));
+        EXPECT_NEAR(flux.secant(p, q), to_double(Real50(rise / (Real50(q) - Real50(p)))), 4e-14 * steepest)
+            << p << " " << d;
+      }
+  });
 }
 
 TYPED_TEST(FluxLaws, ExtremaAreWhereTheDerivativeChangesSign) {
-  for (const auto& flux : TypeParam::samples()) {
-    for (const double e : TypeParam::kExtrema) {
-      EXPECT_GT(e, TypeParam::kRange[0]);
-      EXPECT_LT(e, TypeParam::kRange[1]);
-      EXPECT_NEAR(flux.derivative(e), 0.0, 1e-12);
-      EXPECT_LT(flux.derivative(e - 1e-3) * flux.derivative(e + 1e-3), 0.0);
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    const double width = highest - lowest;
+    std::vector<double> cuts{lowest};
+    for (const double e : flux.extrema()) {
+      EXPECT_GT(e, lowest);
+      EXPECT_LT(e, highest);
+      EXPECT_LT(flux.derivative(e - 1e-3 * width) * flux.derivative(e + 1e-3 * width), 0.0);
+      const double below = flux.derivative(e - 1e-12 * width), above = flux.derivative(e + 1e-12 * width);
+      // Flat, or a kink.
+      EXPECT_TRUE(std::abs(below) < 1e-10 * steepest || std::abs(above - below) > 0.1 * steepest) << e;
+      cuts.push_back(e);
     }
     // No extremum is missing: between neighbours the flux is monotone.
-    std::vector<double> cuts{TypeParam::kRange[0]};
-    cuts.insert(cuts.end(), TypeParam::kExtrema.begin(), TypeParam::kExtrema.end());
-    cuts.push_back(TypeParam::kRange[1]);
+    cuts.push_back(highest);
     EXPECT_TRUE(std::is_sorted(cuts.begin(), cuts.end()));
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       const double sign = flux.value(cuts[i + 1]) - flux.value(cuts[i]);
-      for (int k = 0; k < 50; ++k) {
-        const double lo = cuts[i] + (cuts[i + 1] - cuts[i]) * k / 50,
-                     hi = cuts[i] + (cuts[i + 1] - cuts[i]) * (k + 1) / 50;
-        EXPECT_GT((flux.value(hi) - flux.value(lo)) * sign, 0.0);
-      }
+      const auto all = states(cuts[i], cuts[i + 1], 50);
+      for (std::size_t k = 0; k + 1 < all.size(); ++k)
+        EXPECT_GT((flux.value(all[k + 1]) - flux.value(all[k])) * sign, 0.0) << all[k];
     }
-  }
+  });
+}
+
+TYPED_TEST(FluxLaws, CurvatureIsAsSaid) {
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
+    bool is_convex = true, is_concave = true;
+    const auto all = states(lowest, highest, 1000);
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+      const double bend = flux.derivative(all[i + 1]) - flux.derivative(all[i]);
+      is_convex = is_convex && bend >= -1e-13 * steepest;
+      is_concave = is_concave && bend <= 1e-13 * steepest;
+    }
+    EXPECT_TRUE(flux.curvature() != Curvature::convex || is_convex);
+    EXPECT_TRUE(flux.curvature() != Curvature::concave || is_concave);
+    EXPECT_TRUE(flux.curvature() != Curvature::mixed || !(is_convex || is_concave));
+  });
+}
+
+TYPED_TEST(FluxLaws, ParabolaIsOne) {
+  if (!TypeParam::kIsParabola) return;
+  for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double) {
+    ASSERT_EQ(flux.extrema().size(), 1u);
+    const double depth = flux.value(flux.extrema()[0]);
+    for (const double phi : states(lowest, highest)) {
+      const double u = (phi - lowest) / (highest - lowest);
+      EXPECT_NEAR(flux.value(phi), 4 * depth * u * (1 - u), 1e-15 * std::abs(depth));
+    }
+  });
 }
 
 }  // namespace

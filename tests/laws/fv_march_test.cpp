@@ -84,7 +84,7 @@ void replace_states(std::vector<double>& phi, int kind, SceneMaker& maker) {
 }
 
 TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
-  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic<double>{});
   int n_local = 0;
   for (int number = 0; number < 180; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
@@ -122,7 +122,7 @@ TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
 // A slow cell that gives less than a quantum in each of 64 steps of the fast cells below, with no room
 // elsewhere: what it has not got must not be asked for.
 TEST(FvMarch, KeepsMassWhereAStepOfTheFastCellsMovesLessThanAQuantum) {
-  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic<double>{});
   for (const Scheme scheme : kSchemes)
     for (const bool is_fast_below : {true, false})
       for (int n_quanta = 1; n_quanta < 130; ++n_quanta) {
@@ -213,8 +213,8 @@ TEST(FvMarch, LocalStepsChangeNothingWithinAnOctave) {
 
 struct RisingGrains {  // phi (1 - phi): the flux of grains that rise
   static constexpr std::string_view kName = "rising";
-  static constexpr std::array<double, 2> kRange{0.0, 1.0};
-  static constexpr std::array<double, 1> kExtrema{0.5};
+  static StateRange<double> range() { return {}; }
+  static std::vector<double> extrema() { return {0.5}; }
   static double value(double phi) { return phi * (1 - phi); }
   static double derivative(double phi) { return 1 - 2 * phi; }
 };
@@ -261,7 +261,7 @@ TEST(FvKernels, GeneralAndQuadraticAgreeAndGrainsThatRiseAreAMirrorImage) {
     const SolverRequest request{{0.3, 2, infinity<double>()}, support::middles(scene, options.cells)};
     for (const Scheme scheme : {Scheme::engquist_osher, Scheme::godunov, Scheme::muscl}) {
       const auto fast = fv::solve(scheme, scene, request, options);
-      const auto general = solve_generally<Quadratic>(scheme, scene, request, options);
+      const auto general = solve_generally<Quadratic<double>>(scheme, scene, request, options);
       const auto rising = solve_generally<RisingGrains>(scheme, Scene<double>(mirrored), request, options);
       const bool is_mirrored = has_mirrored_steps(scheme, scene, Scene<double>(mirrored), options);
       ASSERT_EQ(fast.samples.size(), 3 * options.cells);
@@ -277,7 +277,7 @@ TEST(FvKernels, GeneralAndQuadraticAgreeAndGrainsThatRiseAreAMirrorImage) {
 }
 
 TEST(FvKernels, AllInstructionSetsAgreeToTheBit) {
-  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic{});
+  const fv::UnimodalFlux flux = fv::unimodal_flux(Quadratic<double>{});
   for (const std::size_t n_cells : {1u, 7u, 8u, 1000u, 5003u})
     for (int choice = 0; choice < 20; ++choice) {
       SceneMaker maker(support::seed_of(n_cells));

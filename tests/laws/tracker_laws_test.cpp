@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"

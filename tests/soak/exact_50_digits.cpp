@@ -6,6 +6,7 @@
 #include "shearfront/hopf_lax/events.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 #include "shearfront/scene/entries.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "soak/laws.hpp"
 
 namespace shearfront::soak {

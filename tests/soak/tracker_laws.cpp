@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"

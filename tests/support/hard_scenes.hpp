@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/scene/scene.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
 /// Scenes that are hard for a computer, by name: what the stability table and the tests of hard cases run.

@@ -4,6 +4,7 @@
 
 #include "shearfront/hopf_lax/events.hpp"
 #include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

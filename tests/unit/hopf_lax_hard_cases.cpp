@@ -6,6 +6,7 @@
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 #include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"
 #include "support/random_scene.hpp"
 

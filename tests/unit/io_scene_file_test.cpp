@@ -73,7 +73,7 @@ TEST(SceneFile, DefaultsAreUnitDomainScaleOneAndTheNameOfTheFile) {
   EXPECT_EQ(scene.scale(), 1);
   EXPECT_EQ(scene.bottom(), 0);
   EXPECT_EQ(scene.top(), 1);
-  EXPECT_TRUE(std::holds_alternative<Quadratic>(scene.flux()));
+  EXPECT_TRUE(scene.is_plain());
 }
 
 TEST(SceneFile, EveryModelOfTheListCanBeWritten) {

@@ -50,7 +50,7 @@ void expect_good_names() {
   EXPECT_FALSE(List::contains(""));
 }
 
-TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList>(); }
+TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList<double>>(); }
 TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<ShearRateList<double>>(); }
 TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
 TEST(Lists, MisfitNamesAreDistinctAndPlain) { expect_good_names<fit::MisfitList>(); }
@@ -64,12 +64,12 @@ TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
 TEST(Lists, NamesJoinsInOrder) { EXPECT_EQ(ShearRateList<double>::names(), "piecewise, exponential, table"); }
 
 TEST(Lists, EveryListedTypeHasSamples) {
-  FluxList::for_each([]<class F>() { EXPECT_FALSE(F::samples().empty()) << F::kName; });
+  FluxList<double>::for_each([]<class F>() { EXPECT_FALSE(F::samples().empty()) << F::kName; });
   ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::samples().empty()) << A::kName; });
 }
 
 TEST(Lists, EveryListedTypeDescribesItself) {
-  FluxList::for_each([]<class F>() { EXPECT_FALSE(F::kFormula.empty()) << F::kName; });
+  FluxList<double>::for_each([]<class F>() { EXPECT_FALSE(F::kFormula.empty()) << F::kName; });
   ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::kFormula.empty()) << A::kName; });
   SolverList::for_each([]<class S>() { EXPECT_FALSE(S::kDescription.empty()) << S::kName; });
   fit::MisfitList::for_each([]<class M>() { EXPECT_FALSE(M::kDescription.empty()) << M::kName; });
@@ -85,10 +85,11 @@ Scene<double> half_and_half() {
 }
 
 TEST(Skeletons, FluxWorksAsItStands) {
-  using F = TypeList<SkeletonFlux>::Variant;
-  EXPECT_EQ(std::visit([](const auto& f) { return f.value(0.25); }, F{}), -0.1875);
-  EXPECT_EQ(SkeletonFlux::secant(0.25, 0.25), SkeletonFlux::derivative(0.25));
-  EXPECT_EQ(SkeletonFlux::value(Real50(0.25)), Real50(-0.1875));
+  using F = TypeList<SkeletonFlux<double>>::Variant;
+  EXPECT_EQ(std::visit([](const auto& f) { return f.value(0.25); }, F{}), -0.75);
+  const SkeletonFlux<Real50> flux{Real50(0.25)};
+  EXPECT_EQ(flux.secant(Real50(0.25), Real50(0.25)), flux.derivative(Real50(0.25)));
+  EXPECT_EQ(flux.value(Real50(0.25)), Real50(-0.1875));
 }
 
 TEST(Skeletons, ShearRateWorksAsItStands) {

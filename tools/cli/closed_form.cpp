@@ -9,7 +9,7 @@ namespace shearfront::tools {
 ClosedForms closed_forms(const Scene<double>& scene) {
   ClosedForms forms;
   const auto* a = std::get_if<Piecewise<double>>(&scene.shear_rate());
-  if (!a || a->breaks.size() != 1 || !std::holds_alternative<Quadratic>(scene.flux())) return forms;
+  if (!a || a->breaks.size() != 1 || !scene.is_plain()) return forms;
   if (scene.initial_values() != std::vector<double>{0, 1}) return forms;
   const double h = scene.top() - scene.bottom();
   const double zc = a->breaks[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();

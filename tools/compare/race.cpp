@@ -8,6 +8,7 @@
 #include "cli/arguments.hpp"
 #include "cli/method.hpp"
 #include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/scene/scene_cast.hpp"
 
 namespace shearfront::tools {
 namespace {

@@ -80,9 +80,8 @@ Measured measured(const fit::FitSpec& spec, const fit::Estimate& estimate) {
   if (is_cumulative) {
     result.high = std::max(estimate.scene->mass(), 1e-300);
   } else {
-    const auto range = std::visit([](const auto& f) { return f.kRange; }, spec.scene.flux());
-    result.low = range[0];
-    result.high = range[1];
+    result.low = spec.scene.range_at(spec.scene.bottom()).lowest;
+    result.high = spec.scene.range_at(spec.scene.bottom()).highest;
   }
   return result;
 }

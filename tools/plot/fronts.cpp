@@ -18,10 +18,12 @@ constexpr std::size_t kMostLabels = 4;  // more interfaces than this get marks w
 
 /// 0 for a front of a fan, else the more the larger the jump. Characteristics run into a shock and out of the
 /// fronts of a fan. A shock smaller than `least` looks like a front of a fan.
-std::size_t width_of(const FrontSegment<double>& front, const Flux& flux, double least) {
+std::size_t width_of(const FrontSegment<double>& front, const Scene<double>& scene, double least) {
   const double jump = std::abs(front.phi_above - front.phi_below);
+  const double z = front.z_begin + (front.z_end - front.z_begin) / 2, c = scene.packing_at(z);
   const bool is_shock = std::visit(
-      [&](const auto& f) { return f.derivative(front.phi_below) > f.derivative(front.phi_above); }, flux);
+      [&](const auto& f) { return f.derivative(front.phi_below / c) > f.derivative(front.phi_above / c); },
+      scene.flux_at(z));
   if (!is_shock || jump <= least) return 0;
   const double share = std::min(1.0, (jump - least) / (1 - least));
   return std::min(kWidths - 1, static_cast<std::size_t>(share * kWidths));
@@ -53,14 +55,14 @@ double end_time(const std::vector<FrontSegment<double>>& fronts, const Timeline<
 }
 
 /// "t z phi" of each front, by width.
-std::array<std::string, kWidths> rows_of(const std::vector<FrontSegment<double>>& fronts, const Flux& flux,
-                                         double least, double t_end) {
+std::array<std::string, kWidths> rows_of(const std::vector<FrontSegment<double>>& fronts,
+                                         const Scene<double>& scene, double least, double t_end) {
   std::array<std::string, kWidths> rows;
   for (const auto& f : fronts) {
     const double phi = (f.phi_below + f.phi_above) / 2;
     const double end = std::isfinite(f.t_end) ? f.t_end : t_end;
-    rows[width_of(f, flux, least)] += fmt::format("{:.7g} {:.7g} {:.4g}\n{:.7g} {:.7g} {:.4g}\n\n", f.t_begin,
-                                                  f.z_begin, phi, end, f.z_end, phi);
+    rows[width_of(f, scene, least)] += fmt::format("{:.7g} {:.7g} {:.4g}\n{:.7g} {:.7g} {:.4g}\n\n",
+                                                   f.t_begin, f.z_begin, phi, end, f.z_end, phi);
   }
   return rows;
 }
@@ -135,12 +137,12 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
       "set lmargin screen 0.105\nset rmargin screen 0.825\nset bmargin screen 0.17\nset tmargin screen 0.86");
   add_frame(plot, scene, t_end);
   if (scene.is_layered())
-    for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate()))
+    for (const double z : scene.knots())
       plot.add(fmt::format(
           "set arrow from 0,{0:.9g} to {1:.9g},{0:.9g} nohead lw 0.8 dt (8,6) lc rgb '#606060' front", z,
           t_end));
   plot.add(marks.labels());
-  const auto rows = rows_of(fronts, scene.flux(), least_shock(scene, fronts, resolution), t_end);
+  const auto rows = rows_of(fronts, scene, least_shock(scene, fronts, resolution), t_end);
   const double fan_width = scene.is_layered() ? 0.7 : 0.4;  // a staircase has many more fronts
   std::string curves;
   for (std::size_t i = 0; i < kWidths; ++i) {

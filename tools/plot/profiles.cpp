@@ -48,7 +48,7 @@ void add_frame(Gnuplot& plot, const Scene<double>& scene) {
   plot.add("set format '%g'\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset xtics 0.2");
   plot.add("set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1");
   if (scene.is_layered())
-    for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate()))
+    for (const double z : scene.knots())
       plot.add(
           fmt::format("set arrow from graph 0,first {0:.9g} to graph 1,first {0:.9g} nohead lw 0.8 dt (8,6) "
                       "lc rgb '#a0a0a0' back",

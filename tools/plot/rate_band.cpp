@@ -34,16 +34,9 @@ double quantile_of(const fit::Estimate& estimate, const fit::Parameters& paramet
   return 1.96;
 }
 
-std::vector<double> knots_of(const Scene<double>& scene) {
-  std::vector<double> inside;
-  for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate()))
-    if (z > scene.bottom() && z < scene.top()) inside.push_back(z);
-  return inside;
-}
-
 /// Ends of the layers, bottom to top.
 std::vector<double> layer_ends(const Scene<double>& scene) {
-  std::vector<double> ends = knots_of(scene);
+  std::vector<double> ends = scene.knots();
   ends.insert(ends.begin(), scene.bottom());
   ends.push_back(scene.top());
   return ends;
@@ -52,7 +45,7 @@ std::vector<double> layer_ends(const Scene<double>& scene) {
 /// Heights of a curve with all its knots.
 std::vector<double> heights_of(const Scene<double>& scene) {
   std::vector<double> z = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  const std::vector<double> knots = knots_of(scene);
+  const std::vector<double> knots = scene.knots();
   z.insert(z.end(), knots.begin(), knots.end());
   std::sort(z.begin(), z.end());
   return z;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shearfront/hopf_lax/refusal.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solver/all.hpp"
@@ -45,6 +46,10 @@ class ExactForward final : public ForwardModel {
                std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), layers_(forward.options.layers) {
     const ExactSolution<double> solution(parameters.scene(), {layers_});
+    if (!sensitivity_refusal(solution).empty()) {
+      has_derivatives_ = false;
+      return;
+    }
     const auto probe = sensitivities(solution, parameters.scene().bottom(), 0.0);
     for (const Parameter& p : parameters)
       has_derivatives_ = has_derivatives_ && p.entry.index < part_of(probe.M, p.entry.field).size();
@@ -60,7 +65,12 @@ class ExactForward final : public ForwardModel {
       prediction.failure = problems.front().text();
       return prediction;
     }
-    const ExactSolution<double> solution(Scene<double>(std::move(spec)), {layers_});
+    const Scene<double> scene(std::move(spec));
+    if (std::string reason = hopf_lax::refusal(scene); !reason.empty()) {
+      prediction.failure = std::move(reason);
+      return prediction;
+    }
+    const ExactSolution<double> solution(scene, {layers_});
     prediction.values.resize(n_points());
     if (with_derivatives) prediction.derivatives.resize(n_points(), values.size());
     for (Index i = 0; i < n_points(); ++i) {
@@ -150,10 +160,13 @@ std::unique_ptr<Forward> make_forward(const Parameters& parameters, const Forwar
   std::unique_ptr<Forward> model;
   SolverList::for_each([&]<class S>() {
     if (forward.method != S::kName) return;
-    if constexpr (std::is_same_v<S, ExactSolver>)
+    if constexpr (std::is_same_v<S, ExactSolver>) {
+      if (const std::string reason = hopf_lax::refusal(parameters.scene()); !reason.empty())
+        throw InputError("forward.method", quoted_text(forward.method), "must suit the scene: " + reason);
       model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));
-    else
+    } else {
       model = std::make_unique<SolverForward>(parameters, forward, &S::solve, field, std::move(points));
+    }
   });
   if (!model)
     throw InputError("forward.method", quoted_text(forward.method), "must be one of: " + SolverList::names());

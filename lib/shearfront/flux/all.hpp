@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "shearfront/flux/burgers.hpp"
+#include "shearfront/flux/cubic.hpp"
+#include "shearfront/flux/lwr.hpp"
+#include "shearfront/flux/packed.hpp"
 #include "shearfront/flux/quadratic.hpp"
+#include "shearfront/flux/richardson_zaki.hpp"
+#include "shearfront/flux/table.hpp"
+#include "shearfront/flux/triangular.hpp"
 #include "shearfront/numeric/type_list.hpp"
 
 namespace shearfront {
 
 /// Every flux of the toolkit. To add one: copy skeleton.hpp, include it here, and name it in the list.
-using FluxList = TypeList<Quadratic>;
-using Flux = FluxList::Variant;
+template <Real Scalar>
+using FluxList = TypeList<Quadratic<Scalar>, Packed<Scalar>, Cubic<Scalar>, Lwr<Scalar>, Triangular<Scalar>,
+                          RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
+
+template <Real Scalar>
+using Flux = typename FluxList<Scalar>::Variant;
 
 }  // namespace shearfront

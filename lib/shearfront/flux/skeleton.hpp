@@ -1,39 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/flux/model.hpp"
+#include "shearfront/scene/field.hpp"
 
 namespace shearfront {
 
 /// Copy this file to flux/<name>.hpp, rename the struct, fill in the formula, and add one line to
 /// flux/all.hpp. Say here: the formula, the range of states with units, convexity, source (author, year,
-/// equation). This copy is phi (phi - 1), so that it compiles and passes the laws of fluxes as it stands.
+/// equation). This copy is depth * 4 phi (phi - 1), so that it compiles and passes the laws of fluxes as it
+/// stands.
+template <Real Scalar>
 struct SkeletonFlux {
-  static constexpr std::string_view kName = "skeleton";          ///< flux.model in scene files
-  static constexpr std::string_view kFormula = "phi (phi - 1)";  ///< for `shearfront list`
-  static constexpr std::array<double, 2> kRange{0.0, 1.0};       ///< states allowed
-  static constexpr std::array<double, 1> kExtrema{0.5};          ///< interior extrema of f, ascending
+  static constexpr std::string_view kName = "skeleton";                  ///< flux.model in scene files
+  static constexpr std::string_view kFormula = "4 depth phi (phi - 1)";  ///< for `shearfront list`
+  static constexpr std::string_view kStates = "0 <= phi <= 1";
+  static constexpr bool kIsParabola = false;
 
-  template <Real S>
-  [[nodiscard]] static S value(const S& phi) {
-    return phi * (phi - S(1));
+  Scalar depth{1};
+
+  [[nodiscard]] static StateRange<Scalar> range() { return {}; }  ///< states allowed
+  /// Interior extrema of f, ascending.
+  [[nodiscard]] static std::vector<Scalar> extrema() { return {Scalar(1) / Scalar(2)}; }
+  [[nodiscard]] static Curvature curvature() { return Curvature::convex; }
+
+  [[nodiscard]] Scalar value(const Scalar& phi) const {
+    return Scalar(4) * depth * (phi * (phi - Scalar(1)));
   }
-  template <Real S>
-  [[nodiscard]] static S derivative(const S& phi) {
-    return S(2) * phi - S(1);
+  [[nodiscard]] Scalar derivative(const Scalar& phi) const {
+    return Scalar(4) * depth * (phi + (phi - Scalar(1)));
   }
   /// (value(q) - value(p)) / (q - p), derivative(p) where p == q; write it without cancellation if you can.
-  template <Real S>
-  [[nodiscard]] static S secant(const S& p, const S& q) {
-    return p + (q - S(1));
+  [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
+    return Scalar(4) * depth * (p + (q - Scalar(1)));
   }
-  /// Numeric entries of the [flux] table of a scene file: visit(FieldInfo{"gamma"}, self.gamma), ...
-  template <class Self, class Visit>
-  static void fields(Self&, Visit&&) {}
 
-  static std::array<SkeletonFlux, 1> samples() { return {}; }
+  /// Entries of the [flux] table, in the order of a scene file. Members: Scalar or std::vector<Scalar>.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(FieldInfo{"depth", Range::positive}, self.depth);
+  }
+  /// Whatever must hold beyond that; single numbers are checked by their Range.
+  static void check(const std::string& /*prefix*/, Problems&) {}
+
+  static std::vector<SkeletonFlux> samples() { return {{Scalar(1)}, {Scalar(0.25)}}; }
 };
 
 }  // namespace shearfront

@@ -9,7 +9,8 @@ namespace shearfront {
 ///   F = s a_face ( f(max(u_l, m)) + f(min(u_r, m)) - f(m) ),   f(m) the minimum of f,
 ///
 /// a_face the harmonic mean of a between the middles of the two cells. Without f(m) (which cancels where a
-/// is constant) the scheme would not converge for any other a.
+/// is constant) the scheme would not converge for any other a. Packing, several fluxes and ends: as
+/// GodunovSolver; between different fluxes and at open ends it takes Godunov's flux.
 /// Guaranteed under the Courant condition: the mass is kept exactly, phi stays in the range of the flux, L1
 /// contraction, u <= v stays u <= v. A steady shock takes two mixed cells. L1 error of phi: O(sqrt(dz)) by
 /// theory, near O(dz) in practice. Time steps, errors, cost: fv/solve.hpp; fluxes: fv/kernel.hpp.

@@ -25,24 +25,44 @@ void for_pieces(const std::vector<double>& cuts, std::size_t& next, double begin
 /// s (end - begin) / int dz / a.
 class MeanRate {
  public:
-  explicit MeanRate(const Scene<double>& scene)
-      : scene_(scene), knots_(std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate())) {}
+  explicit MeanRate(const Scene<double>& scene) : scene_(scene), knots_(scene.knots()) {}
 
   double operator()(double begin, double end) {
     double travel_time = 0;
     double rate = 0;
     std::size_t n_pieces = 0;
-    std::visit(
-        [&](const auto& a) {
-          for_pieces(knots_, next_, begin, end, [&](double lo, double hi) {
-            rate = a.harmonic_mean(lo, hi);
-            travel_time += (hi - lo) / rate;
-            ++n_pieces;
-          });
-        },
-        scene_.shear_rate());
+    for_pieces(knots_, next_, begin, end, [&](double lo, double hi) {
+      rate = scene_.mean_rate(lo, hi);
+      travel_time += (hi - lo) / rate;
+      ++n_pieces;
+    });
     // One piece: without the rounding of a division and its inverse, cells of a layer are equal to the bit.
     return scene_.scale() * (n_pieces == 1 ? rate : (end - begin) / travel_time);
+  }
+
+ private:
+  const Scene<double>& scene_;
+  std::vector<double> knots_;
+  std::size_t next_ = 0;
+};
+
+/// Mean of c over intervals, ascending as above; 1 in a scene without packing.
+class MeanPacking {
+ public:
+  explicit MeanPacking(const Scene<double>& scene) : scene_(scene) {
+    if (scene.spec().packing) knots_ = scene.knots();
+  }
+
+  double operator()(double begin, double end) {
+    if (!scene_.spec().packing) return 1;
+    double solid = 0, mean = 0;
+    std::size_t n_pieces = 0;
+    for_pieces(knots_, next_, begin, end, [&](double lo, double hi) {
+      mean = scene_.mean_packing(lo, hi);
+      solid += (hi - lo) * mean;
+      ++n_pieces;
+    });
+    return n_pieces == 1 ? mean : solid / (end - begin);
   }
 
  private:
@@ -56,8 +76,7 @@ class MeanRate {
 Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells) {
   const double bottom = scene.bottom(), top = scene.top();
   std::vector<double> cuts{bottom};
-  for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate()))
-    if (z > bottom && z < top) cuts.push_back(z);
+  for (const double z : scene.knots()) cuts.push_back(z);
   cuts.push_back(top);
   Grid grid{bottom, top, 0, {bottom}, {}};
   const auto cells_below = [&](double z) {
@@ -76,39 +95,62 @@ Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells) {
 
 std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> averages(grid.n_cells);
+  MeanPacking packing(scene);
   std::size_t next = 0;
   for (std::size_t j = 0; j < grid.n_cells; ++j) {
     const double begin = grid.edge(j), end = grid.edge(j + 1);
-    CompensatedSum<double> sum;
-    double least = scene.initial_phi(begin), most = least;
+    CompensatedSum<double> sum, solid;
+    double least = scene.initial_share(begin), most = least;
     for_pieces(scene.initial_breaks(), next, begin, end, [&](double lo, double hi) {
-      const double phi = scene.initial_phi(lo);
-      sum += (hi - lo) * phi;
-      least = std::min(least, phi), most = std::max(most, phi);
+      const double share = scene.initial_share(lo), weight = (hi - lo) * packing(lo, hi);
+      sum += weight * share;
+      solid += weight;
+      least = std::min(least, share), most = std::max(most, share);
     });
-    averages[j] =
-        std::clamp(sum.value() / (end - begin), least, most);  // exact where the cell is all one state
+    const double weight = scene.spec().packing ? solid.value() : end - begin;
+    averages[j] = std::clamp(sum.value() / weight, least, most);  // exact where the cell is all one state
   }
   return averages;
+}
+
+std::vector<double> cell_packings(const Scene<double>& scene, const Grid& grid) {
+  if (!scene.spec().packing) return {};
+  std::vector<double> packings(grid.n_cells);
+  MeanPacking mean(scene);
+  for (std::size_t j = 0; j < grid.n_cells; ++j) packings[j] = mean(grid.edge(j), grid.edge(j + 1));
+  return packings;
+}
+
+std::vector<double> capacities(const Scene<double>& scene, const Grid& grid) {
+  std::vector<double> capacities = cell_packings(scene, grid);
+  if (capacities.empty()) return grid.widths;
+  for (std::size_t j = 0; j < grid.n_cells; ++j)
+    capacities[j] *= grid.widths.empty() ? grid.cell_width() : grid.widths[j];
+  return capacities;
 }
 
 std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells);
   MeanRate mean(scene);
-  for (std::size_t j = 0; j < grid.n_cells; ++j) rates[j] = mean(grid.edge(j), grid.edge(j + 1));
+  MeanPacking packing(scene);
+  for (std::size_t j = 0; j < grid.n_cells; ++j)
+    rates[j] = mean(grid.edge(j), grid.edge(j + 1)) * packing(grid.edge(j), grid.edge(j + 1));
   return rates;
 }
 
 std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells + 1, 0.0);
   MeanRate mean(scene);
-  for (std::size_t j = 1; j < grid.n_cells; ++j) rates[j] = mean(grid.middle(j - 1), grid.middle(j));
+  MeanPacking packing(scene);
+  for (std::size_t j = 1; j < grid.n_cells; ++j)
+    rates[j] = mean(grid.middle(j - 1), grid.middle(j)) * packing(grid.middle(j - 1), grid.middle(j));
   return rates;
 }
 
 std::vector<double> face_values(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells + 1, 0.0);
-  for (std::size_t j = 1; j < grid.n_cells; ++j) rates[j] = scene.scale() * scene.shear_rate_at(grid.edge(j));
+  for (std::size_t j = 1; j < grid.n_cells; ++j)
+    rates[j] = scene.scale() * scene.rate_at(grid.edge(j)) * scene.packing_at(grid.edge(j));
   return rates;
 }
 

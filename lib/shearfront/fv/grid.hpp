@@ -33,11 +33,21 @@ struct Grid {
 /// a layer or between two knots of a, with edges on the interfaces.
 [[nodiscard]] Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells);
 
-/// Mean of phi(z, 0) over every cell, exact to rounding, so the grid starts with the mass of the scene.
-/// Continuous in the heights of the initial jumps. Cost: O(n_cells + jumps).
+/// Mean of the share x = phi(z, 0) / c(z) over the grains of every cell, int phi dz / int c dz, exact to
+/// rounding, so the grid starts with the mass of the scene. Continuous in the heights of the initial jumps.
+/// Cost: O(n_cells + jumps + knots).
 [[nodiscard]] std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid);
 
-/// s times the harmonic mean of a over every cell: result[j] belongs to cell j.
+/// Mean of c over every cell; empty for a scene without packing. Cost: O(n_cells + knots).
+[[nodiscard]] std::vector<double> cell_packings(const Scene<double>& scene, const Grid& grid);
+
+/// int c dz of every cell; empty where all are equal to the bit. Cost: as above.
+[[nodiscard]] std::vector<double> capacities(const Scene<double>& scene, const Grid& grid);
+
+// With x = phi / c the law is (c x)_t + (s a sqrt(T) c f(x))_z = 0: a cell of width w and packing c is a cell
+// of width w c for x, and a rate counts times c. In what follows a stands for a sqrt(T).
+
+/// s times the harmonic mean of a over every cell, times its packing: result[j] belongs to cell j.
 ///
 /// The harmonic mean (width / int dz / a) keeps the travel time of pure grains (phi = 0 or 1) across a cell
 /// exact. For smooth a it is a(middle) up to O(width^2); in a cell cut by an interface it depends
@@ -45,13 +55,14 @@ struct Grid {
 /// interface needs that. Cost: O(n_cells + knots).
 [[nodiscard]] std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid);
 
-/// s times the harmonic mean of a from the middle of cell j - 1 to the middle of cell j: result[j] belongs to
-/// the face below cell j, 1 <= j < n_cells; result[0] and result[n_cells], the walls, are 0.
+/// s times the harmonic mean of a from the middle of cell j - 1 to the middle of cell j, times the mean of c
+/// there: result[j] belongs to the face below cell j, 1 <= j < n_cells; result[0] and result[n_cells], the
+/// walls, are 0.
 ///
 /// For smooth a this is a(face) up to O(width^2). Cost: O(n_cells + knots).
 [[nodiscard]] std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid);
 
-/// s a(z) at every face, the upper value at a jump; 0 at the walls. Cost: O(n_cells log knots).
+/// s a(z) c(z) at every face, the upper value at a jump; 0 at the walls. Cost: O(n_cells log knots).
 [[nodiscard]] std::vector<double> face_values(const Scene<double>& scene, const Grid& grid);
 
 }  // namespace shearfront::fv

@@ -28,11 +28,12 @@ enum class Scheme { engquist_osher, godunov, muscl };
 
 /// Constants of the numbers a kernel computes with; see Kernel.
 struct KernelNumbers {
-  double rest;                ///< h of a face without flux
-  double quantum;             ///< states v are multiples of it
-  double largest_courant;     ///< the bounds of phi are proved up to this s a largest_slope dt / dz
-  double coefficient_weight;  ///< coefficient = Courant number times this
-  bool has_slopes;            ///< v is linear in a cell, not constant
+  double rest;                 ///< h of a face without flux
+  double quantum;              ///< states v are multiples of it
+  double largest_courant;      ///< the bounds of phi are proved up to this s a largest_slope dt / dz
+  double coefficient_weight;   ///< coefficient = Courant number times this
+  bool has_slopes;             ///< v is linear in a cell, not constant
+  bool is_for_minima = false;  ///< f has a minimum; of one with a maximum v counts downwards
 };
 
 /// Cells are handled in groups of so many.

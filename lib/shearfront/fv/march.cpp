@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "shearfront/numeric/contract.hpp"
 
@@ -11,6 +12,9 @@ namespace shearfront::fv {
 
 March::March(const Kernel& kernel, const UnimodalFlux& flux, CellData data, double cfl)
     : kernel_(kernel), lo_(flux.lo), hi_(flux.hi), quantum_(kernel.numbers().quantum) {
+  // The fast kernel knows a minimum only: a parabola with a maximum is one for the share of the other grains.
+  const bool is_reflected = kernel.numbers().is_for_minima && !flux.is_minimum;
+  if (is_reflected) std::swap(lo_, hi_);
   const std::size_t n = data.phi.size();
   SHEARFRONT_EXPECTS(data.rates.size() == n || data.rates.size() == n + 1, "one rate per cell or face");
   const KernelNumbers numbers = kernel.numbers();
@@ -19,7 +23,7 @@ March::March(const Kernel& kernel, const UnimodalFlux& flux, CellData data, doub
   for (std::size_t j = 0; j < n; ++j) data.fastest = std::max(data.fastest, speed_of(data, j));
   for (const int octave : data.octaves) slowest_octave_ = std::max(slowest_octave_, octave);
   speed_ = flux.largest_slope * data.fastest / numbers.largest_courant / std::ldexp(1.0, slowest_octave_);
-  const double at_bottom = flux.is_minimum ? 1 : -1;
+  const double at_bottom = flux.is_minimum || is_reflected ? 1 : -1;
   for (std::size_t first = 0, end = 0; first < n; first = end) {
     end = first + 1;
     if (data.octaves.empty()) end = n;

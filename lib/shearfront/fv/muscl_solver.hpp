@@ -15,15 +15,16 @@ namespace shearfront {
 /// layer that has the flux of the neighbour beyond (the singular mapping). What comes out is the
 /// reconstruction: phi linear, M quadratic in every cell. Guaranteed up to a Courant number of 1/2
 /// (options.cfl = 1): the mass is kept exactly, phi stays in the range of the flux, at jumps of a too. A
-/// steady shock takes one mixed cell, and steady states are kept forever. Error: O(dz^2) in fans, O(dz) in L1
-/// past shocks. Source: van Leer (1979), J. Comput. Phys. 32, 101-136; Shu & Osher (1988), J. Comput. Phys.
-/// 77, 439-471.
+/// steady shock takes one mixed cell, and steady states are kept forever. One flux with one extremum, between
+/// walls; with packing see GodunovSolver; where c varies inside cells what comes out has no slopes but those
+/// of c. Error: O(dz^2) in fans, O(dz) in L1 past shocks. Source: van Leer (1979), J. Comput. Phys. 32,
+/// 101-136; Shu & Osher (1988), J. Comput. Phys. 77, 439-471.
 struct MusclSolver {
   static constexpr std::string_view kName = "muscl";
   static constexpr std::string_view kDescription = "MUSCL scheme of second order with a choice of limiters";
   static Guarantees guarantees() {
     Guarantees g;
-    g.conservative = g.bounded = g.any_scene = g.has_profiles = true;
+    g.conservative = g.bounded = g.has_profiles = true;
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;

@@ -104,7 +104,7 @@ class QuadraticKernel final : public Kernel {
     std::fill_n(rises, n, 0.0);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
-    return {kRest, kQuantum, 1, kCoefficientWeight, false};
+    return {kRest, kQuantum, 1, kCoefficientWeight, false, true};
   }
 
  private:

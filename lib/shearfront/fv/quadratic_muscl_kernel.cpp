@@ -72,7 +72,7 @@ class QuadraticMusclKernel final : public Kernel {
     MusclPass<QuadraticRule<2>, limiter, true, 2>::half_rises(rule, v, faces, rises, n);
   }
   [[nodiscard]] KernelNumbers numbers() const override {
-    return {QuadraticRule<2>::kRest, QuadraticRule<2>::kQuantum, 0.5, 0.5, true};
+    return {QuadraticRule<2>::kRest, QuadraticRule<2>::kQuantum, 0.5, 0.5, true, true};
   }
 
  private:

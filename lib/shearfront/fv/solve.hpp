@@ -2,9 +2,11 @@
 #pragma once
 #include <vector>
 
+#include "shearfront/fv/face_rule.hpp"
 #include "shearfront/fv/grid.hpp"
 #include "shearfront/fv/kernel.hpp"
 #include "shearfront/fv/march.hpp"
+#include "shearfront/fv/output.hpp"
 #include "shearfront/fv/unimodal_flux.hpp"
 #include "shearfront/solver/solver.hpp"
 
@@ -27,24 +29,30 @@ namespace shearfront::fv {
 /// The mass is that of the scene to the bit of 2^-53 per cell on equal cells, to rounding on others, where
 /// what rounding leaves of a flux waits at the face between two widths.
 ///
-/// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one extremum),
+/// Scenes with packing: the schemes advance the share x = phi / c (fv/grid.hpp); what comes out is c x
+/// (CellOutput). Several fluxes, open or periodic ends, and fluxes that do not vanish at the ends of their
+/// range or have several extrema or none are left to the plain march (fv/plain_march.hpp): godunov and
+/// engquist-osher only, without local steps. There dt is shortened to end at the times where a state outside
+/// changes, (1) and (2) hold as above, and t = infinity is, but for walls, a march until nothing changes by
+/// more than 2^-50.
+///
+/// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one
+/// extremum between cells of unequal rate or packing),
 /// interrupted (options.progress said so), not_converged (the rates differ so much that rounding stopped the
-/// slow cells), budget_reached (1e15 cell updates).
+/// slow cells; no rest after 1000 steps per cell), budget_reached (1e15 cell updates).
 /// Cost: cells * (t / dt) cell updates, with local steps each cell by its own dt; tests/bench/fv_bench.cpp.
+/// The plain march, and kernels where c varies from cell to cell, take about 25 times as long per update.
 /// Memory: 56 bytes per cell, 72 for muscl; 66 more where cells or steps differ; 32 per cell of a profile.
 [[nodiscard]] SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
+                                 const SolverOptions& options);
+
+/// By the plain march and a rule of its own (fv/plain_march.hpp), whatever the scene.
+[[nodiscard]] SolverResult solve(FaceRule rule, const Scene<double>& scene, const SolverRequest& request,
                                  const SolverOptions& options);
 
 /// The same with a flux and a kernel of the caller's choice, in place of the scene's flux.
 [[nodiscard]] SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel,
                                  const Scene<double>& scene, const SolverRequest& request,
                                  const SolverOptions& options);
-
-/// Samples at heights in any order; see Sample. Cost: O(cells + n log n).
-[[nodiscard]] std::vector<Sample> sample_cells(const Grid& grid, const CellStates& cells,
-                                               const std::vector<double>& depths);
-
-/// phi, constant or linear in every cell, as a function of z. Cost: O(cells).
-[[nodiscard]] Profile<double> profile_of_cells(const Grid& grid, const CellStates& cells);
 
 }  // namespace shearfront::fv

@@ -17,7 +17,7 @@ struct UnimodalFlux {
   bool is_minimum = true;    ///< grains of this kind sink (f <= 0); otherwise they rise
   double largest_slope = 1;  ///< max |f'|
   std::function<double(double)> value, derivative;
-  bool is_quadratic = false;  ///< f = phi (phi - 1): there is a fast kernel
+  bool is_quadratic = false;  ///< a parabola, up to scale and sign phi (phi - 1): there is a fast kernel
   std::string refusal;        ///< why f cannot be used; empty if it can
 };
 
@@ -27,18 +27,19 @@ template <class Model>
 [[nodiscard]] UnimodalFlux unimodal_flux(const Model& model) {
   constexpr int kSlopeSamples = 4096;
   UnimodalFlux flux;
-  flux.lo = model.kRange[0];
-  flux.hi = model.kRange[1];
-  flux.is_quadratic = std::is_same_v<Model, Quadratic>;
+  flux.lo = model.range().lowest;
+  flux.hi = model.range().highest;
   flux.value = [model](double phi) { return model.value(phi); };
   flux.derivative = [model](double phi) { return model.derivative(phi); };
-  if (model.kExtrema.size() != 1) {
+  const std::vector<double> extrema = model.extrema();
+  if (extrema.size() != 1) {
     flux.refusal =
         "flux " + std::string(Model::kName) + " has more than one extremum or none; front-tracking covers it";
     return flux;
   }
-  flux.extremum = model.kExtrema[0];
-  flux.is_minimum = flux.value(flux.extremum) < 0;
+  flux.extremum = extrema[0];
+  flux.is_minimum = flux.value(flux.extremum) < flux.value(flux.lo);
+  if constexpr (requires { Model::kIsParabola; }) flux.is_quadratic = Model::kIsParabola;
   if (flux.value(flux.lo) != 0 || flux.value(flux.hi) != 0)
     flux.refusal = "flux " + std::string(Model::kName) + " does not vanish between pure states";
   flux.largest_slope = 0;

@@ -53,13 +53,19 @@ class Medium {
                                                     const Scalar& upper) const = 0;
   /// The same among paths with H > 0 only.
   [[nodiscard]] virtual Candidate<Scalar> best_moving(const Scalar& z, const Scalar& t) const = 0;
-  /// Time a pure state (H = 0) needs between two heights: |int dz / (s a)|.
-  [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const = 0;
+  /// Time a pure state (H = 0) needs from one height to another: |int dz / (s a)| for the quadratic flux.
+  [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& from, const Scalar& to) const = 0;
   /// Final amount minus the value of a path that best_free(z, t) returned.
   [[nodiscard]] virtual Scalar shortfall(const Candidate<Scalar>& path, const Scalar& z, const Scalar& t,
                                          FinalAmount amount) const = 0;
   /// s a(z); at a jump of a the value above it, at the top the value below.
   [[nodiscard]] virtual Scalar rate_at(const Scalar& z) const = 0;
+  /// Largest flux at z, with the same choice at a jump.
+  [[nodiscard]] virtual Scalar capacity_at(const Scalar& z) const { return rate_at(z) / Scalar(4); }
+  /// Flux H of the state phi at z, with the same choice at a jump.
+  [[nodiscard]] virtual Scalar flux_at(const Scalar& z, const Scalar& phi) const {
+    return rate_at(z) * phi * (Scalar(1) - phi);
+  }
 };
 
 }  // namespace shearfront::hopf_lax

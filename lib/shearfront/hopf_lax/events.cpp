@@ -62,16 +62,13 @@ Scalar last_time(const Scene<Scalar>& scene, const Medium<Scalar>& medium, const
                       : z > steady_height ? hopf_lax::FinalAmount::all_mass
                                           : hopf_lax::FinalAmount::both;
   const Scalar start =
-      std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(z, scene.top()));
+      std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(scene.top(), z));
   return hopf_lax::final_time(medium, z, amount, start, Scalar(scene.top() - scene.bottom()));
 }
 
-}  // namespace
-
+/// The times of a scene of the quadratic flux, or of the normal form of another one, in the medium given.
 template <Real Scalar>
-Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
-  const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::kDefaultLayers;
-  const auto medium = hopf_lax::make_medium(scene, n);
+Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>* medium) {
   Timeline<Scalar> events;
   events.mass = scene.mass();
   events.steady_height = std::min(Scalar(scene.bottom() + events.mass), scene.top());
@@ -80,7 +77,7 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
   const Scalar& at_bottom = scene.initial_values().front();
   const Scalar& at_top = scene.initial_values().back();
   if (at_bottom == Scalar(0)) {
-    if (jumps.lowest) events.t0 = medium->pure_travel_time(scene.bottom(), *jumps.lowest);
+    if (jumps.lowest) events.t0 = medium->pure_travel_time(*jumps.lowest, scene.bottom());
   } else if (at_bottom != Scalar(1)) {
     events.t0 = Scalar(0);
   }
@@ -91,7 +88,7 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
   }
   events.t_star = is_steady(scene) ? Scalar(0) : last_time(scene, *medium, events.steady_height, events.mass);
 
-  const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium.get());
+  const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium);
   if (layered == nullptr || !scene.is_layered()) return events;
   for (std::size_t i = 1; i < layered->layers().n_layers(); ++i) {
     const Scalar& z = layered->layers().boundary(i);
@@ -107,6 +104,25 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
     }
     events.interfaces.push_back(std::move(times));
   }
+  return events;
+}
+
+}  // namespace
+
+template <Real Scalar>
+Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
+  if (scene.is_plain()) {
+    const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::kDefaultLayers;
+    return plain_timeline(scene, hopf_lax::make_medium(scene, n).get());
+  }
+  const ExactSolution<Scalar> solution(scene, {options.layers});
+  const hopf_lax::NormalForm<Scalar>& form = *solution.normal_form();
+  Timeline<Scalar> events = plain_timeline(form.image(), &solution.medium());
+  events.mass = solution.mass();
+  events.steady_height = solution.steady_height();
+  if (!scene.is_layered()) events.interfaces.clear();
+  for (std::size_t i = 0; i < events.interfaces.size(); ++i)
+    events.interfaces[i].z = form.layers().boundary(i + 1);
   return events;
 }
 

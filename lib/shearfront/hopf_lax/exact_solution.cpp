@@ -2,8 +2,12 @@
 #include "shearfront/hopf_lax/exact_solution.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
+#include "shearfront/hopf_lax/general_medium.hpp"
 #include "shearfront/hopf_lax/medium.hpp"
+#include "shearfront/hopf_lax/refusal.hpp"
 #include "shearfront/numeric/contract.hpp"
 
 namespace shearfront {
@@ -12,14 +16,60 @@ using hopf_lax::Candidate;
 using hopf_lax::PathKind;
 
 template <Real Scalar>
+std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
+  const bool is_parabolic = std::all_of(scene.fluxes().begin(), scene.fluxes().end(), [](const auto& flux) {
+    return std::visit([](const auto& f) { return bool(std::remove_cvref_t<decltype(f)>::kIsParabola); },
+                      flux);
+  });
+  return is_parabolic ? kDefaultLayers : kDefaultGeneralLayers;
+}
+
+template <Real Scalar>
 ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options)
     : scene_(scene), mass_(scene.mass()), steady_height_(scene.bottom() + mass_) {
+  const std::size_t n = options.layers > 0 ? options.layers : default_layers(scene);
+  if (!scene.is_plain()) {
+    SHEARFRONT_EXPECTS(hopf_lax::refusal(scene).empty(), "a scene with an exact solution");
+    form_ = std::make_shared<const hopf_lax::NormalForm<Scalar>>(scene, n);
+    image_.reset(new ExactSolution(*form_, n));
+    medium_ = image_->medium_;
+    n_layers_ = image_->n_layers_;
+    steady_height_ = form_->height_of(image_->steady_height_);
+    if (form_->keeps_model()) return;
+    coarse_form_ = std::make_shared<const hopf_lax::NormalForm<Scalar>>(scene, (n + 1) / 2);
+    coarse_image_.reset(new ExactSolution(*coarse_form_, n));
+    return;
+  }
   if (steady_height_ > scene.top()) steady_height_ = scene.top();
-  const std::size_t n = options.layers > 0 ? options.layers : kDefaultLayers;
   medium_ = hopf_lax::make_medium(scene, n);
   if (const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium_.get()))
     n_layers_ = layered->layers().n_layers();
   if (!hopf_lax::has_exact_medium(scene)) coarse_ = hopf_lax::make_medium(scene, (n + 1) / 2);
+}
+
+template <Real Scalar>
+ExactSolution<Scalar>::ExactSolution(const hopf_lax::NormalForm<Scalar>& form, std::size_t layers)
+    : scene_(form.image()), mass_(scene_.mass()), steady_height_(scene_.bottom() + mass_) {
+  if (form.is_parabolic()) {
+    *this = ExactSolution(scene_, Options{layers});
+    return;
+  }
+  if (steady_height_ > scene_.top()) steady_height_ = scene_.top();
+  medium_ = std::make_shared<const hopf_lax::GeneralMedium<Scalar>>(form);
+  n_layers_ = form.n_layers();
+}
+
+/// A value of the normal form's solution as one of the scene.
+template <Real Scalar>
+typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_in_scene(
+    const hopf_lax::NormalForm<Scalar>& form, Value value, const Scalar& z) const {
+  const std::size_t k = form.layers().layer_at(z);
+  const Scalar slope = form.state_slope(k) * form.layers().packing(k);
+  value.phi = form.phi_of(z, value.phi);
+  value.M = z == scene_.top() ? mass_ : form.amount_of(z, value.M);
+  value.H *= form.sign();
+  value.phi_error *= slope < 0 ? Scalar(-slope) : slope;
+  return value;
 }
 
 template <Real Scalar>
@@ -39,7 +89,7 @@ Candidate<Scalar> ExactSolution<Scalar>::best_path(const hopf_lax::Medium<Scalar
   const bool at_top = z == scene_.top();
   const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (scene_.top() - scene_.bottom());
   const bool full = at_top && wall.value <= mass_ + tie;
-  if (medium.pure_travel_time(z, scene_.top()) <= t && !(mass_ > wall.value) && !full) {
+  if (medium.pure_travel_time(scene_.top(), z) <= t && !(mass_ > wall.value) && !full) {
     wall = Candidate<Scalar>{};
     wall.value = mass_;
     wall.kind = PathKind::top_wall;
@@ -61,12 +111,13 @@ typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_from(const Ca
   value.phi = std::min(Scalar(1), std::max(Scalar(0), path.p));
   // A path may end on an interface with a flux that only the layer it comes from can carry, if it sets out
   // within rounding of the interface: no flux through it exceeds what the layer above carries.
-  value.H = std::min(path.H, Scalar(medium_->rate_at(z) / Scalar(4)));
+  value.H = std::min(path.H, medium_->capacity_at(z));
   return value;
 }
 
 template <Real Scalar>
 Candidate<Scalar> ExactSolution<Scalar>::path(const Scalar& z, const Scalar& t) const {
+  if (form_) return image_->path(form_->image_of(z), t);
   if (t == Scalar(0) || !is_finite(t)) return {};
   return best_path(*medium_, z, t);
 }
@@ -74,6 +125,12 @@ Candidate<Scalar> ExactSolution<Scalar>::path(const Scalar& z, const Scalar& t) 
 template <Real Scalar>
 typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z, const Scalar& t) const {
   SHEARFRONT_EXPECTS(z >= scene_.bottom() && z <= scene_.top() && t >= Scalar(0), "a point of the domain");
+  if (form_) {
+    if (t > Scalar(0) && is_finite(t)) return value_of(path(z, t), z, t);
+    Value value = value_in_scene(*form_, image_->at(form_->image_of(z), t), z);
+    if (t == Scalar(0)) value.phi = scene_.initial_phi(z);
+    return value;
+  }
   Value value;
   if (t == Scalar(0)) {
     value.phi = scene_.initial_phi(z);
@@ -85,7 +142,7 @@ typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z,
       sum += (std::min(z, i == jumps.size() ? scene_.top() : jumps[i]) - lo) * scene_.initial_values()[i];
     }
     value.M = z == scene_.top() ? mass_ : std::min(sum.value(), mass_);
-    value.H = medium_->rate_at(z) * value.phi * (Scalar(1) - value.phi);
+    value.H = medium_->flux_at(z, value.phi);
     return value;
   }
   if (!is_finite(t)) {
@@ -101,9 +158,15 @@ template <Real Scalar>
 typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_of(const Candidate<Scalar>& path,
                                                                       const Scalar& z,
                                                                       const Scalar& t) const {
-  Value value = value_from(path, z);
-  if (coarse_) {
-    const Value coarse = value_from(best_path(*coarse_, z, t), z);
+  const auto coarse_value = [&] {
+    if (coarse_image_)
+      return value_in_scene(*coarse_form_, coarse_image_->at(coarse_form_->image_of(z), t), z);
+    return value_from(best_path(*coarse_, z, t), z);
+  };
+  Value value =
+      form_ ? value_in_scene(*form_, image_->value_of(path, form_->image_of(z), t), z) : value_from(path, z);
+  if (coarse_ || coarse_image_) {
+    const Value coarse = coarse_value();
     // Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of the change on average; stairs that fit a turning point by
     // chance make the change smaller than that.
     constexpr int kSafety = 3;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "shearfront/hopf_lax/general_medium.hpp"
 #include "shearfront/hopf_lax/medium.hpp"
 #include "shearfront/numeric/contract.hpp"
 
@@ -43,6 +44,8 @@ class L1Integral {
     narrow_ = Scalar(4) * u * std::max({height, size_of(scene.top()), size_of(scene.bottom())});
     if (const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(&exact.medium()))
       boundaries_ = layered->layers().boundaries();
+    else if (const auto* general = dynamic_cast<const hopf_lax::GeneralMedium<Scalar>*>(&exact.medium()))
+      boundaries_ = general->layers().boundaries();
     else
       boundaries_ = {scene.bottom(), scene.top()};
   }
@@ -264,6 +267,8 @@ template <Real Scalar>
 ProfileErrors<Scalar> errors_against(const ExactSolution<Scalar>& exact, const Profile<Scalar>& profile,
                                      const Scalar& t) {
   SHEARFRONT_EXPECTS(profile.n_cells() > 0 && t >= Scalar(0), "a profile at a time");
+  // |phi - exact phi| dz = |u - exact u| dy: the normal form has the same errors.
+  if (exact.image()) return errors_against(*exact.image(), exact.normal_form()->image_of(profile), t);
   if (t == Scalar(0) || !is_finite(t)) return errors_at_rest(profile_at_rest(exact, t == Scalar(0)), profile);
   return L1Integral<Scalar>(exact, profile, t).run();
 }

@@ -29,6 +29,9 @@ struct ProfileErrors {
 /// Differences of M that are no more than rounding are replaced by the trapezoidal rule, which is exact where
 /// the exact phi is linear (fans in their first layer, constant states).
 ///
+/// Other fluxes, packing and temperature: |phi - exact phi| dz = |u - exact u| dy in the normal form, where
+/// all of the above is done; M_max is that of int u dy.
+///
 /// Domain: the profile covers the scene's domain; 0 <= t <= +infinity. Guarantee: |l1 - true| <= l1_bound =
 /// 16 u (top - bottom) n_pieces for layered and exponential a, u the unit roundoff; about 1e-15 per piece in
 /// double, as a rule much less. Tabulated a: the error against the exact solution of the staircase (see

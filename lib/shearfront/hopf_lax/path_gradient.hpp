@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "shearfront/hopf_lax/exponential_medium.hpp"
+#include "shearfront/hopf_lax/general_medium.hpp"
 #include "shearfront/hopf_lax/layered_medium.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 
@@ -37,6 +38,12 @@ struct LayeredGradient {
 /// Cost: O(layers touched).
 template <Real Scalar>
 [[nodiscard]] LayeredGradient<Scalar> path_gradient(const LayeredMedium<Scalar>& medium,
+                                                    const Candidate<Scalar>& path, const Scalar& z,
+                                                    const Scalar& t);
+
+/// The same for other fluxes (general_gradient.cpp); phi needs e'' of the laws.
+template <Real Scalar>
+[[nodiscard]] LayeredGradient<Scalar> path_gradient(const GeneralMedium<Scalar>& medium,
                                                     const Candidate<Scalar>& path, const Scalar& z,
                                                     const Scalar& t);
 

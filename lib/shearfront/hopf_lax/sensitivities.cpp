@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shearfront/hopf_lax/path_gradient.hpp"
+#include "shearfront/numeric/contract.hpp"
 
 namespace shearfront {
 
@@ -97,9 +98,10 @@ void spread(const Table<Scalar>& table, const Scalar& lo, const Scalar& hi, cons
   out.phi.shear_rate_value(i + 1) += dphi * right;
 }
 
-template <Real Scalar>
-void add_path(const Scene<Scalar>& scene, const LayeredMedium<Scalar>& medium, const Candidate<Scalar>& path,
-              const Scalar& z, const Scalar& t, Sensitivities<Scalar>& out) {
+/// A stack of layers: LayeredMedium or GeneralMedium.
+template <Real Scalar, class Stack>
+void add_layered_path(const Scene<Scalar>& scene, const Stack& medium, const Candidate<Scalar>& path,
+                      const Scalar& z, const Scalar& t, Sensitivities<Scalar>& out) {
   const auto gradient = hopf_lax::path_gradient(medium, path, z, t);
   const Scalar& s = scene.scale();
   const auto& layers = medium.layers();
@@ -155,10 +157,85 @@ Gradient<Scalar> empty_gradient(const Scene<Scalar>& scene) {
   return {0, 0, jumps};
 }
 
+/// Whether c, T or the flux jumps at z.
+template <Real Scalar>
+bool material_jumps(const Scene<Scalar>& scene, const Scalar& z) {
+  const auto has = [&](const std::vector<Scalar>& heights) {
+    return std::find(heights.begin(), heights.end(), z) != heights.end();
+  };
+  const auto knots = [](const DepthProfile<Scalar>& profile) {
+    return std::visit([](const auto& model) { return model.knots(); }, profile);
+  };
+  return has(scene.flux_breaks()) || (scene.spec().packing && has(knots(*scene.spec().packing))) ||
+         (scene.spec().temperature && has(knots(*scene.spec().temperature)));
+}
+
+/// One quantity's derivatives in the image, times `factor`, as derivatives in the scene.
+template <Real Scalar>
+void add_image(const Scene<Scalar>& scene, const hopf_lax::NormalForm<Scalar>& form,
+               const Gradient<Scalar>& image, const Scalar& factor, Gradient<Scalar>& out) {
+  const LayerStack<Scalar>& layers = form.layers();
+  out.scale = factor * image.scale;
+  const auto values = image.shear_rate_values();
+  if (const auto* a = std::get_if<Piecewise<Scalar>>(&scene.shear_rate())) {
+    const auto& rates = std::get<Piecewise<Scalar>>(form.image().shear_rate()).values;
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < layers.n_layers(); ++k) {
+      if (i < a->breaks.size() && !(layers.boundary(k) < a->breaks[i])) {
+        out.shear_rate_break(i) = factor * form.stretch(k) * image.shear_rate_breaks()[k - 1];
+        ++i;
+      }
+      out.shear_rate_value(i) += factor * values[k] * (rates[k] / a->values[i]);
+    }
+  } else {
+    out.amplitude = factor * image.amplitude * form.rate_factor(0);
+    out.decay = factor * image.decay * form.stretch(0);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out.shear_rate_value(i) = factor * values[i] * form.rate_factor(0);
+  }
+  const auto jumps = image.initial_breaks(), states = image.initial_values();
+  for (std::size_t j = 0; j < states.size(); ++j)
+    out.initial_value(form.initial_piece(j)) += factor * states[j] / form.state_slope(form.initial_layer(j));
+  for (std::size_t j = 0; j < jumps.size(); ++j) {
+    const std::size_t i = form.initial_break(j);
+    if (i == form.kNone) continue;
+    out.initial_break(i) = factor * jumps[j] * form.stretch(layers.layer_at(scene.initial_breaks()[i]));
+  }
+}
+
+template <Real Scalar>
+Sensitivities<Scalar> from_image(const ExactSolution<Scalar>& solution, const Scalar& z, const Scalar& t) {
+  SHEARFRONT_EXPECTS(sensitivity_refusal(solution).empty(), "a solution with exact derivatives");
+  const Scene<Scalar>& scene = solution.scene();
+  const hopf_lax::NormalForm<Scalar>& form = *solution.normal_form();
+  const Sensitivities<Scalar> image = sensitivities(*solution.image(), form.image_of(z), t);
+  Sensitivities<Scalar> out{solution.at(z, t), empty_gradient(scene), empty_gradient(scene)};
+  const std::size_t k = form.layers().layer_at(z);
+  add_image(scene, form, image.M, form.sign(), out.M);
+  add_image(scene, form, image.phi, Scalar(form.state_slope(k) * form.layers().packing(k)), out.phi);
+  return out;
+}
+
 }  // namespace
 
 template <Real Scalar>
+std::string sensitivity_refusal(const ExactSolution<Scalar>& solution) {
+  const hopf_lax::NormalForm<Scalar>* form = solution.normal_form();
+  if (!form) return {};
+  const Scene<Scalar>& scene = solution.scene();
+  if (!form->keeps_model())
+    return "a, c or T vary smoothly in a bed of other fluxes: derivatives by differences only";
+  if (const auto* a = std::get_if<Piecewise<Scalar>>(&scene.shear_rate()))
+    for (const Scalar& z : a->breaks)
+      if (material_jumps(scene, z))
+        return "shear_rate.breaks = " + number_text(z) +
+               " lies on a jump of packing, temperature or flux: derivatives by differences only";
+  return {};
+}
+
+template <Real Scalar>
 Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const Scalar& z, const Scalar& t) {
+  if (solution.image()) return from_image(solution, z, t);
   const Scene<Scalar>& scene = solution.scene();
   Sensitivities<Scalar> out{{}, empty_gradient(scene), {}};
   out.phi = out.M;
@@ -175,7 +252,9 @@ Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const
   out.M.scale = path.H * t / scene.scale();
   add_initial_cumulative(scene, path.foot, path.kind == PathKind::constant, out.M);
   if (const auto* layered = dynamic_cast<const LayeredMedium<Scalar>*>(&solution.medium())) {
-    add_path(scene, *layered, path, z, t, out);
+    add_layered_path(scene, *layered, path, z, t, out);
+  } else if (const auto* general = dynamic_cast<const hopf_lax::GeneralMedium<Scalar>*>(&solution.medium())) {
+    add_layered_path(scene, *general, path, z, t, out);
   } else {
     add_path(scene, dynamic_cast<const ExponentialMedium<Scalar>&>(solution.medium()), path, z, t, out);
   }
@@ -185,5 +264,8 @@ Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const
 template Sensitivities<double> sensitivities(const ExactSolution<double>&, const double&, const double&);
 template Sensitivities<Real50> sensitivities(const ExactSolution<Real50>&, const Real50&, const Real50&);
 template Sensitivities<Real110> sensitivities(const ExactSolution<Real110>&, const Real110&, const Real110&);
+template std::string sensitivity_refusal(const ExactSolution<double>&);
+template std::string sensitivity_refusal(const ExactSolution<Real50>&);
+template std::string sensitivity_refusal(const ExactSolution<Real110>&);
 
 }  // namespace shearfront

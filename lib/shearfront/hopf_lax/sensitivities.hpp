@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "shearfront/hopf_lax/exact_solution.hpp"
@@ -76,9 +77,19 @@ struct Sensitivities {
 /// is given to the layer above). t = 0 and t = +infinity: the initial data and the steady state
 /// differentiated. Heights of a table (its z) are not parameters. Cost: one query of ExactSolution plus
 /// O(layers + jumps) for the vectors.
+///
+/// Other fluxes, packing and temperature: the derivatives of the normal form by the chain rule, for the same
+/// entries (shear_rate.*, initial.*); the entries of fluxes, packing and temperature have none. An initial
+/// jump on a jump of c, T or the flux is moved into the layer above. Precondition: sensitivity_refusal() is
+/// empty.
 template <Real Scalar>
 [[nodiscard]] Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const Scalar& z,
                                                   const Scalar& t);
+
+/// Why there are no exact derivatives of a solution, in one sentence; empty if there are: where c, T or a
+/// general flux vary smoothly, or a break of a(z) lies on a jump of c, T or the flux.
+template <Real Scalar>
+[[nodiscard]] std::string sensitivity_refusal(const ExactSolution<Scalar>& solution);
 
 extern template Sensitivities<double> sensitivities(const ExactSolution<double>&, const double&,
                                                     const double&);
@@ -86,5 +97,8 @@ extern template Sensitivities<Real50> sensitivities(const ExactSolution<Real50>&
                                                     const Real50&);
 extern template Sensitivities<Real110> sensitivities(const ExactSolution<Real110>&, const Real110&,
                                                      const Real110&);
+extern template std::string sensitivity_refusal(const ExactSolution<double>&);
+extern template std::string sensitivity_refusal(const ExactSolution<Real50>&);
+extern template std::string sensitivity_refusal(const ExactSolution<Real110>&);
 
 }  // namespace shearfront

@@ -6,7 +6,7 @@
 
 #include "shearfront/hopf_lax/events.hpp"
 #include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/medium.hpp"
+#include "shearfront/hopf_lax/refusal.hpp"
 
 namespace shearfront {
 
@@ -32,6 +32,11 @@ SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest&
   const auto begin = std::chrono::steady_clock::now();
   check_request(scene, request);
   SolverResult result;
+  if (std::string reason = hopf_lax::refusal(scene); !reason.empty()) {
+    result.summary.status = Status::unsupported;
+    result.summary.message = std::move(reason);
+    return result;
+  }
   const ExactSolution<double> solution(scene, {options.layers});
   result.summary.layers = solution.n_layers();
   result.summary.status = Status::ok;
@@ -53,7 +58,7 @@ SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest&
   }
   if (result.summary.usable() && request.timeline)
     result.timeline = exact_timeline(scene, {.layers = options.layers});
-  if (result.summary.usable() && !hopf_lax::has_exact_medium(scene))
+  if (result.summary.usable() && !solution.is_exact())
     result.summary.message = "exact for a staircase of " + std::to_string(solution.n_layers()) +
                              " layers; estimated error of M " + number_text(worst_M);
   result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

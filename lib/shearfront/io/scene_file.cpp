@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/io/scene_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "shearfront/io/detail/toml_source.hpp"
@@ -19,7 +22,8 @@ using Need = TableReader::Need;
 /// A number of entries in parentheses stands for a length, not for the text of a value.
 bool is_length(const Problem& problem) { return problem.value.ends_with(" entries)"); }
 
-std::string table_of(const std::string& key) { return key.substr(0, key.find('.')); }
+/// "shear_rate" of "shear_rate.values", "flux[1]" of "flux[1].gamma".
+std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
 template <Real S>
 class SceneReader {
@@ -30,9 +34,11 @@ class SceneReader {
     TableReader root(source_, report_, "", source_.root());
     const auto name = root.text("name", Need::optional, "must be text");
     spec_.name = name.value_or(std::filesystem::path(source_.name()).stem().string());
-    if (auto table = root.table("flux", Need::optional, "must be a table with model")) flux(*table);
+    fluxes(root.tables("flux", Need::optional, "must be a table with model, or an array of such tables"));
     if (auto table = root.table("shear_rate", Need::required, "must be a table with model and its entries"))
       shear_rate(*table);
+    profile(root, "packing", spec_.packing);
+    profile(root, "temperature", spec_.temperature);
     if (auto table = root.table("initial", Need::required, "must be a table with breaks and values")) {
       table->number("breaks", Need::required, spec_.initial_breaks);
       table->number("values", Need::required, spec_.initial_values);
@@ -43,6 +49,7 @@ class SceneReader {
       table->number("top", Need::optional, spec_.top);
       table->finish();
     }
+    if (auto table = root.table("boundary", Need::optional, "must be a table")) boundary(*table);
     root.finish();
     check();
     report_.throw_if_any();
@@ -50,20 +57,58 @@ class SceneReader {
   }
 
  private:
-  void flux(TableReader& table) {
-    const std::string what = "must be one of: " + FluxList::names();
-    const auto model = table.text("model", Need::optional, what);
-    const bool is_known = model_by_name<FluxList>(table, model ? *model : Quadratic::kName, what, spec_.flux);
-    if (is_known) table.finish();
+  void fluxes(std::vector<TableReader> tables) {
+    if (tables.empty()) return;
+    using List = FluxList<S>;
+    const std::string what = "must be one of: " + List::names();
+    spec_.fluxes.clear();
+    for (TableReader& table : tables) {
+      const bool is_first = spec_.fluxes.empty();
+      if (!is_first) table.number("above", Need::required, spec_.flux_breaks.emplace_back());
+      const auto model = table.text("model", Need::optional, what);
+      const std::string_view name = model ? std::string_view(*model) : Quadratic<S>::kName;
+      if (model_by_name<List>(table, name, what, spec_.fluxes.emplace_back()))
+        table.finish();
+      else
+        report_.spoil(table.path("model"));
+    }
   }
 
   void shear_rate(TableReader& table) {
     using List = ShearRateList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table.text("model", Need::required, what);
-    knows_shear_rate_ = model && model_by_name<List>(table, *model, what, spec_.shear_rate);
+    const bool is_known = model && model_by_name<List>(table, *model, what, spec_.shear_rate);
+    if (!is_known) unknown_.emplace_back("shear_rate");
     table.number("scale", Need::optional, spec_.scale);
-    if (knows_shear_rate_) table.finish();  // otherwise nobody knows which keys are right
+    if (is_known) table.finish();  // otherwise nobody knows which keys are right
+  }
+
+  void profile(TableReader& root, std::string_view key, std::optional<DepthProfile<S>>& profile) {
+    auto table = root.table(key, Need::optional, "must be a table with model and its entries");
+    if (!table) return;
+    using List = ShearRateList<S>;
+    const std::string what = "must be one of: " + List::names();
+    const auto model = table->text("model", Need::required, what);
+    if (model && model_by_name<List>(*table, *model, what, profile.emplace()))
+      table->finish();
+    else
+      unknown_.emplace_back(key);
+  }
+
+  void boundary(TableReader& table) {
+    spec_.is_periodic = table.boolean("periodic", Need::optional).value_or(false);
+    const auto outside = [&](std::string_view key, std::optional<OutsideState<S>>& state) {
+      auto side = table.table(key, Need::optional, "must be a table with values, and breaks in time");
+      if (!side) return;
+      state.emplace();
+      side->number("breaks", Need::optional, state->breaks);
+      side->number("values", Need::required, state->values);
+      side->finish();
+    };
+    outside("bottom", spec_.outside_bottom);
+    outside("top", spec_.outside_top);
+    table.finish();
   }
 
   /// Reads the entries of the model with this name; false if there is none.
@@ -75,7 +120,13 @@ class SceneReader {
       is_known = true;
       Model entries;
       Model::fields(entries, [&](const FieldInfo& info, auto& member) {
-        table.number(info.key, Need::required, member);
+        table.number(info.key, info.is_optional ? Need::optional : Need::required, member);
+      });
+      visit_choices(entries, [&](const ChoiceInfo& info, auto& member) {
+        const std::vector<std::string> names(info.names.begin(), info.names.end());
+        if (const auto chosen = table.choice(info.key, Need::optional, names))
+          member = static_cast<std::decay_t<decltype(member)>>(
+              std::find(names.begin(), names.end(), *chosen) - names.begin());
       });
       model = std::move(entries);
     });
@@ -89,9 +140,11 @@ class SceneReader {
       const std::string table = table_of(problem.key);
       if (report_.is_spoiled(problem.key)) continue;
       if (is_length(problem) && report_.is_spoiled(TableReader::lengths(table))) continue;
-      if (!knows_shear_rate_ && table == "shear_rate" && problem.key != "shear_rate.scale") continue;
+      const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
+      if (is_unknown && problem.key != "shear_rate.scale") continue;
       const TomlSource::Found found = source_.find(problem.key);
-      if (found.is_exact && found.node->is_number()) problem.value = source_.shown(*found.node);
+      if (found.is_exact && (found.node->is_number() || found.node->is_string()))
+        problem.value = source_.shown(*found.node);
       report_.add(TomlSource::position(*found.node), TomlSource::shown_position(*found.node, found.around),
                   std::move(problem));
     }
@@ -100,7 +153,7 @@ class SceneReader {
   const TomlSource& source_;
   ProblemReport report_;
   SceneSpec<S> spec_;
-  bool knows_shear_rate_ = false;
+  std::vector<std::string> unknown_;  ///< tables whose model is missing or unknown
 };
 
 }  // namespace

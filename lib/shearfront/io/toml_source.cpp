@@ -149,6 +149,22 @@ std::optional<TableReader> TableReader::table(std::string_view key, Need need, s
   return std::nullopt;
 }
 
+std::vector<TableReader> TableReader::tables(std::string_view key, Need need, std::string_view what) {
+  const toml::node* node = request(key, need, what);
+  std::vector<TableReader> all;
+  if (!node) return all;
+  if (const toml::table* table = node->as_table()) {
+    all.emplace_back(*source_, *report_, path(key), *table);
+  } else if (const toml::array* array = node->as_array(); array && is_array_of_tables(*array)) {
+    for (const toml::node& element : *array)
+      all.emplace_back(*source_, *report_, path(key) + "[" + std::to_string(all.size()) + "]",
+                       *element.as_table());
+  } else {
+    wrong_type(*node, path(key), what);
+  }
+  return all;
+}
+
 std::optional<std::string> TableReader::text(std::string_view key, Need need, std::string_view what) {
   const toml::node* node = request(key, need, what);
   if (!node) return std::nullopt;

@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <vector>
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
 
 #include "shearfront/riemann/state.hpp"
 
 namespace shearfront {
+
+/// The general case of solve_in_layer(): a monotone chain, in which a vertex stays on the envelope while
+/// speeds increase along the path from l to r.
+template <StateGrid Grid, class Emit>
+void solve_by_envelope(const Grid& grid, std::size_t layer, State l, State r, Emit&& emit) {
+  boost::container::small_vector<State, 64> envelope{l};
+  for (State i = l; i != r;) {
+    i = l < r ? std::min(grid.next_vertex(layer, i), r) : std::max(grid.previous_vertex(layer, i), r);
+    while (envelope.size() > 1 && !(grid.speed(layer, envelope[envelope.size() - 2], envelope.back()) <
+                                    grid.speed(layer, envelope.back(), i)))
+      envelope.pop_back();
+    envelope.push_back(i);
+  }
+  for (std::size_t i = 0; i + 1 < envelope.size(); ++i) emit(envelope[i], envelope[i + 1]);
+}
+
+/// Whether the Riemann problem l | r is known without a search to be a single shock.
+template <StateGrid Grid>
+[[nodiscard]] bool is_one_shock(const Grid& grid, std::size_t layer, State l, State r) {
+  return l > r ? grid.bend(layer, r, l) == Bend::convex : l < r && grid.bend(layer, l, r) == Bend::concave;
+}
 
 /// Riemann problem l | r inside one layer: calls emit(below, above) for every outgoing front, from bottom to
 /// top, speeds nondecreasing.
@@ -17,29 +39,24 @@ namespace shearfront {
 template <StateGrid Grid, class Emit>
 void solve_in_layer(const Grid& grid, std::size_t layer, State l, State r, Emit&& emit) {
   if (l == r) return;
-  if constexpr (Grid::kUnimodalConvex) {
-    if (l > r) {
-      emit(l, r);
-    } else {
-      for (State i = l; i < r;) {
-        const State next = grid.next_vertex(layer, i);
-        const State end = next < r ? next : r;
-        emit(i, end);
-        i = end;
-      }
+  const Bend bend = l < r ? grid.bend(layer, l, r) : grid.bend(layer, r, l);
+  if (bend == Bend::mixed) return solve_by_envelope(grid, layer, l, r, emit);
+  if ((bend == Bend::convex) == (l > r)) {
+    emit(l, r);
+  } else if (l < r) {
+    for (State i = l; i < r;) {
+      const State next = grid.next_vertex(layer, i);
+      const State end = next < r ? next : r;
+      emit(i, end);
+      i = end;
     }
   } else {
-    // Monotone chain: a vertex stays on the envelope while speeds increase along the path from l to r.
-    const State step = l < r ? 1 : -1;
-    std::vector<State> hull{l};
-    for (State i = l + step;; i += step) {
-      while (hull.size() > 1 &&
-             !(grid.speed(layer, hull[hull.size() - 2], hull.back()) < grid.speed(layer, hull.back(), i)))
-        hull.pop_back();
-      hull.push_back(i);
-      if (i == r) break;
+    for (State i = l; i > r;) {
+      const State next = grid.previous_vertex(layer, i);
+      const State end = next > r ? next : r;
+      emit(i, end);
+      i = end;
     }
-    for (std::size_t i = 0; i + 1 < hull.size(); ++i) emit(hull[i], hull[i + 1]);
   }
 }
 

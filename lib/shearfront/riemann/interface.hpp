@@ -51,8 +51,7 @@ std::vector<State> rising_envelope(const Grid& grid, std::size_t layer, State r)
 
 /// Rank of the flux where the two envelopes cross, walking both up the common axis of phi.
 template <StateGrid Grid>
-State crossing_rank(const Grid& grid, std::size_t below, State l, State r) {
-  const std::size_t above = below + 1;
+State crossing_rank(const Grid& grid, std::size_t below, std::size_t above, State l, State r) {
   const std::vector<State> h_l = falling_envelope(grid, below, l);
   const std::vector<State> h_r = rising_envelope(grid, above, r);
   // First phi at which h_R has reached h_L. There one of the two is flat (a state flux or an extremum, hence
@@ -78,15 +77,15 @@ State crossing_rank(const Grid& grid, std::size_t below, State l, State r) {
 
 }  // namespace interface_detail
 
-/// States next to the interface between layers `below` and `below + 1`, given the states l and r beyond the
-/// waves. Guaranteed: equal flux rank on both sides; (l, r) itself if the two are at rest. Cost: O(1) for
-/// convex unimodal fluxes (supply and demand: F* = max of the two one-sided minima), O(states)
+/// States next to a point between the layers `below` and `above`, given the states l and r beyond the waves:
+/// an interface, or an open end of the bed, whose outside is a layer like the outermost one (the sense of
+/// Bardos, LeRoux & Nedelec 1979). Guaranteed: equal flux rank on both sides; (l, r) itself if the two are at
+/// rest. Cost: O(1) for unimodal fluxes (supply and demand: F* = max of the two one-sided minima), O(states)
 /// otherwise.
 template <StateGrid Grid>
-StatePair solve_interface(const Grid& grid, std::size_t below, State l, State r) {
-  const std::size_t above = below + 1;
+StatePair solve_between(const Grid& grid, std::size_t below, std::size_t above, State l, State r) {
   const State rank_l = grid.flux_rank(below, l), rank_r = grid.flux_rank(above, r);
-  if constexpr (Grid::kUnimodalConvex) {
+  if constexpr (Grid::kUnimodal) {
     const State b = grid.bottom_state(below), a = grid.bottom_state(above);
     const State rank =
         std::max(l > b ? rank_l : grid.flux_rank(below, b), r < a ? rank_r : grid.flux_rank(above, a));
@@ -94,11 +93,17 @@ StatePair solve_interface(const Grid& grid, std::size_t below, State l, State r)
             rank_r == rank ? r : grid.rising_state(above, rank)};
   } else {
     using namespace interface_detail;
-    const State rank = crossing_rank(grid, below, l, r);
+    const State rank = crossing_rank(grid, below, above, l, r);
     // h_L falls, so a smaller flux lies above l; h_R rises, so a greater flux lies above r.
     return {nearest_with_rank(grid, below, l, rank, rank < rank_l),
             nearest_with_rank(grid, above, r, rank, rank > rank_r)};
   }
+}
+
+/// solve_between() for the interface above layer `below`.
+template <StateGrid Grid>
+StatePair solve_interface(const Grid& grid, std::size_t below, State l, State r) {
+  return solve_between(grid, below, below + 1, l, r);
 }
 
 /// State next to the bottom wall (flux 0) given the state r above the waves that leave it.
@@ -106,7 +111,7 @@ template <StateGrid Grid>
 State solve_bottom_wall(const Grid& grid, State r) {
   const State zero = grid.zero_flux_rank(), rank_r = grid.flux_rank(0, r);
   if (rank_r == zero) return r;
-  if constexpr (Grid::kUnimodalConvex) {
+  if constexpr (Grid::kUnimodal) {
     return grid.rising_state(0, zero);
   } else {
     return interface_detail::nearest_with_rank(grid, 0, r, zero, zero > rank_r);
@@ -119,7 +124,7 @@ State solve_top_wall(const Grid& grid, State l) {
   const std::size_t layer = grid.n_layers() - 1;
   const State zero = grid.zero_flux_rank(), rank_l = grid.flux_rank(layer, l);
   if (rank_l == zero) return l;
-  if constexpr (Grid::kUnimodalConvex) {
+  if constexpr (Grid::kUnimodal) {
     return grid.falling_state(layer, zero);
   } else {
     return interface_detail::nearest_with_rank(grid, layer, l, zero, zero < rank_l);

@@ -29,7 +29,7 @@ template <Real S>
 class PolygonStack {
  public:
   using Scalar = S;
-  static constexpr bool kUnimodalConvex = false;
+  static constexpr bool kUnimodal = false;
 
   PolygonStack(std::vector<S> boundaries, const std::vector<Polygon<S>>& polygons)
       : boundaries_(std::move(boundaries)) {
@@ -59,6 +59,9 @@ class PolygonStack {
   [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return point(layer, i).rank; }
   [[nodiscard]] State zero_flux_rank() const { return zero_; }
   [[nodiscard]] State next_vertex(std::size_t, State i) const { return i + 1; }
+  [[nodiscard]] State previous_vertex(std::size_t, State i) const { return i - 1; }
+  [[nodiscard]] static bool is_reversed() { return false; }
+  [[nodiscard]] static Bend bend(std::size_t, State, State) { return Bend::mixed; }
   /// Fronts inside one edge all have bitwise the speed of the edge.
   [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
     const State lo = std::min(l, r), hi = std::max(l, r);

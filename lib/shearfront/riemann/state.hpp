@@ -18,21 +18,30 @@ struct StatePair {
   friend bool operator==(const StatePair&, const StatePair&) = default;
 };
 
+/// How a polygon bends between two states.
+enum class Bend { convex, concave, mixed };
+
 /// The discretised problem: in every layer a continuous piecewise linear flux through the states of a grid.
 ///
-///   phi(k, i)        concentration of state i in layer k, increasing in i
+///   phi(k, i)        concentration of state i in layer k, increasing in i unless is_reversed()
 ///   flux(k, i)       flux of state i; equal flux_rank <=> equal flux
 ///   flux_rank(k, i)  integer that orders fluxes over all layers, increasing with the flux
 ///   zero_flux_rank() rank of flux 0, the flux through a wall
 ///   speed(k, l, r)   Rankine-Hugoniot speed of the front l | r, l != r
 ///   fastest()        a bound for |speed|
-///   next_vertex(k,i) smallest vertex of the polygon above state i
-///   kUnimodalConvex  every layer flux is convex with one minimum; then also
+///   next_vertex(k, i), previous_vertex(k, i)  nearest vertex of the polygon above and below state i
+///   is_reversed()    phi falls with the state index, and flux_rank orders fluxes downwards: a problem with
+///                    maxima told as one with minima
+///   bend(k, lo, hi)  how the polygon bends between the states lo < hi, in the orientation of the indices
+///   kUnimodal        every layer flux has one minimum (in that orientation); then also
 ///   bottom_state(k)  the state of least flux: fluxes fall up to it and rise after it
+///   falling_state(k, rank), rising_state(k, rank)  the state with this flux below and above it
 template <class G>
 concept StateGrid = requires(const G& g, std::size_t k, State i) {
   typename G::Scalar;
-  { G::kUnimodalConvex } -> std::convertible_to<bool>;
+  { G::kUnimodal } -> std::convertible_to<bool>;
+  { g.is_reversed() } -> std::convertible_to<bool>;
+  { g.bend(k, i, i) } -> std::same_as<Bend>;
   { g.n_layers() } -> std::convertible_to<std::size_t>;
   { g.n_states(k) } -> std::convertible_to<State>;
   { g.boundary(k) } -> std::convertible_to<typename G::Scalar>;
@@ -43,6 +52,7 @@ concept StateGrid = requires(const G& g, std::size_t k, State i) {
   { g.speed(k, i, i) } -> std::convertible_to<typename G::Scalar>;
   { g.fastest() } -> std::convertible_to<typename G::Scalar>;
   { g.next_vertex(k, i) } -> std::convertible_to<State>;
+  { g.previous_vertex(k, i) } -> std::convertible_to<State>;
 };
 
 }  // namespace shearfront

@@ -3,30 +3,11 @@
 #include <cstddef>
 #include <string>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
-#include "shearfront/scene/scene.hpp"
+#include "shearfront/scene/scene_spec.hpp"
 
 namespace shearfront {
-
-/// Calls visit(key, Range, member) for every numeric field of a scene file, in the order of the file; key is
-/// the full name ("shear_rate.values"), member a Scalar or a vector of them, const as the specification is.
-template <class Spec, class Visit>
-void visit_fields(Spec& spec, Visit&& visit) {
-  const auto with_prefix = [&](const std::string& prefix) {
-    return [&visit, prefix](const FieldInfo& info, auto& member) {
-      visit(prefix + std::string(info.key), info.range, member);
-    };
-  };
-  std::visit([&](auto& flux) { flux.fields(flux, with_prefix("flux.")); }, spec.flux);
-  std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);
-  visit(std::string("shear_rate.scale"), Range::positive, spec.scale);
-  visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
-  visit(std::string("initial.values"), Range::any, spec.initial_values);
-  visit(std::string("domain.bottom"), Range::any, spec.bottom);
-  visit(std::string("domain.top"), Range::any, spec.top);
-}
 
 /// One number of a scene file, by its place among all of them.
 struct Entry {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,23 @@ enum class Range { any, positive };
 struct FieldInfo {
   std::string_view key;  ///< name inside the model's table, e.g. "values"
   Range range = Range::any;
+  bool is_optional = false;  ///< a scene file may leave it out; the member's initial value then counts
 };
+
+/// An entry that is one of a few names, in the order of the enumerators of the member. A model with such
+/// entries lists them in
+///     template <class Self, class Visit> static void choices(Self& self, Visit&& visit)
+/// which calls visit(ChoiceInfo, member) for each. All of them are optional in scene files.
+struct ChoiceInfo {
+  std::string_view key;
+  std::span<const std::string_view> names;
+};
+
+/// Calls visit(ChoiceInfo, member) for the choices of a model that has some.
+template <class Model, class Visit>
+void visit_choices(Model& model, Visit&& visit) {
+  if constexpr (requires { Model::choices(model, visit); }) Model::choices(model, visit);
+}
 
 /// Adds a problem for every number of the field that is not finite or outside its range.
 template <Real S>

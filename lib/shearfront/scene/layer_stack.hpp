@@ -13,22 +13,35 @@
 
 namespace shearfront {
 
-/// A stack of layers with constant shear rate: layer k occupies [boundary(k), boundary(k+1)].
+/// What a layer has besides its shear rate, where it is not one quadratic flux in a bed of packing 1.
+template <Real Scalar>
+struct LayerMaterial {
+  std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};
+  std::vector<std::size_t> flux_index;  ///< per layer; empty: the first flux everywhere
+  std::vector<Scalar> packing;          ///< c per layer; empty: 1 everywhere
+};
+
+/// A stack of layers with constant shear rate, packing and flux: layer k occupies [boundary(k),
+/// boundary(k+1)], and its flux is rate(k) packing(k) f(phi / packing(k)).
 ///
-/// Invariant: at least one layer, boundaries strictly increasing, shear rates positive and finite.
+/// Invariant: at least one layer, boundaries strictly increasing, shear rates and packings positive and
+/// finite.
 template <Real Scalar>
 class LayerStack {
  public:
   /// `is_break[i]` tells whether interior boundary i + 1 is a break of the scene's own a(z) (true) or only an
   /// edge of a staircase that stands for a smooth a(z) (false).
   LayerStack(std::vector<Scalar> boundaries, std::vector<Scalar> shear_rates, Scalar scale,
-             std::vector<bool> is_break)
+             std::vector<bool> is_break, LayerMaterial<Scalar> material = {})
       : boundaries_(std::move(boundaries)),
         shear_rates_(std::move(shear_rates)),
         scale_(std::move(scale)),
-        is_break_(std::move(is_break)) {
+        is_break_(std::move(is_break)),
+        material_(std::move(material)) {
+    const auto fits = [&](std::size_t n) { return n == 0 || n == shear_rates_.size(); };
     SHEARFRONT_EXPECTS(!shear_rates_.empty() && boundaries_.size() == shear_rates_.size() + 1 &&
-                           is_break_.size() + 1 == shear_rates_.size(),
+                           is_break_.size() + 1 == shear_rates_.size() && fits(material_.packing.size()) &&
+                           fits(material_.flux_index.size()),
                        "sizes of a layer stack");
   }
 
@@ -39,8 +52,22 @@ class LayerStack {
   [[nodiscard]] const std::vector<Scalar>& boundaries() const { return boundaries_; }
   [[nodiscard]] const Scalar& shear_rate(std::size_t k) const { return shear_rates_[k]; }
   [[nodiscard]] const Scalar& scale() const { return scale_; }
-  /// s a_k: the flux of layer k is rate(k) f(phi).
+  /// s a_k sqrt(T_k): the speed of a state is rate(k) f'(phi / packing(k)).
   [[nodiscard]] Scalar rate(std::size_t k) const { return scale_ * shear_rates_[k]; }
+  /// c_k: states are phi = packing(k) times a state of flux(k).
+  [[nodiscard]] Scalar packing(std::size_t k) const {
+    return material_.packing.empty() ? Scalar(1) : material_.packing[k];
+  }
+  [[nodiscard]] std::size_t flux_index(std::size_t k) const {
+    return material_.flux_index.empty() ? 0 : material_.flux_index[k];
+  }
+  [[nodiscard]] const Flux<Scalar>& flux(std::size_t k) const { return material_.fluxes[flux_index(k)]; }
+  [[nodiscard]] const std::vector<Flux<Scalar>>& fluxes() const { return material_.fluxes; }
+  /// One quadratic flux in a bed of packing 1: everything but the shear rates is the same in all layers.
+  [[nodiscard]] bool is_plain() const {
+    return material_.fluxes.size() == 1 && material_.packing.empty() &&
+           std::holds_alternative<Quadratic<Scalar>>(material_.fluxes[0]);
+  }
   /// Whether the interface below layer k (1 <= k < n_layers) belongs to the scene itself.
   [[nodiscard]] bool is_break(std::size_t k) const { return is_break_[k - 1]; }
   /// Index of the layer that contains z; an interface belongs to the layer above it, the top to the last
@@ -54,25 +81,40 @@ class LayerStack {
   std::vector<Scalar> boundaries_, shear_rates_;
   Scalar scale_;
   std::vector<bool> is_break_;
+  LayerMaterial<Scalar> material_;
 };
+
+/// Flux and packing of the layers between `boundaries`, which must include every knot of the scene.
+template <Real Scalar>
+[[nodiscard]] LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene,
+                                                const std::vector<Scalar>& boundaries) {
+  LayerMaterial<Scalar> material;
+  material.fluxes = scene.fluxes();
+  for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
+    if (scene.fluxes().size() > 1) material.flux_index.push_back(scene.flux_index(boundaries[k]));
+    if (scene.spec().packing)
+      material.packing.push_back(scene.mean_packing(boundaries[k], boundaries[k + 1]));
+  }
+  return material;
+}
 
 /// The layers of a scene whose shear rate is piecewise constant, nothing rounded.
 /// Precondition: scene.is_layered().
 template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene) {
   SHEARFRONT_EXPECTS(scene.is_layered(), "a layered shear rate");
-  const auto knots = std::visit([](const auto& rate) { return rate.knots(); }, scene.shear_rate());
+  const std::vector<Scalar> knots = scene.knots();
   std::vector<Scalar> boundaries{scene.bottom()}, rates;
   boundaries.insert(boundaries.end(), knots.begin(), knots.end());
   boundaries.push_back(scene.top());
   for (std::size_t k = 0; k + 1 < boundaries.size(); ++k)
-    rates.push_back(
-        std::visit([&](const auto& a) { return a.harmonic_mean(boundaries[k], boundaries[k + 1]); },
-                   scene.shear_rate()));
-  return {std::move(boundaries), std::move(rates), scene.scale(), std::vector<bool>(knots.size(), true)};
+    rates.push_back(scene.mean_rate(boundaries[k], boundaries[k + 1]));
+  LayerMaterial<Scalar> material = material_of(scene, boundaries);
+  return {std::move(boundaries), std::move(rates), scene.scale(), std::vector<bool>(knots.size(), true),
+          std::move(material)};
 }
 
-/// A smooth shear rate as a staircase: every piece between knots is cut into equal layers no higher than
+/// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
 /// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
 /// order 3/2 where paths do (a falling along them), phi first order. Cost:
@@ -81,8 +123,8 @@ template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
   using std::ceil;
   std::vector<Scalar> cuts{scene.bottom()};
-  for (const Scalar& z : std::visit([](const auto& rate) { return rate.knots(); }, scene.shear_rate()))
-    if (z > scene.bottom() && z < scene.top()) cuts.push_back(z);
+  std::vector<bool> is_break;
+  for (const Scalar& z : scene.knots()) cuts.push_back(z);
   cuts.push_back(scene.top());
   const Scalar height = scene.top() - scene.bottom();
   std::vector<Scalar> boundaries{scene.bottom()}, rates;
@@ -95,13 +137,14 @@ template <Real Scalar>
           j == n ? cuts[i + 1]
                  : cuts[i] + piece * Scalar(static_cast<double>(j)) / Scalar(static_cast<double>(n));
       if (!(z > boundaries.back())) continue;  // the piece is too thin for n distinct numbers
-      rates.push_back(std::visit([&](const auto& a) { return a.harmonic_mean(boundaries.back(), z); },
-                                 scene.shear_rate()));
+      rates.push_back(scene.mean_rate(boundaries.back(), z));
       boundaries.push_back(z);
+      is_break.push_back(j == n && scene.jumps_at(z));
     }
   }
-  const std::size_t n_interfaces = rates.size() - 1;
-  return {std::move(boundaries), std::move(rates), scene.scale(), std::vector<bool>(n_interfaces, false)};
+  is_break.pop_back();  // the top
+  LayerMaterial<Scalar> material = material_of(scene, boundaries);
+  return {std::move(boundaries), std::move(rates), scene.scale(), std::move(is_break), std::move(material)};
 }
 
 }  // namespace shearfront

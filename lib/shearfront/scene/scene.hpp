@@ -1,94 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "shearfront/flux/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/sum.hpp"
-#include "shearfront/scene/field.hpp"
-#include "shearfront/shear_rate/all.hpp"
+#include "shearfront/scene/scene_problems.hpp"
+#include "shearfront/scene/scene_spec.hpp"
 
 namespace shearfront {
 
-/// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
-template <Real Scalar>
-struct SceneSpec {
-  std::string name;
-  Flux flux;
-  ShearRate<Scalar> shear_rate;
-  Scalar scale{1};                     ///< s, 1/time if a is dimensionless
-  std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, inside the domain
-  std::vector<Scalar> initial_values;  ///< phi between them, bottom to top; one more than breaks
-  Scalar bottom{0}, top{1};            ///< the domain, same unit as z
-};
-
-/// Adds a problem if s a(z), which every engine computes with, overflows or underflows at a knot or a wall;
-/// between them a(z) is monotone. Precondition: the numbers are right one by one.
-template <Real Scalar>
-void check_scaled_rate(const SceneSpec<Scalar>& spec, Problems& problems) {
-  const auto check = [&](const Scalar& z) {
-    const Scalar a = std::visit([&](const auto& rate) { return rate.value(z); }, spec.shear_rate);
-    const Scalar scaled = spec.scale * a;
-    if (scaled > 0 && is_finite(scaled)) return true;
-    problems.push_back({"shear_rate.scale", number_text(spec.scale),
-                        "must keep s a(z) a positive finite number on the whole domain (a(" + number_text(z) +
-                            ") = " + number_text(a) + ")"});
-    return false;
-  };
-  if (!check(spec.bottom) || !check(spec.top)) return;
-  for (const Scalar& z : std::visit([](const auto& rate) { return rate.knots(); }, spec.shear_rate))
-    if (z > spec.bottom && z < spec.top && !check(z)) return;
-}
-
-/// All that is wrong with a specification, in the order of the entries of a scene file; empty if nothing is.
-template <Real Scalar>
-[[nodiscard]] Problems find_problems(const SceneSpec<Scalar>& spec) {
-  Problems problems;
-  const auto visit_field = [&](const std::string& prefix) {
-    return [&problems, prefix](const FieldInfo& info, const auto& member) {
-      check_number(prefix + std::string(info.key), info.range, member, problems);
-    };
-  };
-  check_number("domain.bottom", Range::any, spec.bottom, problems);
-  check_number("domain.top", Range::any, spec.top, problems);
-  if (is_finite(spec.bottom) && is_finite(spec.top) && !(spec.top > spec.bottom))
-    problems.push_back({"domain.top", number_text(spec.top),
-                        "must be greater than domain.bottom (" + number_text(spec.bottom) + ")"});
-  const bool domain_ok = problems.empty();
-  std::visit([&](const auto& flux) { flux.fields(flux, visit_field("flux.")); }, spec.flux);
-  std::visit(
-      [&](const auto& rate) {
-        rate.fields(rate, visit_field("shear_rate."));
-        if (domain_ok) rate.check("shear_rate.", spec.bottom, spec.top, problems);
-      },
-      spec.shear_rate);
-  check_number("shear_rate.scale", Range::positive, spec.scale, problems);
-  if (problems.empty()) check_scaled_rate(spec, problems);
-  check_number("initial.breaks", Range::any, spec.initial_breaks, problems);
-  if (domain_ok) check_breaks("initial.breaks", spec.initial_breaks, spec.bottom, spec.top, problems);
-  const auto range = std::visit([](const auto& flux) { return flux.kRange; }, spec.flux);
-  for (std::size_t i = 0; i < spec.initial_values.size(); ++i) {
-    const Scalar& phi = spec.initial_values[i];
-    if (!(phi >= Scalar(range[0]) && phi <= Scalar(range[1])))
-      problems.push_back({"initial.values[" + std::to_string(i) + "]", number_text(phi),
-                          "must be between " + number_text(range[0]) + " and " + number_text(range[1])});
-  }
-  if (spec.initial_values.size() != spec.initial_breaks.size() + 1)
-    problems.push_back(
-        {"initial.values", "(" + std::to_string(spec.initial_values.size()) + " entries)",
-         "must have one entry more than breaks (" + std::to_string(spec.initial_breaks.size() + 1) + ")"});
-  return problems;
-}
-
-/// A bed of mixed grains: flux, shear rate a(z), scale s, initial concentration phi(z, 0) and the walls.
+/// A bed of mixed grains: flux, shear rate a(z), scale s, packing c(z), granular temperature T(z), initial
+/// concentration phi(z, 0), and what lies at its ends.
 ///
-///     phi_t + (s a(z) f(phi))_z = 0 on bottom < z < top, zero flux through both walls.
+///     phi_t + (s a(z) sqrt(T(z)) c(z) f(phi / c(z)))_z = 0 on bottom < z < top.
 ///
+/// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. The ends are walls (no flux),
+/// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_problems(spec()) is empty. Immutable after construction.
 /// Errors: the constructor throws InputError that carries every problem.
 template <Real Scalar>
@@ -100,98 +35,194 @@ class Scene {
 
   [[nodiscard]] const SceneSpec<Scalar>& spec() const { return spec_; }
   [[nodiscard]] const std::string& name() const { return spec_.name; }
-  [[nodiscard]] const Flux& flux() const { return spec_.flux; }
+  [[nodiscard]] const std::vector<Flux<Scalar>>& fluxes() const { return spec_.fluxes; }
+  /// Heights between the fluxes, one less.
+  [[nodiscard]] const std::vector<Scalar>& flux_breaks() const { return spec_.flux_breaks; }
   [[nodiscard]] const ShearRate<Scalar>& shear_rate() const { return spec_.shear_rate; }
   [[nodiscard]] const Scalar& scale() const { return spec_.scale; }
   [[nodiscard]] const Scalar& bottom() const { return spec_.bottom; }
   [[nodiscard]] const Scalar& top() const { return spec_.top; }
   [[nodiscard]] const std::vector<Scalar>& initial_breaks() const { return spec_.initial_breaks; }
+  /// Of phi / c.
   [[nodiscard]] const std::vector<Scalar>& initial_values() const { return spec_.initial_values; }
 
-  /// True if a(z) is constant between its knots.
+  /// Which flux holds at z; at a break the one above.
+  [[nodiscard]] std::size_t flux_index(const Scalar& z) const {
+    const auto& breaks = spec_.flux_breaks;
+    return static_cast<std::size_t>(std::upper_bound(breaks.begin(), breaks.end(), z) - breaks.begin());
+  }
+  [[nodiscard]] const Flux<Scalar>& flux_at(const Scalar& z) const { return spec_.fluxes[flux_index(z)]; }
+  /// The states allowed at z: those of the flux times c(z).
+  [[nodiscard]] StateRange<Scalar> range_at(const Scalar& z) const {
+    const StateRange<Scalar> range = std::visit([](const auto& flux) { return flux.range(); }, flux_at(z));
+    const Scalar c = packing_at(z);
+    return {c * range.lowest, c * range.highest};
+  }
+  /// Whether all of the scene is the model of May, Shearer & Daniels: one quadratic flux, c = T = 1, walls.
+  [[nodiscard]] bool is_plain() const {
+    return spec_.fluxes.size() == 1 && std::holds_alternative<Quadratic<Scalar>>(spec_.fluxes[0]) &&
+           !spec_.packing && !spec_.temperature && has_walls();
+  }
+  /// Whether no grain can leave or come in.
+  [[nodiscard]] bool has_walls() const {
+    return !spec_.outside_bottom && !spec_.outside_top && !spec_.is_periodic;
+  }
+
+  /// True if flux, a, c and T are constant between the knots().
   [[nodiscard]] bool is_layered() const {
-    return std::visit([](const auto& rate) { return rate.kIsLayered; }, spec_.shear_rate);
+    const auto layered = [](const DepthProfile<Scalar>& profile) {
+      return std::visit([](const auto& model) { return model.kIsLayered; }, profile);
+    };
+    return layered(spec_.shear_rate) && (!spec_.packing || layered(*spec_.packing)) &&
+           (!spec_.temperature || layered(*spec_.temperature));
   }
-  /// a(z) without the scale s.
-  [[nodiscard]] Scalar shear_rate_at(const Scalar& z) const {
-    return std::visit([&](const auto& rate) { return rate.value(z); }, spec_.shear_rate);
+  /// Heights inside the domain where the flux, a, c, T or one of their slopes jumps; ascending.
+  [[nodiscard]] std::vector<Scalar> knots() const {
+    std::vector<Scalar> all = spec_.flux_breaks;
+    const auto take = [&](const DepthProfile<Scalar>& profile) {
+      for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
+        if (z > spec_.bottom && z < spec_.top) all.push_back(z);
+    };
+    take(spec_.shear_rate);
+    if (spec_.packing) take(*spec_.packing);
+    if (spec_.temperature) take(*spec_.temperature);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
-  /// phi(z, 0); at a jump the value above it. Cost: O(log jumps).
-  [[nodiscard]] Scalar initial_phi(const Scalar& z) const {
+
+  /// Whether the flux, a, c or T jumps at z: there the scene has an interface of its own.
+  [[nodiscard]] bool jumps_at(const Scalar& z) const {
+    const auto jumps = [&](const DepthProfile<Scalar>& profile) {
+      return std::visit(
+          [&](const auto& model) {
+            if (!model.kIsLayered) return false;
+            const auto knots = model.knots();
+            return std::binary_search(knots.begin(), knots.end(), z);
+          },
+          profile);
+    };
+    return std::binary_search(spec_.flux_breaks.begin(), spec_.flux_breaks.end(), z) ||
+           jumps(spec_.shear_rate) || (spec_.packing && jumps(*spec_.packing)) ||
+           (spec_.temperature && jumps(*spec_.temperature));
+  }
+
+  /// a(z), without the scale s and the temperature.
+  [[nodiscard]] Scalar shear_rate_at(const Scalar& z) const { return value(spec_.shear_rate, z); }
+  [[nodiscard]] Scalar packing_at(const Scalar& z) const {
+    return spec_.packing ? value(*spec_.packing, z) : Scalar(1);
+  }
+  /// a(z) sqrt(T(z)): what moves the grains, without the scale s.
+  [[nodiscard]] Scalar rate_at(const Scalar& z) const {
+    using std::sqrt;
+    const Scalar a = shear_rate_at(z);
+    return spec_.temperature ? a * sqrt(value(*spec_.temperature, z)) : a;
+  }
+  /// Harmonic mean of rate_at over [lo, hi], which must not contain a knot inside. To rounding for T = 1 or
+  /// a layered one, else by quadrature (7 points of Gauss).
+  [[nodiscard]] Scalar mean_rate(const Scalar& lo, const Scalar& hi) const {
+    using std::sqrt;
+    const auto mean = [&](const DepthProfile<Scalar>& profile) {
+      return std::visit([&](const auto& model) { return Scalar(model.harmonic_mean(lo, hi)); }, profile);
+    };
+    if (!spec_.temperature) return mean(spec_.shear_rate);
+    if (std::visit([](const auto& model) { return model.kIsLayered; }, *spec_.temperature))
+      return mean(spec_.shear_rate) * sqrt(value(*spec_.temperature, lo));
+    const auto slowness = [&](const Scalar& z) { return Scalar(Scalar(1) / rate_at(z)); };
+    return Scalar(1) / mean_of(slowness, lo, hi);
+  }
+  /// Mean of c over [lo, hi], which must not contain a knot inside.
+  [[nodiscard]] Scalar mean_packing(const Scalar& lo, const Scalar& hi) const {
+    if (!spec_.packing) return Scalar(1);
+    if (std::visit([](const auto& model) { return model.kIsLayered; }, *spec_.packing))
+      return value(*spec_.packing, lo);
+    return mean_of([&](const Scalar& z) { return value(*spec_.packing, z); }, lo, hi);
+  }
+
+  /// phi(z, 0) / c(z); at a jump the value above it. Cost: O(log jumps).
+  [[nodiscard]] const Scalar& initial_share(const Scalar& z) const {
     const auto& breaks = spec_.initial_breaks;
     const auto k = std::upper_bound(breaks.begin(), breaks.end(), z) - breaks.begin();
     return spec_.initial_values[static_cast<std::size_t>(k)];
   }
-  /// Amount of small grains, int phi(z, 0) dz (compensated sum). Constant in time.
+  /// phi(z, 0); at a jump the value above it. Cost: O(log jumps).
+  [[nodiscard]] Scalar initial_phi(const Scalar& z) const {
+    const Scalar& share = initial_share(z);
+    return spec_.packing ? packing_at(z) * share : share;
+  }
+  /// Amount of small grains, int phi(z, 0) dz (compensated sum). Constant in time between walls.
   [[nodiscard]] Scalar mass() const {
     CompensatedSum<Scalar> sum;
     const auto& breaks = spec_.initial_breaks;
     for (std::size_t i = 0; i < spec_.initial_values.size(); ++i) {
       const Scalar& lo = i == 0 ? spec_.bottom : breaks[i - 1];
       const Scalar& hi = i == breaks.size() ? spec_.top : breaks[i];
-      sum += (hi - lo) * spec_.initial_values[i];
+      sum += solid(lo, hi) * spec_.initial_values[i];
     }
-    // No more than the height: where all of the bed is pure, that is the mass to the bit.
-    const Scalar height = spec_.top - spec_.bottom;
+    // No more than there is room for: where all of the bed is pure, that is the mass to the bit.
+    const Scalar height = solid(spec_.bottom, spec_.top);
     const auto [least, most] = std::minmax_element(spec_.initial_values.begin(), spec_.initial_values.end());
     return std::clamp(sum.value(), Scalar(*least * height), Scalar(*most * height));
   }
+  /// Height of the jump in the steady state between walls: grains of a flux with a minimum have sunk below
+  /// it, those of one with a maximum have risen above it.
+  [[nodiscard]] Scalar steady_height() const {
+    const Scalar m = mass();
+    if (is_plain()) return spec_.bottom + m;
+    const bool rises =
+        std::visit([](const auto& f) { return f.value(f.extrema().front()) > f.value(f.range().lowest); },
+                   spec_.fluxes.front());
+    // What the bed holds if the jump is at z, less what it does hold; monotone in z.
+    const auto excess = [&](const Scalar& z) {
+      return Scalar(amount(spec_.bottom, z, !rises) + amount(z, spec_.top, rises) - m);
+    };
+    Scalar lo = spec_.bottom, hi = spec_.top;
+    for (int i = 0; i < std::numeric_limits<Scalar>::digits + 8 && lo < hi; ++i) {
+      const Scalar z = lo + (hi - lo) / Scalar(2);
+      ((excess(z) > 0) != rises ? hi : lo) = z;
+    }
+    return lo + (hi - lo) / Scalar(2);
+  }
+  /// int_lo^hi c dz; hi - lo without packing. Cost: O(knots) with one.
+  [[nodiscard]] Scalar solid(const Scalar& lo, const Scalar& hi) const {
+    if (!spec_.packing) return hi - lo;
+    CompensatedSum<Scalar> sum;
+    Scalar from = lo;
+    const auto add = [&](const Scalar& to) {
+      sum += mean_packing(from, to) * (to - from);
+      from = to;
+    };
+    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, *spec_.packing))
+      if (z > from && z < hi) add(z);
+    add(hi);
+    return sum.value();
+  }
 
  private:
+  [[nodiscard]] static Scalar value(const DepthProfile<Scalar>& profile, const Scalar& z) {
+    return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, profile);
+  }
+  /// int phi dz over [lo, hi] if phi is as high or as low as it can be.
+  [[nodiscard]] Scalar amount(const Scalar& lo, const Scalar& hi, bool is_highest) const {
+    CompensatedSum<Scalar> sum;
+    for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
+      const Scalar begin = i == 0 ? lo : std::max(lo, spec_.flux_breaks[i - 1]);
+      const Scalar end = i + 1 == spec_.fluxes.size() ? hi : std::min(hi, spec_.flux_breaks[i]);
+      if (!(begin < end)) continue;
+      const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[i]);
+      sum += solid(begin, end) * (is_highest ? range.highest : range.lowest);
+    }
+    return sum.value();
+  }
+  template <class Function>
+  [[nodiscard]] static Scalar mean_of(const Function& f, const Scalar& lo, const Scalar& hi) {
+    const Scalar half = (hi - lo) / Scalar(2), middle = lo + half;
+    return boost::math::quadrature::gauss<Scalar, 7>::integrate(
+               [&](const Scalar& x) { return f(Scalar(middle + half * x)); }, Scalar(-1), Scalar(1)) /
+           Scalar(2);
+  }
+
   SceneSpec<Scalar> spec_;
 };
-
-/// The same scene in another scalar, number by number (exact when To has at least the precision of From).
-template <Real To, Real From>
-[[nodiscard]] Scene<To> scene_cast(const Scene<From>& scene) {
-  const auto number = [](const From& x) {
-    if constexpr (std::same_as<To, double>) {
-      return to_double(x);
-    } else {
-      return To(x);
-    }
-  };
-  const auto numbers = [&](const std::vector<From>& xs) {
-    std::vector<To> ys;
-    ys.reserve(xs.size());
-    for (const From& x : xs) ys.push_back(number(x));
-    return ys;
-  };
-  const SceneSpec<From>& from = scene.spec();
-  SceneSpec<To> to;
-  to.name = from.name;
-  to.flux = from.flux;
-  std::visit(
-      [&]<template <class> class Model>(const Model<From>& rate) {
-        Model<To> copy;
-        std::vector<std::vector<To>> arrays;
-        std::vector<To> singles;
-        const auto read = [&](const FieldInfo&, const auto& member) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, From>) {
-            singles.push_back(number(member));
-          } else {
-            arrays.push_back(numbers(member));
-          }
-        };
-        std::size_t n_arrays = 0, n_singles = 0;
-        const auto write = [&](const FieldInfo&, auto& member) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, To>) {
-            member = singles[n_singles++];
-          } else {
-            member = arrays[n_arrays++];
-          }
-        };
-        Model<From>::fields(rate, read);
-        Model<To>::fields(copy, write);
-        to.shear_rate = std::move(copy);
-      },
-      from.shear_rate);
-  to.scale = number(from.scale);
-  to.initial_breaks = numbers(from.initial_breaks);
-  to.initial_values = numbers(from.initial_values);
-  to.bottom = number(from.bottom);
-  to.top = number(from.top);
-  return Scene<To>(std::move(to));
-}
 
 }  // namespace shearfront

@@ -154,10 +154,10 @@ void add_noise(Observations& observations, double sigma, std::uint64_t seed, std
 }
 
 void clip(Observations& observations, const Scene<double>& scene) {
-  const auto range = std::visit([](const auto& flux) { return flux.kRange; }, scene.flux());
   for (Observation& o : observations.rows) {
+    const StateRange<double> range = scene.range_at(o.z);
     const double height = observations.quantity == Quantity::cumulative ? o.z - scene.bottom() : 1;
-    o.value = std::clamp(o.value, range[0] * height, range[1] * height);
+    o.value = std::clamp(o.value, range.lowest * height, range.highest * height);
   }
 }
 

@@ -114,7 +114,7 @@ Timeline<double> observed_events(const Scene<double>& scene, const ProfileSeries
   timeline.t1 = observer.first(scene.top() - h, scene.top());
   timeline.t_star = observer.steady_time();
   if (!scene.is_layered()) return timeline;
-  for (const double z : std::visit([](const auto& a) { return a.knots(); }, scene.shear_rate())) {
+  for (const double z : scene.knots()) {
     if (!(z > scene.bottom() && z < scene.top())) continue;
     const double low = std::max(scene.bottom(), z - h), high = std::min(scene.top(), z + h);
     bool is_open = false;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "shearfront/fv/classical_godunov_solver.hpp"
 #include "shearfront/fv/engquist_osher_solver.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/fv/muscl_solver.hpp"
+#include "shearfront/fv/upwind_solver.hpp"
 #include "shearfront/hopf_lax/solver.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/solver/solver.hpp"
@@ -12,7 +14,7 @@ namespace shearfront {
 
 /// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
 /// list.
-using SolverList =
-    TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver>;
+using SolverList = TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver,
+                            ClassicalGodunovSolver, UpwindSolver>;
 
 }  // namespace shearfront

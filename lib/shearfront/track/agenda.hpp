@@ -89,13 +89,21 @@ class Agenda {
                                             FrontIndex j) {
     const Node &a = fronts[i], &b = fronts[j];
     const Scalar closing = a.speed - b.speed;
-    if constexpr (Grid::kUnimodalConvex) {
-      if (!fronts.is_boundary(i) && !fronts.is_boundary(j)) {
-        if (!(a.below > b.above)) return Scalar(0);
-        constexpr int kCancelling = 32;
-        if (Scalar(kCancelling) * closing < size(a.speed))
-          return grid.speed_drop(a.layer, a.below, a.above, b.above, closing);
-      }
+    if (fronts.is_boundary(i) || fronts.is_boundary(j)) return closing;
+    const auto [least, most] = std::minmax({a.below, a.above, b.above});
+    switch (grid.bend(a.layer, least, most)) {
+      case Bend::mixed:
+        return closing;
+      case Bend::concave:
+        return a.below < b.above ? closing : Scalar(0);
+      case Bend::convex:
+        break;
+    }
+    if (!(a.below > b.above)) return Scalar(0);
+    if constexpr (requires { grid.speed_drop(a.layer, a.below, a.above, b.above, closing); }) {
+      constexpr int kCancelling = 32;
+      if (Scalar(kCancelling) * closing < size(a.speed))
+        return grid.speed_drop(a.layer, a.below, a.above, b.above, closing);
     }
     return closing;
   }

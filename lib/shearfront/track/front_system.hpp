@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "shearfront/riemann/interface.hpp"
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/track/agenda.hpp"
+#include "shearfront/track/ends.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/meeting_point.hpp"
 #include "shearfront/track/observers.hpp"
@@ -32,8 +34,13 @@ class FrontSystem {
     std::optional<Scalar> first, last;
   };
 
-  FrontSystem(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, Observer observer)
-      : grid_(&grid), observer_(std::move(observer)), fronts_(grid, count_fronts(grid, pieces)) {
+  FrontSystem(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
+              Observer observer)
+      : grid_(&grid),
+        observer_(std::move(observer)),
+        fronts_(grid, count_fronts(grid, pieces)),
+        outside_(ends.outside),
+        is_periodic_(ends.is_periodic) {
     start(pieces);
   }
 
@@ -44,6 +51,9 @@ class FrontSystem {
   [[nodiscard]] Agenda<Grid>& agenda() { return agenda_; }
   [[nodiscard]] const Agenda<Grid>& agenda() const { return agenda_; }
   [[nodiscard]] const Waves& waves(std::size_t boundary) const { return waves_[boundary]; }
+  /// State beyond the bottom (0) or the top (1) of the bed; none at a wall.
+  [[nodiscard]] const std::optional<State>& outside(std::size_t end) const { return outside_[end]; }
+  [[nodiscard]] bool is_periodic() const { return is_periodic_; }
   [[nodiscard]] const Scalar& time() const { return now_; }
   void set_time(const Scalar& t) { now_ = t; }
   [[nodiscard]] const Scalar& last_collision() const { return last_collision_; }
@@ -67,12 +77,19 @@ class FrontSystem {
       if (k == b) break;
     }
     if (boundary == kNoFront) {
-      if constexpr (Grid::kUnimodalConvex)
-        if (fronts_[a].next == b && l > r) return merge(a, b, l, r);
+      if (fronts_[a].next == b && is_one_shock(*grid_, fronts_[a].layer, l, r)) return merge(a, b, l, r);
       collide_in_layer(a, b, l, r);
     } else {
       collide_at_boundary(a, b, boundary, l, r);
     }
+    n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
+  }
+
+  /// Now another state lies beyond an open end. Precondition: what meets at this time has met.
+  void change_outside(std::size_t end, State state) {
+    outside_[end] = state;
+    const FrontIndex b = end == 0 ? 0 : static_cast<FrontIndex>(grid_->n_layers());
+    collide_at_boundary(b, b, b, fronts_[b].below, fronts_[b].above);
     n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
   }
 
@@ -103,7 +120,10 @@ class FrontSystem {
       if (n_fronts() > before) waves_[k] = {now_, now_};
       end_view();
     };
-    start_boundary(0, 0, pieces.front().state);
+    if (is_periodic_)
+      fronts_[0].above = pieces.front().state;  // solved with the top
+    else
+      start_boundary(0, 0, pieces.front().state);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Piece<Scalar>& piece = pieces[i];
       if (i + 1 == pieces.size()) {
@@ -146,14 +166,18 @@ class FrontSystem {
     return last;
   }
   /// Solves the Riemann problem at boundary b between the states l and r that meet there. Returns the topmost
-  /// node.
+  /// node at its height.
   FrontIndex emit_at_boundary(FrontIndex b, State l, State r) {
     const Scalar z = fronts_[b].z, zero(0);
     const std::size_t n_layers = grid_->n_layers();
+    if (is_periodic_ && (b == 0 || b == n_layers)) return emit_at_seam(b, l, r);
     if (b == 0) {
-      fronts_[b].above = solve_bottom_wall(*grid_, r);
+      fronts_[b].above =
+          outside_[0] ? solve_between(*grid_, 0, 0, *outside_[0], r).above : solve_bottom_wall(*grid_, r);
     } else if (b == n_layers) {
-      fronts_[b].below = solve_top_wall(*grid_, l);
+      fronts_[b].below = outside_[1]
+                             ? solve_between(*grid_, n_layers - 1, n_layers - 1, l, *outside_[1]).below
+                             : solve_top_wall(*grid_, l);
     } else {
       const StatePair at_rest = solve_interface(*grid_, b - 1, l, r);
       fronts_[b].below = at_rest.below;
@@ -163,7 +187,35 @@ class FrontSystem {
     return b < n_layers ? emit_in_layer(b, b, fronts_[b].above, r, z, zero) : b;
   }
 
-  /// The commonest event, two fronts of a convex layer that become one shock: node a is used again, node b
+  /// Both ends of a periodic bed are one interface. Returns the topmost node at the height of b.
+  FrontIndex emit_at_seam(FrontIndex b, State l, State r) {
+    const auto top = static_cast<FrontIndex>(grid_->n_layers());
+    const std::size_t last = grid_->n_layers() - 1;
+    // What arrives at one end meets the state at the other.
+    if (b == 0) {
+      l = fronts_[top].below;
+    } else {
+      r = fronts_[0].above;
+    }
+    const StatePair at_rest = solve_between(*grid_, last, 0, l, r);
+    fronts_[top].below = at_rest.below;
+    fronts_[0].above = at_rest.above;
+    const FrontIndex old_top_neighbour = fronts_[top].prev;
+    const Scalar zero(0);
+    emit_in_layer(old_top_neighbour, last, l, at_rest.below, fronts_[top].z, zero);
+    const FrontIndex uppermost = emit_in_layer(0, 0, at_rest.above, r, fronts_[0].z, zero);
+    // The caller schedules what is new at b; here the other end.
+    if (b == 0) {
+      schedule(old_top_neighbour);
+      schedule(fronts_[top].prev);
+    } else {
+      schedule(0);
+      schedule(uppermost);
+    }
+    return b == 0 ? uppermost : b;
+  }
+
+  /// The commonest event, two fronts of a layer that become one shock: node a is used again, node b
   /// goes.
   void merge(FrontIndex a, FrontIndex b, State l, State r) {
     Node &first = fronts_[a], &second = fronts_[b];
@@ -249,6 +301,8 @@ class FrontSystem {
   Scalar now_{0}, last_collision_{0};
   std::size_t n_fronts_max_ = 0;
   std::uint64_t collisions_ = 0;
+  std::array<std::optional<State>, 2> outside_;
+  bool is_periodic_;
 };
 
 }  // namespace shearfront

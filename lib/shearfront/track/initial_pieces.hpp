@@ -5,12 +5,12 @@
 
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/track/level_grid.hpp"
+#include "shearfront/track/layer_state.hpp"
 #include "shearfront/track/piece.hpp"
 
 namespace shearfront {
 
-/// The initial state of a scene cut at jumps and interfaces: for each piece its layer, its top and phi.
+/// The initial state of a scene cut at jumps and interfaces: for each piece its layer, its top and phi / c.
 template <Real Scalar>
 struct InitialPieces {
   std::vector<LayerState<Scalar>> states;  ///< one per piece, bottom to top
@@ -40,13 +40,13 @@ template <Real Scalar>
   return pieces;
 }
 
-/// The pieces with the states of a grid, ready for a Tracker. `states` comes from the grid's factory
-/// function.
+/// The pieces with the states of a grid, ready for a Tracker. `states`, of which the first are those of the
+/// pieces, comes from the grid's factory function.
 template <Real Scalar>
 [[nodiscard]] std::vector<Piece<Scalar>> on_grid(const InitialPieces<Scalar>& pieces,
                                                  const std::vector<State>& states) {
-  std::vector<Piece<Scalar>> result(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i)
+  std::vector<Piece<Scalar>> result(pieces.states.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = {pieces.states[i].layer, pieces.tops[i], states[i]};
   return result;
 }

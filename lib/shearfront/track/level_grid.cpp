@@ -3,6 +3,8 @@
 
 #include <boost/sort/pdqsort/pdqsort.hpp>
 #include <concepts>
+#include <optional>
+#include <variant>
 
 #include "shearfront/numeric/sum.hpp"
 
@@ -238,7 +240,17 @@ template <Real S>
 void LevelGrid<S>::set_classes(const LayerStack<S>& stack) {
   boundaries_ = stack.boundaries();
   std::vector<S> capacities(stack.n_layers());
-  for (std::size_t k = 0; k < capacities.size(); ++k) capacities[k] = stack.rate(k) / S(4);
+  for (std::size_t k = 0; k < capacities.size(); ++k) {
+    const S depth = std::visit([](const auto& flux) { return Scalar(flux.value(flux.extrema().front())); },
+                               stack.flux(k));
+    is_reversed_ = depth > S(0);
+    capacities[k] = stack.rate(k) * stack.packing(k) * (is_reversed_ ? depth : S(-depth));
+  }
+  if (!stack.is_plain())
+    for (std::size_t k = 0; k < capacities.size(); ++k) {
+      const StateRange<S> range = std::visit([](const auto& flux) { return flux.range(); }, stack.flux(k));
+      ranges_.push_back({stack.packing(k) * range.lowest, stack.packing(k) * range.highest});
+    }
   std::vector<S> distinct = capacities;
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
@@ -249,13 +261,42 @@ void LevelGrid<S>::set_classes(const LayerStack<S>& stack) {
 }
 
 template <Real S>
+std::string LevelGrid<S>::refusal(const LayerStack<S>& stack) {
+  std::optional<bool> is_maximum;
+  for (const Flux<S>& flux : stack.fluxes()) {
+    const bool is_parabola = std::visit([](const auto& f) { return f.kIsParabola; }, flux);
+    if (!is_parabola) return "a flux is not a parabola";
+    const bool is_concave =
+        std::visit([](const auto& f) { return f.curvature() == Curvature::concave; }, flux);
+    if (is_maximum && *is_maximum != is_concave) return "a minimum faces a maximum";
+    is_maximum = is_concave;
+  }
+  return {};
+}
+
+/// The wanted states as those of the quadratic flux.
+template <Real S>
+std::vector<LayerState<S>> unit_states(const LayerStack<S>& stack, std::vector<LayerState<S>> wanted,
+                                       bool is_reversed) {
+  if (stack.is_plain()) return wanted;
+  for (LayerState<S>& state : wanted) {
+    const StateRange<S> range =
+        std::visit([](const auto& flux) { return flux.range(); }, stack.flux(state.layer));
+    const S distance = is_reversed ? range.highest - state.phi : state.phi - range.lowest;
+    state.phi = distance / (range.highest - range.lowest);
+  }
+  return wanted;
+}
+
+template <Real S>
 typename LevelGrid<S>::Built LevelGrid<S>::exact_levels(const LayerStack<S>& stack, const S& resolution,
-                                                        const std::vector<LayerState<S>>& wanted) {
+                                                        const std::vector<LayerState<S>>& shares) {
   using Extra = typename Draft::Extra;
   SHEARFRONT_EXPECTS(resolution > 0 && resolution <= 1, "resolution in (0, 1]");
   Built built;
   LevelGrid& grid = built.grid;
   grid.set_classes(stack);
+  const std::vector<LayerState<S>> wanted = unit_states(stack, shares, grid.is_reversed_);
   Levels vertices = Draft::vertices(grid.classes_, resolution);
 
   std::vector<Extra> extras;
@@ -296,7 +337,7 @@ template <Real S>
 typename LevelGrid<S>::Built LevelGrid<S>::singular_mapping(const LayerStack<S>& stack, const S& delta,
                                                             const std::vector<LayerState<S>>& wanted) {
   using std::floor;
-  SHEARFRONT_EXPECTS(delta > 0, "delta > 0");
+  SHEARFRONT_EXPECTS(delta > 0 && stack.is_plain(), "delta > 0, the quadratic flux");
   Built built;
   LevelGrid& grid = built.grid;
   grid.boundaries_ = stack.boundaries();

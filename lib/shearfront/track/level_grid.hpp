@@ -12,18 +12,17 @@
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/track/layer_state.hpp"
 
 namespace shearfront {
 
-/// A state wanted in a grid: concentration phi in one layer.
-template <Real Scalar>
-struct LayerState {
-  std::size_t layer;
-  Scalar phi;
-};
-
-/// Grids of states for the quadratic flux r_k phi (phi - 1), r_k = s a_k, built on flux LEVELS shared by all
-/// layers.
+/// Grids of states for layers whose fluxes are parabolas, built on flux LEVELS shared by all layers: the
+/// quadratic flux r_k phi (phi - 1), r_k = s a_k, and its affine images.
+///
+/// What follows is said of the quadratic flux. A layer with states from lo to hi (packing included) and
+/// extremum F_m has the states phi = lo + (hi - lo) u, u a state of the quadratic flux of capacity c_k =
+/// |F_m|. If the extrema are maxima, phi = hi - (hi - lo) u: the state index then counts phi downwards, and
+/// everything else, which goes by the index, stays as it is.
 ///
 /// A level is a value h >= 0 of minus the flux. Layer k has the states phi = (1 -+ q)/2 with q = sqrt(1 - h /
 /// c_k) for every level h <= c_k = r_k / 4 (its capacity), so the interface Riemann problem maps grid states
@@ -53,7 +52,7 @@ template <Real S>
 class LevelGrid {
  public:
   using Scalar = S;
-  static constexpr bool kUnimodalConvex = true;
+  static constexpr bool kUnimodal = true;
   static constexpr std::size_t kMaxExactStates = 64;
 
   struct Built;  // grid + indices of the wanted states
@@ -61,6 +60,9 @@ class LevelGrid {
                             const std::vector<LayerState<S>>& wanted);
   static Built singular_mapping(const LayerStack<S>& stack, const S& delta,
                                 const std::vector<LayerState<S>>& wanted);
+
+  /// Why there is no grid for these layers; empty if there is.
+  [[nodiscard]] static std::string refusal(const LayerStack<S>& stack);
 
   /// How many levels exact_levels() would make, wanted states not counted. Cost: O(layers log layers).
   static double exact_level_count(const LayerStack<S>& stack, const S& resolution);
@@ -73,10 +75,19 @@ class LevelGrid {
   [[nodiscard]] S rate(std::size_t layer) const { return S(4) * capacity(layer); }
 
   [[nodiscard]] S phi(std::size_t layer, State i) const {
-    const State t = top(layer);
-    return i <= t ? falling_phi(layer, i) : S(1) - falling_phi(layer, 2 * t - i);
+    const S u = unit_phi(layer, i);
+    if (ranges_.empty()) return u;
+    const StateRange<S>& range = ranges_[layer];
+    const S part = (range.highest - range.lowest) * u;
+    return is_reversed_ ? range.highest - part : range.lowest + part;
   }
-  [[nodiscard]] S flux(std::size_t layer, State i) const { return -levels_[index(level(layer, i))].value; }
+  [[nodiscard]] S flux(std::size_t layer, State i) const {
+    const S& h = levels_[index(level(layer, i))].value;
+    return is_reversed_ ? h : S(-h);
+  }
+  /// Whether fluxes have a maximum: then phi falls with the state index.
+  [[nodiscard]] bool is_reversed() const { return is_reversed_; }
+  [[nodiscard]] static constexpr Bend bend(std::size_t, State, State) { return Bend::convex; }
   [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return -level(layer, i); }
   [[nodiscard]] static State zero_flux_rank() { return 0; }
   /// The state with the given flux rank on the falling / rising branch.
@@ -88,7 +99,57 @@ class LevelGrid {
     return i < t ? levels_[index(i + 1)].vertex_above : 2 * t - levels_[index(2 * t - i - 1)].vertex_below;
   }
 
+  [[nodiscard]] State previous_vertex(std::size_t layer, State i) const {
+    const State last = 2 * top(layer);
+    return last - next_vertex(layer, last - i);
+  }
+
   [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
+    return scaled(layer, unit_speed(layer, l, r));
+  }
+
+  /// speed(l, m) - speed(m, r), given its rounded value: between vertices it is rate (phi_l - phi_r), without
+  /// the cancellation of nearly equal speeds.
+  [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r, const S& rounded) const {
+    const State t = top(layer);
+    const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
+    const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
+    if (level_l.home == kOnChord || level_r.home == kOnChord ||
+        levels_[index(m <= t ? m : 2 * t - m)].home == kOnChord)
+      return rounded;
+    const bool falling_l = l <= t, falling_r = r <= t;
+    if (falling_l == falling_r) {
+      const S difference = p_difference(layer, level_l, level_r);
+      return scaled(layer, rate(layer) * (falling_l ? difference : S(-difference)));
+    }
+    const S sum = root(layer, level_l) + root(layer, level_r);
+    return scaled(layer, (falling_l ? S(-2) : S(2)) * capacity(layer) * sum);
+  }
+
+  /// Bound for |speed| in all layers.
+  [[nodiscard]] S fastest() const {
+    S most(0);
+    if (ranges_.empty()) return S(4) * classes_.back().capacity;
+    for (std::size_t k = 0; k < n_layers(); ++k) most = std::max(most, scaled(k, rate(k)));
+    return most;
+  }
+
+  /// Whether l | r is one step of a fan (as opposed to a shock).
+  [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }
+  /// d(speed)/d(u) inside a fan of the quadratic flux.
+  [[nodiscard]] S fan_rate(std::size_t layer) const { return S(8) * capacity(layer); }
+
+ private:
+  /// u of a state.
+  [[nodiscard]] S unit_phi(std::size_t layer, State i) const {
+    const State t = top(layer);
+    return i <= t ? falling_phi(layer, i) : S(1) - falling_phi(layer, 2 * t - i);
+  }
+  /// A speed of the quadratic flux of the layer as one of its own.
+  [[nodiscard]] S scaled(std::size_t layer, const S& speed) const {
+    return ranges_.empty() ? speed : speed / (ranges_[layer].highest - ranges_[layer].lowest);
+  }
+  [[nodiscard]] S unit_speed(std::size_t layer, State l, State r) const {
     const State t = top(layer);
     const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
     const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
@@ -104,33 +165,6 @@ class LevelGrid {
     return (falling_l ? S(-2) : S(2)) * capacity(layer) * difference;
   }
 
-  /// speed(l, m) - speed(m, r), given its rounded value: between vertices it is rate (phi_l - phi_r), without
-  /// the cancellation of nearly equal speeds.
-  [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r, const S& rounded) const {
-    const State t = top(layer);
-    const Level& level_l = levels_[index(l <= t ? l : 2 * t - l)];
-    const Level& level_r = levels_[index(r <= t ? r : 2 * t - r)];
-    if (level_l.home == kOnChord || level_r.home == kOnChord ||
-        levels_[index(m <= t ? m : 2 * t - m)].home == kOnChord)
-      return rounded;
-    const bool falling_l = l <= t, falling_r = r <= t;
-    if (falling_l == falling_r) {
-      const S difference = p_difference(layer, level_l, level_r);
-      return rate(layer) * (falling_l ? difference : S(-difference));
-    }
-    const S sum = root(layer, level_l) + root(layer, level_r);
-    return (falling_l ? S(-2) : S(2)) * capacity(layer) * sum;
-  }
-
-  /// Bound for |speed| in all layers.
-  [[nodiscard]] S fastest() const { return S(4) * classes_.back().capacity; }
-
-  /// Whether l | r is one step of a fan (as opposed to a shock).
-  [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }
-  /// d(speed)/d(phi) inside a fan.
-  [[nodiscard]] S fan_rate(std::size_t layer) const { return S(8) * capacity(layer); }
-
- private:
   // A level from a square root taken in another layer carries its rounding; "home" is the class of layers
   // where the concentration itself is known, so that no square root is taken there.
   static constexpr std::int32_t kOnChord = -1;  // p is the position between two vertices
@@ -219,10 +253,10 @@ class LevelGrid {
     const auto [l_lo, l_hi] = chord(layer, l);
     const auto [r_lo, r_hi] = chord(layer, r);
     const State lo = std::min(l_lo, r_lo), hi = std::max(l_hi, r_hi);
-    if (hi == next_vertex(layer, lo)) return speed(layer, lo, hi);
+    if (hi == next_vertex(layer, lo)) return unit_speed(layer, lo, hi);
     const S h_l = levels_[index(l <= t ? l : 2 * t - l)].value,
             h_r = levels_[index(r <= t ? r : 2 * t - r)].value;
-    return (h_l - h_r) / (phi(layer, r) - phi(layer, l));
+    return (h_l - h_r) / (unit_phi(layer, r) - unit_phi(layer, l));
   }
   /// The two vertices around a state; the state itself twice if it is one.
   [[nodiscard]] std::pair<State, State> chord(std::size_t layer, State i) const {
@@ -237,6 +271,8 @@ class LevelGrid {
   void set_classes(const LayerStack<S>& stack);
 
   std::vector<S> boundaries_;
+  std::vector<StateRange<S>> ranges_;  // states of every layer; empty: from 0 to 1 in all
+  bool is_reversed_ = false;
   std::vector<std::uint32_t> layer_capacity_;  // layer -> class
   std::vector<Class> classes_;                 // distinct capacities, ascending
   // falling_phi of every vertex in every class, kept where states lie on chords: those ask for two square

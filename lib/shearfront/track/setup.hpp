@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/timeline.hpp"
 #include "shearfront/solver/solver.hpp"
+#include "shearfront/track/ends.hpp"
 #include "shearfront/track/initial_pieces.hpp"
 #include "shearfront/track/level_grid.hpp"
 #include "shearfront/track/tracker.hpp"
@@ -19,19 +21,22 @@
 namespace shearfront {
 
 /// Number of layers of the staircase that stands for a smooth a(z): proportional to the variation of ln a
-/// over the domain and to 1 / resolution, so that the steps of the staircase contribute less to the error of
-/// phi than those of the fans (measured in docs/accuracy.md). 1 for a constant a(z).
+/// and ln c over the domain and to 1 / resolution, so that the steps of the staircase contribute less to the
+/// error of phi than those of the fans (measured in docs/accuracy.md). 1 for a constant a(z).
 template <Real Scalar>
 [[nodiscard]] std::size_t staircase_layers(const Scene<Scalar>& scene, const Scalar& resolution) {
   constexpr int kSamples = 4096;
   constexpr double kLayersPerVariation = 1.6;
   constexpr double kMaxLayers = 1e6;
   double variation = 0;
-  double last = std::log(to_double(scene.shear_rate_at(scene.bottom())));
+  const auto at = [&](const Scalar& z) {
+    return std::array{std::log(to_double(scene.rate_at(z))), std::log(to_double(scene.packing_at(z)))};
+  };
+  auto last = at(scene.bottom());
   for (int i = 1; i <= kSamples; ++i) {
     const Scalar z = scene.bottom() + (scene.top() - scene.bottom()) * (Scalar(i) / Scalar(kSamples));
-    const double now = std::log(to_double(scene.shear_rate_at(z)));
-    variation += std::abs(now - last);
+    const auto now = at(z);
+    variation += std::abs(now[0] - last[0]) + std::abs(now[1] - last[1]);
     last = now;
   }
   const double layers = std::ceil(kLayersPerVariation * variation / to_double(resolution));
@@ -48,11 +53,12 @@ template <Real Scalar>
 }
 
 /// Everything a Tracker needs for a scene. Keep it alive as long as the tracker.
-template <Real Scalar>
+template <Real Scalar, class Grid = LevelGrid<Scalar>>
 struct TrackingSetup {
   LayerStack<Scalar> stack;
-  LevelGrid<Scalar> grid;
+  Grid grid;
   std::vector<Piece<Scalar>> pieces;
+  Ends<Scalar> ends;
 
   TrackingSetup(const Scene<Scalar>& scene, const Scalar& resolution, GridKind kind = GridKind::levels,
                 std::size_t layers = 0)
@@ -62,11 +68,33 @@ struct TrackingSetup {
                 GridKind kind)
       : stack(std::move(layers)) {
     const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
-    auto built = kind == GridKind::levels
-                     ? LevelGrid<Scalar>::exact_levels(stack, resolution, initial.states)
-                     : LevelGrid<Scalar>::singular_mapping(stack, resolution, initial.states);
+    std::vector<LayerState<Scalar>> states = initial.states;
+    const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
+    for (std::size_t end = 0; end < 2; ++end)
+      if (*outside[end])
+        for (const Scalar& share : (*outside[end])->values)
+          states.push_back({end == 0 ? 0 : stack.n_layers() - 1, share});
+    auto built = build(kind, resolution, states);
     grid = std::move(built.grid);
     pieces = on_grid(initial, built.states);
+    ends.is_periodic = scene.spec().is_periodic;
+    auto next = built.states.begin() + static_cast<std::ptrdiff_t>(pieces.size());
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!*outside[end]) continue;
+      ends.outside[end] = *next++;
+      for (const Scalar& t : (*outside[end])->breaks) ends.changes.push_back({t, end, *next++});
+    }
+    std::stable_sort(ends.changes.begin(), ends.changes.end(),
+                     [](const auto& a, const auto& b) { return a.t < b.t; });
+  }
+
+ private:
+  [[nodiscard]] typename Grid::Built build(GridKind kind, const Scalar& resolution,
+                                           const std::vector<LayerState<Scalar>>& states) const {
+    if constexpr (requires { Grid::singular_mapping(stack, resolution, states); })
+      if (kind == GridKind::singular_mapping) return Grid::singular_mapping(stack, resolution, states);
+    SHEARFRONT_EXPECTS(kind == GridKind::levels, "a grid of this kind");
+    return Grid::exact_levels(stack, resolution, states);
   }
 };
 
@@ -76,7 +104,7 @@ template <class AnyTracker, Real Scalar>
                                                 const LayerStack<Scalar>& stack) {
   Timeline<Scalar> timeline;
   timeline.mass = scene.mass();
-  timeline.steady_height = scene.bottom() + timeline.mass;
+  timeline.steady_height = scene.steady_height();
   timeline.t0 = tracker.first_wave(0);
   timeline.t1 = tracker.first_wave(stack.n_layers());
   if (tracker.is_steady()) timeline.t_star = tracker.last_collision();

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/track/solver.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
+#include "shearfront/track/unimodal_grid.hpp"
 
 namespace shearfront {
 
@@ -16,22 +19,40 @@ namespace {
 // A record of 40 bytes per level: beyond this a grid would need more memory than a workstation has.
 constexpr double kMaxLevels = 4e8;
 
+template <class Grid>
+constexpr bool kIsLevelGrid = std::is_same_v<Grid, LevelGrid<double>>;
+
 /// Why the grid cannot be built; empty if it can.
-std::string refusal(const LayerStack<double>& stack, const SolverOptions& options) {
+std::string refusal_of_levels(const LayerStack<double>& stack, const SolverOptions& options) {
   if (options.grid == GridKind::levels) {
-    if (!(options.resolution > 0 && options.resolution <= 1))
-      return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
     if (const double n = LevelGrid<double>::exact_level_count(stack, options.resolution); n > kMaxLevels)
       return "the grid would need " + number_text(std::floor(n)) + " levels; use a coarser resolution";
-  } else {
-    if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
-    double largest = 0;
-    for (std::size_t k = 0; k < stack.n_layers(); ++k) largest = std::max(largest, stack.shear_rate(k));
-    if (const double n = largest / options.resolution; n > kMaxLevels)
-      return "the singular-mapping grid would need " + number_text(std::floor(n)) +
-             " levels; use a coarser resolution or the levels grid";
+    return {};
   }
+  double largest = 0;
+  for (std::size_t k = 0; k < stack.n_layers(); ++k) largest = std::max(largest, stack.shear_rate(k));
+  if (const double n = largest / options.resolution; n > kMaxLevels)
+    return "the singular-mapping grid would need " + number_text(std::floor(n)) +
+           " levels; use a coarser resolution or the levels grid";
   return {};
+}
+
+std::string refusal(const Scene<double>& scene, const SolverRequest& request, const LayerStack<double>& stack,
+                    const SolverOptions& options) {
+  if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
+    return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
+  if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
+  if (request.timeline && !scene.has_walls()) return "event times are those of a bed between walls";
+  if (scene.spec().is_periodic &&
+      std::any_of(request.times.begin(), request.times.end(), [](double t) { return !std::isfinite(t); }))
+    return "a periodic bed has no steady state; ask for a finite time";
+  if (stack.is_plain()) return refusal_of_levels(stack, options);
+  if (options.grid != GridKind::levels)
+    return "the singular-mapping grid is known for the quadratic flux only";
+  if (options.reconstruct != Reconstruction::constant)
+    return "the linear reconstruction is known for the quadratic flux only";
+  if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
+  return UnimodalGrid<double>::refusal(stack, options.resolution);
 }
 
 std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
@@ -49,13 +70,20 @@ std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_
   }
 }
 
-template <class Observer>
+template <class AnyTracker>
+Profile<double> profile_of(const AnyTracker& tracker, Reconstruction reconstruct) {
+  if constexpr (kIsLevelGrid<std::decay_t<decltype(tracker.grid())>>)
+    if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
+  return tracker.profile();
+}
+
+template <class Grid, class Observer>
 SolverResult track(const Scene<double>& scene, const SolverRequest& request, const SolverOptions& options,
                    LayerStack<double> stack) {
   SolverResult result;
   Summary& summary = result.summary;
-  const TrackingSetup<double> setup(scene, std::move(stack), options.resolution, options.grid);
-  Tracker<LevelGrid<double>, Observer> tracker(setup.grid, setup.pieces);
+  const TrackingSetup<double, Grid> setup(scene, std::move(stack), options.resolution, options.grid);
+  Tracker<Grid, Observer> tracker(setup.grid, setup.pieces, setup.ends);
   summary.levels = setup.grid.n_levels();
   summary.layers = setup.stack.n_layers();
 
@@ -71,8 +99,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   for (const std::size_t i : order) {
     status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
-    Profile<double> profile =
-        options.reconstruct == Reconstruction::linear ? linear_profile(tracker) : tracker.profile();
+    Profile<double> profile = profile_of(tracker, options.reconstruct);
     const auto values = profile.at(request.depths);
     for (std::size_t j = 0; j < values.size(); ++j)
       result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
@@ -94,6 +121,13 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   return result;
 }
 
+template <class Grid>
+SolverResult track_on(const Scene<double>& scene, const SolverRequest& request, const SolverOptions& options,
+                      LayerStack<double> stack) {
+  return request.fronts ? track<Grid, SegmentRecord<double>>(scene, request, options, std::move(stack))
+                        : track<Grid, NoObserver>(scene, request, options, std::move(stack));
+}
+
 }  // namespace
 
 SolverResult FrontTrackingSolver::solve(const Scene<double>& scene, const SolverRequest& request,
@@ -103,13 +137,13 @@ SolverResult FrontTrackingSolver::solve(const Scene<double>& scene, const Solver
   const double layer_resolution =
       options.resolution > 0 && options.resolution <= 1 ? options.resolution : 1.0;
   LayerStack<double> stack = tracking_layers(scene, layer_resolution, options.layers);
-  if (std::string why = refusal(stack, options); !why.empty()) {
+  if (std::string why = refusal(scene, request, stack, options); !why.empty()) {
     result.summary.status = Status::unsupported;
     result.summary.message = std::move(why);
-  } else if (request.fronts) {
-    result = track<SegmentRecord<double>>(scene, request, options, std::move(stack));
+  } else if (LevelGrid<double>::refusal(stack).empty()) {
+    result = track_on<LevelGrid<double>>(scene, request, options, std::move(stack));
   } else {
-    result = track<NoObserver>(scene, request, options, std::move(stack));
+    result = track_on<UnimodalGrid<double>>(scene, request, options, std::move(stack));
   }
   result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -11,6 +11,7 @@
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
+#include "shearfront/track/ends.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/front_system.hpp"
 #include "shearfront/track/observers.hpp"
@@ -49,33 +50,26 @@ class Tracker {
   /// `pieces` fill the domain from bottom to top; every interface must be the top of a piece. The state is
   /// taken at time 0. `grid` must outlive the tracker.
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, Observer observer = {})
-      : system_(grid, pieces, std::move(observer)) {}
+      : Tracker(grid, pieces, {}, std::move(observer)) {}
+  /// With ends that need not be walls. A periodic bed has no steady state that rounding would not disturb:
+  /// give it finite times. Mass is then kept only between what comes in and goes out.
+  Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
+          Observer observer = {})
+      : system_(grid, pieces, ends, std::move(observer)), changes_(ends.changes) {}
 
   /// Runs to time t, events at t included. Precondition: t >= time().
   /// Returns ok, or steady if nothing will ever happen again. After budget_reached or interrupted the fronts
   /// are not all at one time: only the counters may be read.
   Status advance_to(const Scalar& t, const RunLimits& limits = {}) {
     SHEARFRONT_EXPECTS(t >= time(), "a time that is not past");
-    // In the order of t + skew z. A meeting can only influence another one that waves of speed <= fastest()
-    // can reach from it, and that one has a greater key; so this order respects every influence, like that of
-    // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
-    // Denormal speeds have no finite skew; then in the order of t.
-    const Scalar skew = Scalar(1) / (Scalar(2) * grid().fastest());
-    auto& agenda = system_.agenda();
-    agenda.collect(system_.fronts(), t, is_finite(skew) ? skew : Scalar(0));
-    while (const auto next = agenda.take(system_.fronts())) {
-      if (n_collisions() >= limits.max_collisions) {
-        agenda.put_back(*next);
-        return Status::budget_reached;
-      }
-      system_.collide(next->id);
-      agenda.tidy(system_.fronts());
-      if (n_collisions() % kCollisionsPerReport == 0 && limits.keep_going &&
-          !limits.keep_going(to_double(time()), n_collisions()))
-        return Status::interrupted;
+    while (n_changed_ < changes_.size() && !(changes_[n_changed_].t > t)) {
+      const auto& change = changes_[n_changed_];
+      const Status status = run_to(change.t, limits);
+      if (status != Status::ok && status != Status::steady) return status;
+      system_.change_outside(change.end, change.state);
+      ++n_changed_;
     }
-    system_.set_time(is_finite(t) ? t : last_collision());
-    return is_steady() ? Status::steady : Status::ok;
+    return run_to(t, limits);
   }
   /// Runs until nothing will ever happen again; time() is then that of the last collision.
   Status run_to_steady(const RunLimits& limits = {}) { return advance_to(infinity<Scalar>(), limits); }
@@ -93,7 +87,12 @@ class Tracker {
   [[nodiscard]] const Observer& observer() const { return system_.observer(); }
   [[nodiscard]] const Scalar& time() const { return system_.time(); }
   /// Whether nothing will ever happen again.
-  [[nodiscard]] bool is_steady() const { return system_.agenda().n_pending() == 0 && n_unreachable() == 0; }
+  [[nodiscard]] bool is_steady() const {
+    return system_.agenda().n_pending() == 0 && n_unreachable() == 0 && n_changed_ == changes_.size();
+  }
+  /// State beyond the bottom (0) or the top (1) of the bed; none at a wall.
+  [[nodiscard]] const std::optional<State>& outside(std::size_t end) const { return system_.outside(end); }
+  [[nodiscard]] bool is_periodic() const { return system_.is_periodic(); }
   /// Time of the last collision so far; 0 if there was none.
   [[nodiscard]] const Scalar& last_collision() const { return system_.last_collision(); }
   [[nodiscard]] std::uint64_t n_collisions() const { return system_.n_collisions(); }
@@ -145,7 +144,34 @@ class Tracker {
  private:
   static constexpr std::uint64_t kCollisionsPerReport = 1 << 14;
 
+  /// Precondition: the state beyond the ends does not change before t.
+  Status run_to(const Scalar& t, const RunLimits& limits) {
+    // In the order of t + skew z. A meeting can only influence another one that waves of speed <= fastest()
+    // can reach from it, and that one has a greater key; so this order respects every influence, like that of
+    // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
+    // Denormal speeds have no finite skew; then in the order of t.
+    const Scalar skew = Scalar(1) / (Scalar(2) * grid().fastest());
+    auto& agenda = system_.agenda();
+    // In a periodic bed what happens at the top has its effect at the bottom.
+    agenda.collect(system_.fronts(), t, is_finite(skew) && !system_.is_periodic() ? skew : Scalar(0));
+    while (const auto next = agenda.take(system_.fronts())) {
+      if (n_collisions() >= limits.max_collisions) {
+        agenda.put_back(*next);
+        return Status::budget_reached;
+      }
+      system_.collide(next->id);
+      agenda.tidy(system_.fronts());
+      if (n_collisions() % kCollisionsPerReport == 0 && limits.keep_going &&
+          !limits.keep_going(to_double(time()), n_collisions()))
+        return Status::interrupted;
+    }
+    system_.set_time(is_finite(t) ? t : last_collision());
+    return is_steady() ? Status::steady : Status::ok;
+  }
+
   FrontSystem<Grid, Observer> system_;
+  std::vector<typename Ends<Scalar>::Change> changes_;
+  std::size_t n_changed_ = 0;  ///< of the changes, those that have happened
 };
 
 }  // namespace shearfront

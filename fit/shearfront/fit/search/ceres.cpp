@@ -159,7 +159,8 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
     result.u = batch.best_u();
     result.misfit = batch.best_misfit();
   }
-  result.iterations = static_cast<std::size_t>(summary.num_successful_steps + summary.num_unsuccessful_steps);
+  result.iterations =
+      static_cast<std::size_t>(std::max(0, summary.num_successful_steps + summary.num_unsuccessful_steps));
   result.message = summary.message;
   if (stop.is_at_rounding()) {
     result.status = Status::ok;

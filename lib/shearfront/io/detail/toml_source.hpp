@@ -53,6 +53,8 @@ class TableReader {
 
   /// A table inside this one; `what` tells what it must be, for the message.
   [[nodiscard]] std::optional<TableReader> table(std::string_view key, Need need, std::string_view what);
+  /// One table, or each of an array of tables ([[key]]), which then are called key[0], key[1], ...
+  [[nodiscard]] std::vector<TableReader> tables(std::string_view key, Need need, std::string_view what);
   [[nodiscard]] std::optional<std::string> text(std::string_view key, Need need, std::string_view what);
   /// One of these names; nothing if it is missing or wrong.
   [[nodiscard]] std::optional<std::string> choice(std::string_view key, Need need,

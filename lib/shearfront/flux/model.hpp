@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <concepts>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront {
+
+/// convex: f' never falls; concave: f' never rises; mixed: neither, so waves can be compounds of fans and
+/// shocks.
+enum class Curvature { convex, concave, mixed };
+
+/// The states a flux is defined for.
+template <Real Scalar>
+struct StateRange {
+  Scalar lowest{0}, highest{1};
+};
+
+/// What every model of a flux f(phi) offers. range(), extrema() and curvature() may depend on its entries;
+/// they mean something only when check() has found nothing wrong with those.
+///
+///   value, derivative   f and f' (at a kink of f the slope above it)
+///   secant(p, q)        (f(q) - f(p)) / (q - p) without cancellation, f'(p) where p == q
+///   extrema             interior extrema of f, ascending
+///   range, kStates      the states, as numbers and as text for `shearfront list`
+///   kIsParabola         f = 4 f(m) u (1 - u) with u the place of phi in its range and m the extremum: the
+///                       engines then use the closed forms of the quadratic flux
+template <class F, class Scalar>
+concept FluxModel = Real<Scalar> && requires(const F& f, const Scalar& phi) {
+  { F::kName } -> std::convertible_to<std::string_view>;
+  { F::kFormula } -> std::convertible_to<std::string_view>;
+  { F::kStates } -> std::convertible_to<std::string_view>;
+  { F::kIsParabola } -> std::convertible_to<bool>;
+  { f.range() } -> std::same_as<StateRange<Scalar>>;
+  { f.extrema() } -> std::same_as<std::vector<Scalar>>;
+  { f.curvature() } -> std::same_as<Curvature>;
+  { f.value(phi) } -> std::convertible_to<Scalar>;
+  { f.derivative(phi) } -> std::convertible_to<Scalar>;
+  { f.secant(phi, phi) } -> std::convertible_to<Scalar>;
+};
+
+}  // namespace shearfront

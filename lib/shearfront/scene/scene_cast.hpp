@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront {
+
+namespace scene_detail {
+
+template <Real To, Real From>
+[[nodiscard]] To number_cast(const From& x) {
+  if constexpr (std::same_as<To, double>) {
+    return to_double(x);
+  } else {
+    return To(x);
+  }
+}
+
+template <Real To, Real From>
+[[nodiscard]] std::vector<To> numbers_cast(const std::vector<From>& xs) {
+  std::vector<To> ys;
+  ys.reserve(xs.size());
+  for (const From& x : xs) ys.push_back(number_cast<To>(x));
+  return ys;
+}
+
+/// The same model in another scalar, entry by entry.
+template <Real To, template <class> class Model, Real From>
+[[nodiscard]] Model<To> model_cast(const Model<From>& model) {
+  Model<To> copy;
+  std::vector<std::vector<To>> arrays;
+  std::vector<To> singles;
+  const auto read = [&](const FieldInfo&, const auto& member) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(member)>, From>) {
+      singles.push_back(number_cast<To>(member));
+    } else {
+      arrays.push_back(numbers_cast<To>(member));
+    }
+  };
+  std::size_t n_arrays = 0, n_singles = 0;
+  const auto write = [&](const FieldInfo&, auto& member) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(member)>, To>) {
+      member = singles[n_singles++];
+    } else {
+      member = arrays[n_arrays++];
+    }
+  };
+  Model<From>::fields(model, read);
+  Model<To>::fields(copy, write);
+  std::vector<std::size_t> choices;
+  visit_choices(model,
+                [&](const ChoiceInfo&, auto member) { choices.push_back(static_cast<std::size_t>(member)); });
+  std::size_t n_choices = 0;
+  visit_choices(copy, [&](const ChoiceInfo&, auto& member) {
+    member = static_cast<std::decay_t<decltype(member)>>(choices[n_choices++]);
+  });
+  return copy;
+}
+
+}  // namespace scene_detail
+
+/// The same scene in another scalar, number by number (exact when To has at least the precision of From).
+template <Real To, Real From>
+[[nodiscard]] Scene<To> scene_cast(const Scene<From>& scene) {
+  using namespace scene_detail;
+  const SceneSpec<From>& from = scene.spec();
+  SceneSpec<To> to;
+  to.name = from.name;
+  to.fluxes.clear();
+  for (const Flux<From>& flux : from.fluxes)
+    to.fluxes.push_back(std::visit([](const auto& f) -> Flux<To> { return model_cast<To>(f); }, flux));
+  to.flux_breaks = numbers_cast<To>(from.flux_breaks);
+  const auto profile = [](const DepthProfile<From>& model) {
+    return std::visit([](const auto& m) -> DepthProfile<To> { return model_cast<To>(m); }, model);
+  };
+  to.shear_rate = profile(from.shear_rate);
+  to.scale = number_cast<To>(from.scale);
+  if (from.packing) to.packing = profile(*from.packing);
+  if (from.temperature) to.temperature = profile(*from.temperature);
+  to.initial_breaks = numbers_cast<To>(from.initial_breaks);
+  to.initial_values = numbers_cast<To>(from.initial_values);
+  to.bottom = number_cast<To>(from.bottom);
+  to.top = number_cast<To>(from.top);
+  const auto outside = [](const std::optional<OutsideState<From>>& state) {
+    std::optional<OutsideState<To>> copy;
+    if (state) copy = {numbers_cast<To>(state->breaks), numbers_cast<To>(state->values)};
+    return copy;
+  };
+  to.outside_bottom = outside(from.outside_bottom);
+  to.outside_top = outside(from.outside_top);
+  to.is_periodic = from.is_periodic;
+  return Scene<To>(std::move(to));
+}
+
+}  // namespace shearfront

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shearfront/flux/all.hpp"
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/scene/field.hpp"
+#include "shearfront/shear_rate/all.hpp"
+
+namespace shearfront {
+
+/// A positive quantity as a function of height: the models of the shear rate serve for all of them.
+template <Real Scalar>
+using DepthProfile = ShearRate<Scalar>;
+
+/// What lies beyond an open end of the bed: the state outside, piecewise constant in time.
+template <Real Scalar>
+struct OutsideState {
+  std::vector<Scalar> breaks;  ///< times at which it changes, ascending, > 0
+  std::vector<Scalar>
+      values;  ///< between them, in the units of SceneSpec::initial_values; one more than breaks
+};
+
+/// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
+template <Real Scalar>
+struct SceneSpec {
+  std::string name;
+  std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
+  std::vector<Scalar> flux_breaks;                        ///< heights between them; one less
+  ShearRate<Scalar> shear_rate;
+  Scalar scale{1};                                  ///< s, 1/time if a is dimensionless
+  std::optional<DepthProfile<Scalar>> packing;      ///< c(z); 1 if not given
+  std::optional<DepthProfile<Scalar>> temperature;  ///< T(z); 1 if not given
+  std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
+  std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
+  Scalar bottom{0}, top{1};            ///< the domain, same unit as z
+  std::optional<OutsideState<Scalar>> outside_bottom, outside_top;  ///< open ends; a wall if not given
+  bool is_periodic = false;  ///< what leaves at the top comes in at the bottom
+};
+
+/// "flux." or, where there are several, "flux[1].".
+template <class Spec>
+[[nodiscard]] std::string flux_prefix(const Spec& spec, std::size_t i) {
+  return spec.fluxes.size() == 1 ? "flux." : "flux[" + std::to_string(i) + "].";
+}
+
+/// Calls visit(key, Range, member) for every numeric field of a scene file, in the order of the file; key is
+/// the full name ("shear_rate.values"), member a Scalar or a vector of them, const as the specification is.
+template <class Spec, class Visit>
+void visit_fields(Spec& spec, Visit&& visit) {
+  const auto with_prefix = [&](const std::string& prefix) {
+    return [&visit, prefix](const FieldInfo& info, auto& member) {
+      visit(prefix + std::string(info.key), info.range, member);
+    };
+  };
+  for (std::size_t i = 0; i < spec.fluxes.size(); ++i) {
+    const std::string prefix = flux_prefix(spec, i);
+    std::visit([&](auto& flux) { flux.fields(flux, with_prefix(prefix)); }, spec.fluxes[i]);
+    if (i > 0) visit(prefix + "above", Range::any, spec.flux_breaks[i - 1]);
+  }
+  std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);
+  visit(std::string("shear_rate.scale"), Range::positive, spec.scale);
+  const auto profile = [&](auto& optional, const std::string& prefix) {
+    if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
+  };
+  profile(spec.packing, "packing.");
+  profile(spec.temperature, "temperature.");
+  visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
+  visit(std::string("initial.values"), Range::any, spec.initial_values);
+  visit(std::string("domain.bottom"), Range::any, spec.bottom);
+  visit(std::string("domain.top"), Range::any, spec.top);
+  const auto outside = [&](auto& optional, const std::string& prefix) {
+    if (!optional) return;
+    visit(prefix + "breaks", Range::positive, optional->breaks);
+    visit(prefix + "values", Range::any, optional->values);
+  };
+  outside(spec.outside_bottom, "boundary.bottom.");
+  outside(spec.outside_top, "boundary.top.");
+}
+
+}  // namespace shearfront

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/profile.hpp"
+
+namespace shearfront {
+
+/// How well mixed a bed is. With x = phi / c the share of the grains at a height,
+///
+///   E = int e(x) c dz,   e(x) = -x ln x - (1 - x) ln(1 - x),   Psi = (E - E_seg) / (E_mix - E_seg);
+///
+/// E_mix = e(mean x) int c dz belongs to the uniform mixture of the same grains, E_seg = 0 to grains apart.
+struct Mixing {
+  double entropy = 0;  ///< E, in units of height
+  double mixed = 0;    ///< E_mix; ln 2 int c dz for equal amounts
+  double parameter =
+      0;  ///< Psi in [0, 1]: 0 segregated, 1 uniform (0 too if there is one kind of grains only)
+};
+
+/// e(x), 0 at both ends; shares beyond [0, 1] (schemes that overshoot) count as pure.
+[[nodiscard]] double entropy_of_share(double x);
+
+/// Mixing of a profile of phi in the scene's bed. E is exact to rounding where x is constant between the
+/// knots of c and the cells of the profile (finite volumes, staircases of front tracking); elsewhere by
+/// Gauss's rule with 7 points per piece, whose error where x runs linearly from 0 to 1 within one piece is
+/// 2e-3 of its height, and falls with the square of the change of x. Psi <= 1 by Jensen's inequality, to
+/// rounding. Cost: O(cells + knots). Source: the thesis named in docs/packing.md, eqs.
+/// (5.4) to (5.9).
+[[nodiscard]] Mixing mixing(const Scene<double>& scene, const Profile<double>& profile);
+
+}  // namespace shearfront

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/track/layer_state.hpp"
+
+namespace shearfront {
+
+/// Grids of states for layers of any fluxes with one extremum each, of one kind (all minima or all maxima),
+/// convex or not, built on flux LEVELS shared by all layers.
+///
+/// A level is a value h of the flux, counted down from 0 (up, where extrema are maxima: the state index then
+/// runs from the highest state to the lowest). Layer k has a state on the falling and one on the rising
+/// branch of its flux for every level between its end values and its extremum, so the interface Riemann
+/// problem maps grid states to grid states. State index i = 0 ... 2 top(k): i <= top is level i on the
+/// falling branch, i > top is level 2 top - i on the rising one; where the flux does not vanish at the ends
+/// of its range, the first and last indices belong to no state.
+///
+/// Levels: extrema, ends, initial states, and between them as few as keep the spacing of neighbouring states
+/// in every layer within `resolution` of its range. The polygon through the states lies on the true flux: its
+/// vertices are exact to rounding, those of initial states and extrema to the bit.
+/// Guaranteed: equal levels have bitwise equal flux; speed() has the accuracy of Flux::secant; states inside
+/// a straight piece of a flux are no vertices. Memory: 30 bytes per level and class of layers (same flux,
+/// same rate times packing); cost of building: two root searches per level and class.
+template <Real S>
+class UnimodalGrid {
+ public:
+  using Scalar = S;
+  static constexpr bool kUnimodal = true;
+
+  struct Built;  // grid + indices of the wanted states
+  static Built exact_levels(const LayerStack<S>& stack, const S& resolution,
+                            const std::vector<LayerState<S>>& wanted);
+
+  /// Why there is no grid for these layers; empty if there is.
+  [[nodiscard]] static std::string refusal(const LayerStack<S>& stack, const S& resolution);
+
+  [[nodiscard]] std::size_t n_layers() const { return layers_.size(); }
+  [[nodiscard]] const S& boundary(std::size_t k) const { return boundaries_[k]; }
+  [[nodiscard]] std::size_t n_levels() const { return levels_.size(); }
+  [[nodiscard]] State n_states(std::size_t layer) const { return 2 * top(layer) + 1; }
+  [[nodiscard]] State bottom_state(std::size_t layer) const { return top(layer); }
+
+  [[nodiscard]] S phi(std::size_t layer, State i) const {
+    return layers_[layer].packing * class_of(layer).share[index(i)];
+  }
+  [[nodiscard]] S flux(std::size_t layer, State i) const {
+    const S& h = levels_[index(level(layer, i))];
+    return is_reversed_ ? h : S(-h);
+  }
+  [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return -level(layer, i); }
+  [[nodiscard]] State zero_flux_rank() const { return zero_rank_; }
+  [[nodiscard]] State falling_state(std::size_t, State rank) const { return -rank; }
+  [[nodiscard]] State rising_state(std::size_t layer, State rank) const { return 2 * top(layer) + rank; }
+  [[nodiscard]] bool is_reversed() const { return is_reversed_; }
+
+  [[nodiscard]] State next_vertex(std::size_t layer, State i) const { return class_of(layer).next[index(i)]; }
+  [[nodiscard]] State previous_vertex(std::size_t layer, State i) const {
+    return class_of(layer).previous[index(i)];
+  }
+  [[nodiscard]] Bend bend(std::size_t layer, State lo, State hi) const {
+    const Class& c = class_of(layer);
+    if (c.convex_to.empty()) return Bend::convex;
+    if (c.convex_to[index(lo)] >= hi) return Bend::convex;
+    return c.concave_to[index(lo)] >= hi ? Bend::concave : Bend::mixed;
+  }
+
+  [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
+    const Class& c = class_of(layer);
+    return layers_[layer].rate *
+           std::visit([&](const auto& flux) { return S(flux.secant(c.share[index(l)], c.share[index(r)])); },
+                      fluxes_[c.flux]);
+  }
+  /// Bound for |speed| in all layers.
+  [[nodiscard]] const S& fastest() const { return fastest_; }
+  [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
+
+ private:
+  /// Layers with the same levels at the same shares phi / c.
+  struct Class {
+    std::size_t flux;
+    S strength;  ///< rate times packing: the flux of a layer is strength f(share)
+    State top = 0;
+    std::vector<S> share;                      ///< of every state
+    std::vector<State> next, previous;         ///< vertices
+    std::vector<State> convex_to, concave_to;  ///< how far up it bends one way; empty: convex everywhere
+  };
+  struct Layer {
+    S rate, packing;
+    std::uint32_t id;  ///< of its class
+  };
+  class Draft;  // levels under construction
+
+  [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] const Class& class_of(std::size_t layer) const { return classes_[layers_[layer].id]; }
+  [[nodiscard]] State top(std::size_t layer) const { return class_of(layer).top; }
+  [[nodiscard]] State level(std::size_t layer, State i) const {
+    return i <= top(layer) ? i : 2 * top(layer) - i;
+  }
+
+  std::vector<S> boundaries_;
+  std::vector<Flux<S>> fluxes_;
+  std::vector<Layer> layers_;
+  std::vector<Class> classes_;
+  std::vector<S> levels_;  // ascending
+  bool is_reversed_ = false;
+  State zero_rank_ = 1;  // 1: no level without flux
+  S fastest_{0};
+};
+
+template <Real S>
+struct UnimodalGrid<S>::Built {
+  UnimodalGrid grid;
+  std::vector<State> states;  ///< states[i] is the index of wanted[i]
+};
+
+extern template class UnimodalGrid<double>;
+extern template class UnimodalGrid<Real50>;
+
+}  // namespace shearfront

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Front tracking for every flux of the list: laws, and the finite volumes as an independent solution.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shearfront/fv/godunov_solver.hpp"
+#include "shearfront/track/setup.hpp"
+#include "shearfront/track/solver.hpp"
+#include "shearfront/track/unimodal_grid.hpp"
+#include "shearfront/track/verify.hpp"
+#include "support/any_flux.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::draw;
+using support::name_of;
+using support::SceneMaker;
+using support::unimodal_fluxes;
+
+template <class Grid>
+void check_laws(const Scene<double>& scene, double resolution, const std::vector<double>& times) {
+  const TrackingSetup<double, Grid> setup(scene, resolution);
+  Tracker<Grid, NoObserver> tracker(setup.grid, setup.pieces);
+  const double mass = scene.mass();
+  for (const double t : times) {
+    const Status status = tracker.advance_to(t);
+    ASSERT_TRUE(status == Status::ok || status == Status::steady) << t;
+    for (const std::string& violation : verify(tracker, 1e-12, 1e-9)) ADD_FAILURE() << violation;
+    EXPECT_NEAR(tracker.mass(), mass, 1e-12) << t;
+    const Profile<double> profile = tracker.profile();
+    EXPECT_NEAR(profile.mass(), mass, 1e-12);
+  }
+  ASSERT_EQ(tracker.run_to_steady(), Status::steady);
+  EXPECT_NEAR(tracker.mass(), mass, 1e-12);
+  for (const std::string& violation : verify(tracker, 1e-12, 1e-9)) ADD_FAILURE() << violation;
+  // All that was mixed has gone to its end of the bed.
+  const double z = scene.steady_height();
+  const Profile<double> last = tracker.profile();
+  for (const double d : {-0.1, -1e-6, 1e-6, 0.1}) {
+    if (z + d <= scene.bottom() || z + d >= scene.top()) continue;
+    const StateRange<double> range = scene.range_at(z + d);
+    const double phi = last.at(z + d).phi;
+    EXPECT_EQ(phi, (d < 0) == setup.grid.is_reversed() ? range.lowest : range.highest) << d;
+  }
+}
+
+TEST(AnyFlux, TrackerKeepsTheLaws) {
+  SceneMaker maker(support::seed_of(8101));
+  for (const Flux<double>& flux : unimodal_fluxes())
+    for (int number = 0; number < 6; ++number) {
+      SCOPED_TRACE(name_of(flux) + ", scene " + std::to_string(number));
+      const Scene<double> scene(draw(maker, flux, 1 + number, 1 + number));
+      check_laws<UnimodalGrid<double>>(scene, 0.1, {0.01, 0.3, 2});
+      if (LevelGrid<double>::refusal(exact_layers(scene)).empty())
+        check_laws<LevelGrid<double>>(scene, 0.1, {0.01, 0.3, 2});
+    }
+}
+
+TEST(AnyFlux, TrackerAgreesWithGodunov) {
+  SceneMaker maker(support::seed_of(8102));
+  for (const Flux<double>& flux : unimodal_fluxes())
+    for (int number = 0; number < 2; ++number) {
+      SCOPED_TRACE(name_of(flux) + ", scene " + std::to_string(number));
+      const Scene<double> scene(draw(maker, flux, 2 + number, 2));
+      const double height = std::visit([](const auto& f) { return f.range().highest; }, flux);
+      SolverRequest request;
+      request.times = {0.2, 1};
+      for (int i = 1; i < 40; ++i) request.depths.push_back(i / 40.0);
+      SolverOptions options;
+      options.resolution = 0.003;
+      const auto tracked = FrontTrackingSolver::solve(scene, request, options);
+      ASSERT_EQ(tracked.samples.size(), 78u) << tracked.summary.message;
+      double coarse_error = 0, fine_error = 0;
+      for (const std::size_t cells : {200, 800}) {
+        options.cells = cells;
+        const auto grid = GodunovSolver::solve(scene, request, options);
+        ASSERT_EQ(grid.samples.size(), 78u) << grid.summary.message;
+        double& error = cells == 200 ? coarse_error : fine_error;
+        for (std::size_t i = 0; i < 78; ++i)
+          error = std::max(error, std::abs(grid.samples[i].M - tracked.samples[i].M) / height);
+      }
+      // M of first order on the grid, of order 1/2 at contacts; 1e-5 from the tracker.
+      const bool has_contacts = std::holds_alternative<Triangular<double>>(flux);
+      EXPECT_LT(fine_error, has_contacts ? 6e-3 : 4e-3);
+      EXPECT_LT(fine_error, (has_contacts ? 0.6 : 0.45) * coarse_error + 2e-5);
+    }
+}
+
+/// Root of a function that changes sign between lo and hi.
+template <class Function>
+double root(const Function& f, double lo, double hi) {
+  const bool rises = f(hi) > 0;
+  for (int i = 0; i < 200; ++i) {
+    const double x = lo + (hi - lo) / 2;
+    ((f(x) > 0) == rises ? hi : lo) = x;
+  }
+  return lo;
+}
+
+// f = -phi (1 - phi)(1 - 0.9 phi) is concave above 0.70: the fan from 0 ends at the tangent to f from phi =
+// 1, and a shock from there to 1 moves with its last speed.
+TEST(AnyFlux, CompoundWaveOfANonConvexFlux) {
+  const Cubic<double> flux{0.9};
+  const double tangent =
+      root([&](double phi) { return flux.derivative(phi) - flux.secant(phi, 1.0); }, 0.4, 0.7);
+  const double a = 0.8, t = 0.4, z0 = 0.6;
+  const auto exact = [&](double z) {
+    const double speed = (z - z0) / (a * t);
+    if (speed <= flux.derivative(0.0)) return 0.0;
+    if (speed >= flux.derivative(tangent)) return 1.0;
+    return root([&](double phi) { return flux.derivative(phi) - speed; }, 0.0, tangent);
+  };
+  SceneSpec<double> spec;
+  spec.fluxes = {flux};
+  spec.shear_rate = Piecewise<double>{{}, {a}};
+  spec.initial_breaks = {z0};
+  spec.initial_values = {0, 1};
+  SolverRequest request{{t}, {}, false, false, true};
+  constexpr int kPoints = 20000;
+  std::vector<double> phi(kPoints);
+  for (int i = 0; i < kPoints; ++i) phi[static_cast<std::size_t>(i)] = exact((i + 0.5) / kPoints);
+  const auto l1_error = [&](const Profile<double>& profile) {
+    double sum = 0;
+    for (int i = 0; i < kPoints; ++i)
+      sum += std::abs(profile.at((i + 0.5) / kPoints).phi - phi[static_cast<std::size_t>(i)]);
+    return sum / kPoints;
+  };
+  for (const double resolution : {0.1, 0.01, 0.001}) {
+    SolverOptions options;
+    options.resolution = resolution;
+    const auto result = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
+    ASSERT_EQ(result.profiles.size(), 1u);
+    EXPECT_LT(l1_error(result.profiles[0]), 0.15 * resolution) << resolution;
+  }
+}
+
+/// Flux at an interface by supply and demand, on the fluxes themselves.
+double supply_and_demand(const Flux<double>& below, double rate_below, double l, const Flux<double>& above,
+                         double rate_above, double r) {
+  return std::visit(
+      [&](const auto& f, const auto& g) {
+        const double m_f = f.extrema()[0], m_g = g.extrema()[0];
+        if (f.value(m_f) < 0)
+          return std::max(rate_below * f.value(std::max(l, m_f)), rate_above * g.value(std::min(r, m_g)));
+        return std::min(rate_below * f.value(std::min(l, m_f)), rate_above * g.value(std::max(r, m_g)));
+      },
+      below, above);
+}
+
+TEST(AnyFlux, InterfaceOfAnyTwoFluxesIsSupplyAndDemand) {
+  SceneMaker maker(support::seed_of(8103));
+  const std::vector<Flux<double>> fluxes = unimodal_fluxes();
+  const auto is_minimum = [](const Flux<double>& flux) {
+    return std::visit([](const auto& f) { return f.value(f.extrema()[0]) < 0; }, flux);
+  };
+  int n_crossing = 0;
+  for (int number = 0; number < 100000; ++number) {
+    const Flux<double>& below = fluxes[static_cast<std::size_t>(maker.integer(0, int(fluxes.size()) - 1))];
+    const Flux<double>& above = fluxes[static_cast<std::size_t>(maker.integer(0, int(fluxes.size()) - 1))];
+    if (is_minimum(below) != is_minimum(above)) continue;
+    const double a = maker.uniform(0.1, 4), b = maker.uniform(0.1, 4);
+    const auto state = [&](const Flux<double>& flux) {
+      const auto [lowest, highest] = std::visit([](const auto& f) { return f.range(); }, flux);
+      const int kind = maker.integer(0, 5);
+      if (kind < 2) return kind == 0 ? lowest : highest;
+      if (kind == 2) return std::visit([](const auto& f) { return f.extrema()[0]; }, flux);
+      return maker.uniform(lowest, highest);
+    };
+    const double l = state(below), r = state(above);
+    const LayerStack<double> stack({0, 0.5, 1}, {a, b}, 1, {true}, {{below, above}, {0, 1}, {}});
+    const auto built = UnimodalGrid<double>::exact_levels(stack, 1, {{0, l}, {1, r}});
+    const auto& grid = built.grid;
+    ASSERT_EQ(grid.phi(0, built.states[0]), l);
+    ASSERT_EQ(grid.phi(1, built.states[1]), r);
+    const StatePair pair = solve_interface(grid, 0, built.states[0], built.states[1]);
+    const double flux = supply_and_demand(below, a, l, above, b, r);
+    ASSERT_NEAR(grid.flux(0, pair.below), flux, 1e-14) << number;
+    ASSERT_NEAR(grid.flux(1, pair.above), flux, 1e-14) << number;
+    // Waves leave the interface: downwards below it, upwards above it.
+    solve_in_layer(grid, 0, built.states[0], pair.below,
+                   [&](State p, State q) { EXPECT_LE(grid.speed(0, p, q), 1e-14) << number; });
+    solve_in_layer(grid, 1, pair.above, built.states[1],
+                   [&](State p, State q) { EXPECT_GE(grid.speed(1, p, q), -1e-14) << number; });
+    const auto difference = [&](double u) {
+      const auto value = [&](const Flux<double>& f, double rate) {
+        return std::visit(
+            [&](const auto& g) {
+              const auto [lowest, highest] = g.range();
+              return rate * g.value(lowest + (highest - lowest) * u);
+            },
+            f);
+      };
+      return value(below, a) - value(above, b);
+    };
+    n_crossing += difference(0.05) * difference(0.95) < 0;
+  }
+  EXPECT_GT(n_crossing, 1000);
+}
+
+}  // namespace
+}  // namespace shearfront

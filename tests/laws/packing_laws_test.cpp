@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Beds whose packing c(z) and granular temperature T(z) vary: what front tracking keeps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "shearfront/track/setup.hpp"
+#include "shearfront/track/tracker.hpp"
+#include "shearfront/track/verify.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::SceneMaker;
+
+/// A profile with values from `least` to `most`, in layers or linear between points.
+DepthProfile<double> draw_profile(SceneMaker& maker, double least, double most) {
+  const int n = maker.integer(1, 4);
+  std::vector<double> heights = maker.heights(n, 0, 1), values;
+  for (int i = 0; i <= n + 1; ++i) values.push_back(maker.uniform(least, most));
+  if (maker.integer(0, 1) == 0) {
+    values.pop_back();
+    return Piecewise<double>{heights, values};
+  }
+  heights.insert(heights.begin(), 0), heights.push_back(1);
+  return Table<double>{heights, values};
+}
+
+Scene<double> draw_scene(SceneMaker& maker) {
+  SceneSpec<double> spec;
+  spec.fluxes = {Packed<double>{maker.integer(0, 1) == 0 ? Grains::small : Grains::large}};
+  spec.shear_rate = Piecewise<double>{{}, {maker.uniform(0.2, 2)}};
+  spec.packing = draw_profile(maker, 0.3, 0.7);
+  spec.temperature = draw_profile(maker, 0.1, 4);
+  spec.initial_breaks = maker.heights(2, 0, 1);
+  for (int i = 0; i < 3; ++i)
+    spec.initial_values.push_back(maker.integer(0, 1) == 0 ? maker.integer(0, 1) : maker.uniform(0, 1));
+  return Scene<double>(spec);
+}
+
+/// How far phi leaves [0, c] of its layer; 0 if it does not.
+template <class AnyTracker>
+double overshoot(const AnyTracker& tracker, const LayerStack<double>& stack) {
+  const auto snapshot = tracker.snapshot();
+  double most = 0;
+  for (std::size_t i = 0; i < snapshot.state.size(); ++i) {
+    const double phi = tracker.grid().phi(snapshot.layer[i], snapshot.state[i]);
+    most = std::max({most, phi - stack.packing(snapshot.layer[i]), -phi});
+  }
+  return most;
+}
+
+TEST(PackingLaws, NoOvershootAndNoLossOver1000Profiles) {
+  SceneMaker maker(support::seed_of(7301));
+  for (int number = 0; number < 1000; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    const Scene<double> scene = draw_scene(maker);
+    const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
+    Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+    // The staircase has the solid volume of the bed in every layer, not of every initial piece in it.
+    const double mass = tracker.mass();
+    EXPECT_NEAR(mass, scene.mass(), scene.is_layered() ? 1e-14 : 0.1);
+    for (const double t : {0.05, 0.5, 3.0}) {
+      tracker.advance_to(t);
+      EXPECT_EQ(overshoot(tracker, setup.stack), 0);
+      EXPECT_NEAR(tracker.mass(), mass, 1e-13);
+      if (number < 100)
+        for (const std::string& violation : verify(tracker, 1e-12, 1e-12)) ADD_FAILURE() << violation;
+    }
+  }
+}
+
+// With x = phi / c constant c and T only change the unit of time: x(z, t) of rate S sqrt(T).
+TEST(PackingLaws, ConstantPackingAndTemperatureAreTheQuadraticFlux) {
+  for (const Grains grains : {Grains::small, Grains::large}) {
+    SceneSpec<double> spec;
+    spec.fluxes = {Packed<double>{grains}};
+    spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
+    spec.packing = Piecewise<double>{{}, {0.64}};
+    spec.temperature = Piecewise<double>{{}, {4}};
+    spec.initial_breaks = {0.5};
+    spec.initial_values = {0, 1};
+    SceneSpec<double> plain = spec;
+    plain.fluxes = {Quadratic<double>{}};
+    plain.packing.reset(), plain.temperature.reset();
+    if (grains == Grains::large) plain.initial_values = {1, 0};  // of the small grains between the large ones
+    const TrackingSetup<double> setup(Scene<double>(spec), 0.01), other(Scene<double>(plain), 0.01);
+    Tracker<LevelGrid<double>> packed(setup.grid, setup.pieces), quadratic(other.grid, other.pieces);
+    for (const double t : {0.1, 0.7, 2.0}) {
+      packed.advance_to(t), quadratic.advance_to(2 * t);
+      const Profile<double> a = packed.profile(), b = quadratic.profile();
+      for (int i = 0; i < 200; ++i) {
+        const double z = (i + 0.37) / 200, x = a.at(z).phi / 0.64;
+        EXPECT_NEAR(grains == Grains::small ? x : 1 - x, b.at(z).phi, 1e-14) << z << " " << t;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shearfront

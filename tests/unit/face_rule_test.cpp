@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fluxes between a layer L below and a layer R above: the ten cases of Table 4.1 of the thesis named in
+// docs/packing.md, and what a fine run makes of them.
+#include "shearfront/fv/face_rule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shearfront/fv/plain_march.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+using fv::FaceRule;
+
+double small_flux(double phi, double c) { return -phi * (c - phi) / c; }
+double least(double c) { return -c / 4; }
+
+double flux(FaceRule rule, double phi_l, double c_l, double phi_r, double c_r) {
+  const fv::FluxBranches f = fv::flux_branches(Packed<double>{Grains::small});
+  return fv::face_flux(rule, fv::face_side(f, c_l, c_l, phi_l / c_l), fv::face_side(f, c_r, c_r, phi_r / c_r),
+                       c_l);
+}
+
+struct Case {
+  const char* name;
+  double phi_l, c_l, phi_r, c_r, expected;
+};
+
+// The third column of the table, by hand: f(U_L), f(U_R) and the two minima.
+const std::vector<Case> kTenCases{
+    {"1: waves go down, f_R > f_L", 0.2, 0.6, 0.05, 0.6, small_flux(0.05, 0.6)},
+    {"2: waves go down, f_Lmin <= f_R < f_L", 0.1, 0.6, 0.2, 0.7, small_flux(0.2, 0.7)},
+    {"3: L cannot carry f_R", 0.1, 0.4, 0.3, 0.7, least(0.4)},
+    {"4: both ways, L is narrower", 0.1, 0.4, 0.5, 0.7, least(0.4)},
+    {"5: both ways, R is narrower", 0.25, 0.7, 0.4, 0.6, least(0.6)},
+    {"6: both ways, R cannot carry f_L", 0.3, 0.7, 0.25, 0.3, least(0.3)},
+    {"7: towards each other, f_R > f_L", 0.4, 0.6, 0.05, 0.6, small_flux(0.05, 0.6)},
+    {"8: towards each other, f_R < f_L", 0.55, 0.6, 0.25, 0.6, small_flux(0.55, 0.6)},
+    {"9: waves go up, R can carry f_L", 0.55, 0.6, 0.4, 0.5, small_flux(0.55, 0.6)},
+    {"10: waves go up, R cannot carry f_L", 0.4, 0.7, 0.25, 0.3, least(0.3)}};
+
+TEST(FaceRule, TenCasesOfTheThesis) {
+  for (const Case& c : kTenCases)
+    EXPECT_NEAR(flux(FaceRule::godunov, c.phi_l, c.c_l, c.phi_r, c.c_r), c.expected, 1e-16) << c.name;
+}
+
+// It takes the flux of L or R where the other side cannot carry it: cases 3 and 10, and minima of either
+// side.
+TEST(FaceRule, ClassicalFluxIsNotMatchedInCases3And10) {
+  for (const Case& c : kTenCases) {
+    const double classical = flux(FaceRule::classical_godunov, c.phi_l, c.c_l, c.phi_r, c.c_r);
+    const std::string number(c.name, std::string(c.name).find(':'));
+    if (number == "3") {
+      EXPECT_NEAR(classical, small_flux(c.phi_r, c.c_r), 1e-16);
+    }
+    if (number == "10") {  // phi falls: the larger one of both own fluxes, not what both can carry
+      EXPECT_NEAR(classical, small_flux(c.phi_r, c.c_r), 1e-16);
+      EXPECT_NE(classical, c.expected);
+    }
+    if (number == "1" || number == "2" || number == "7" || number == "8") {
+      EXPECT_NEAR(classical, c.expected, 1e-16) << c.name;
+    }
+  }
+}
+
+TEST(FaceRule, ClassicalIsGodunovBetweenEqualCells) {
+  for (int l = 0; l <= 20; ++l)
+    for (int r = 0; r <= 20; ++r) {
+      const double phi_l = 0.03 * l, phi_r = 0.03 * r;
+      EXPECT_EQ(flux(FaceRule::classical_godunov, phi_l, 0.6, phi_r, 0.6),
+                flux(FaceRule::godunov, phi_l, 0.6, phi_r, 0.6));
+    }
+}
+
+// A Riemann problem is self-similar: what flows through the interface of a fine run for long is its flux.
+TEST(FaceRule, GodunovFluxIsTheFluxOfAFineRun) {
+  support::SceneMaker maker(support::seed_of(13000));
+  const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{}};
+  const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0},
+                                         Packed<double>{Grains::large}};
+  for (int number = 0; number < 200; ++number) {
+    SCOPED_TRACE("problem " + std::to_string(number));
+    const auto& kind = number % 2 == 0 ? minima : maxima;
+    SceneSpec<double> spec;
+    spec.fluxes = {kind[std::size_t(maker.integer(0, 2))], kind[std::size_t(maker.integer(0, 2))]};
+    spec.flux_breaks = spec.initial_breaks = {0.5};
+    spec.shear_rate = Piecewise<double>{{0.5}, {maker.uniform(0.3, 2), maker.uniform(0.3, 2)}};
+    spec.packing = Piecewise<double>{{0.5}, {maker.uniform(0.2, 0.7), maker.uniform(0.2, 0.7)}};
+    spec.initial_values = {maker.uniform(0, 1), maker.uniform(0, 1)};
+    spec.outside_bottom = OutsideState<double>{{}, {spec.initial_values[0]}};
+    spec.outside_top = OutsideState<double>{{}, {spec.initial_values[1]}};
+    const Scene<double> scene(spec);
+    const fv::Grid grid{0, 1, 200, {}, {}};
+    fv::PlainMarch march(FaceRule::godunov, scene, grid, FaceCoefficient::harmonic);
+    march.set_outside({spec.initial_values[0], spec.initial_values[1]});
+    const std::vector<double> k = fv::cell_rates(scene, grid), capacity = fv::capacities(scene, grid);
+    const auto above = [&] {
+      double sum = 0;
+      for (std::size_t j = 100; j < 200; ++j) sum += capacity[j] * march.states()[j];
+      return sum;
+    };
+    // Nothing reaches the ends within 90 steps; there the flux is that of the initial state.
+    const fv::FluxBranches f_l = fv::flux_branches(spec.fluxes[0]), f_r = fv::flux_branches(spec.fluxes[1]);
+    const double out = k[199] * f_r.value(spec.initial_values[1]);
+    const double expected =
+        fv::face_flux(FaceRule::godunov, fv::face_side(f_l, k[99], 1, spec.initial_values[0]),
+                      fv::face_side(f_r, k[100], 1, spec.initial_values[1]), 1);
+    for (int i = 0; i < 30; ++i) march.step(march.largest_step());
+    const double before = above();
+    for (int i = 0; i < 60; ++i) march.step(march.largest_step());
+    EXPECT_NEAR((above() - before) / (60 * march.largest_step()) + out, expected, 1e-3 * (k[99] + k[100]));
+  }
+}
+
+}  // namespace
+}  // namespace shearfront
