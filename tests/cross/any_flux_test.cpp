@@ -75,7 +75,7 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       const auto tracked = FrontTrackingSolver::solve(scene, request, options);
       ASSERT_EQ(tracked.samples.size(), 78u) << tracked.summary.message;
       double coarse_error = 0, fine_error = 0;
-      for (const std::size_t cells : {200, 800}) {
+      for (const std::size_t cells : {std::size_t{200}, std::size_t{800}}) {
         options.cells = cells;
         const auto grid = GodunovSolver::solve(scene, request, options);
         ASSERT_EQ(grid.samples.size(), 78u) << grid.summary.message;
