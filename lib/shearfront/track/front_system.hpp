@@ -202,8 +202,9 @@ class FrontSystem {
     fronts_[0].above = at_rest.above;
     const FrontIndex old_top_neighbour = fronts_[top].prev;
     const Scalar zero(0);
-    emit_in_layer(old_top_neighbour, last, l, at_rest.below, fronts_[top].z, zero);
-    const FrontIndex uppermost = emit_in_layer(0, 0, at_rest.above, r, fronts_[0].z, zero);
+    const Scalar z_top = fronts_[top].z, z_bottom = fronts_[0].z;  // copies: new fronts move the nodes
+    emit_in_layer(old_top_neighbour, last, l, at_rest.below, z_top, zero);
+    const FrontIndex uppermost = emit_in_layer(0, 0, at_rest.above, r, z_bottom, zero);
     // The caller schedules what is new at b; here the other end.
     if (b == 0) {
       schedule(old_top_neighbour);
