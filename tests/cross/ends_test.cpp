@@ -2,8 +2,12 @@
 // Front tracking in beds without walls: open and periodic ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "shearfront/fv/godunov_solver.hpp"
+#include "shearfront/track/setup.hpp"
 #include "shearfront/track/solver.hpp"
 #include "support/any_flux.hpp"
 
@@ -78,6 +82,62 @@ TEST(Ends, AnOpenEndNextToItsOwnStateIsNotThere) {
       ASSERT_EQ(all.samples.size(), 100u) << all.summary.message;
       for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(open.samples[i].phi, all.samples[i].phi, 1e-12) << i;
     }
+}
+
+// States beyond both ends that change often, more of them than the grid makes vertices of.
+TEST(Ends, ChangingStatesAgreeWithGodunov) {
+  SceneMaker maker(support::seed_of(8106));
+  for (const Flux<double>& flux : {Flux<double>(Quadratic<double>{}), Flux<double>(Lwr<double>{}),
+                                   Flux<double>(Triangular<double>{0.25, 1})}) {
+    SCOPED_TRACE(name_of(flux));
+    SceneSpec<double> spec = draw(maker, flux, 3, 3);
+    OutsideState<double> bottom, top;
+    for (int i = 0; i < 50; ++i) {
+      bottom.values.push_back(maker.uniform(0, 1)), top.values.push_back(maker.uniform(0, 1));
+      if (i > 0) bottom.breaks.push_back(0.04 * i), top.breaks.push_back(0.04 * i + 0.01);
+    }
+    spec.outside_bottom = bottom, spec.outside_top = top;
+    const Scene<double> scene(spec);
+    SolverRequest request{{0.5, 2.5}, {}, false, false, false};
+    for (int i = 1; i <= 20; ++i) request.depths.push_back(i / 20.0);
+    SolverOptions options;
+    options.resolution = 0.002;
+    const auto tracked = FrontTrackingSolver::solve(scene, request, options);
+    ASSERT_EQ(tracked.samples.size(), 40u) << tracked.summary.message;
+    double coarse_error = 0, fine_error = 0;
+    for (const int cells : {200, 1600}) {
+      options.cells = static_cast<std::size_t>(cells);
+      const auto grid = GodunovSolver::solve(scene, request, options);
+      ASSERT_EQ(grid.samples.size(), 40u) << grid.summary.message;
+      double& error = cells == 200 ? coarse_error : fine_error;
+      for (std::size_t i = 0; i < 40; ++i)
+        error = std::max(error, std::abs(grid.samples[i].M - tracked.samples[i].M));
+    }
+    EXPECT_LT(fine_error, 2e-3);
+    EXPECT_LT(fine_error, 0.5 * coarse_error);  // jumps of a straight branch spread like the root of a width
+  }
+}
+
+TEST(Ends, TheLastStateComesAfterTheLastChange) {
+  SceneSpec<double> spec;
+  spec.fluxes = {Lwr<double>{}};
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_values = {0};
+  spec.outside_bottom = OutsideState<double>{{3}, {0, 0.25}};
+  spec.outside_top = OutsideState<double>{{}, {0}};
+  const TrackingSetup<double> setup(Scene<double>(spec), 0.1);
+  Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+  ASSERT_EQ(tracker.advance_to(3.5), Status::ok);
+  EXPECT_GT(tracker.mass(), 0.05);
+  ASSERT_EQ(tracker.run_to_steady(), Status::steady);
+  EXPECT_GE(tracker.time(), 4);  // the fan from 0 to 1/4 crosses the bed after t = 3
+  EXPECT_NEAR(tracker.mass(), 0.25, 1e-15);
+  // A change that sets nothing off: time does not run back.
+  spec.outside_bottom = OutsideState<double>{{3}, {0, 0}};
+  const TrackingSetup<double> quiet(Scene<double>(spec), 0.1);
+  Tracker<LevelGrid<double>> still(quiet.grid, quiet.pieces, quiet.ends);
+  ASSERT_EQ(still.run_to_steady(), Status::steady);
+  EXPECT_EQ(still.time(), 3);
 }
 
 // Red and green: cars wait behind a light at the upper end (state outside: jam while it is red), and the

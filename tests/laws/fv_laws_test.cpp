@@ -12,12 +12,16 @@
 #include "shearfront/fv/solve.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
+#include "support/grid_scenes.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
 namespace {
 
 using support::cell_states;
+using support::draw;
+using support::maker_of;
+using support::options_of;
 using support::SceneMaker;
 
 template <class Solver>
@@ -36,19 +40,6 @@ class FvFirstOrderLaws : public testing::Test {};
 TYPED_TEST_SUITE(FvFirstOrderLaws, MonotoneSolvers, SolverName);
 
 constexpr int kScenes = 40;
-
-SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(7000 + std::uint64_t(number))); }
-Scene<double> draw(SceneMaker& maker) {
-  return Scene<double>(maker.data(maker.integer(1, 6), maker.order(), 12));
-}
-SolverOptions options_of(SceneMaker& maker) {
-  SolverOptions options;
-  options.cells = static_cast<std::size_t>(maker.integer(1, 150));
-  options.cfl = maker.integer(0, 1) == 0 ? 1.0 : maker.uniform(0.1, 1);
-  options.local_steps = maker.integer(0, 1) == 1;
-  options.align_cells = maker.integer(0, 1) == 1;
-  return options;
-}
 
 TYPED_TEST(FvFirstOrderLaws, ContractsInL1AndKeepsTheOrder) {
   for (int number = 0; number < kScenes; ++number) {

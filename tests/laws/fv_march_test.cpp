@@ -13,6 +13,7 @@
 #include "shearfront/fv/octaves.hpp"
 #include "shearfront/fv/solve.hpp"
 #include "support/cell_states.hpp"
+#include "support/grid_scenes.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -20,23 +21,13 @@ namespace {
 
 using fv::Scheme;
 using fv::Simd;
+using support::draw;
+using support::maker_of;
+using support::options_of;
 using support::SceneMaker;
 
 constexpr int kScenes = 25;
 constexpr std::array kSchemes{Scheme::engquist_osher, Scheme::godunov, Scheme::muscl};
-
-SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(7000 + std::uint64_t(number))); }
-Scene<double> draw(SceneMaker& maker) {
-  return Scene<double>(maker.data(maker.integer(1, 6), maker.order(), 12));
-}
-SolverOptions options_of(SceneMaker& maker) {
-  SolverOptions options;
-  options.cells = static_cast<std::size_t>(maker.integer(1, 150));
-  options.cfl = maker.integer(0, 1) == 0 ? 1.0 : maker.uniform(0.1, 1);
-  options.align_cells = maker.integer(0, 1) == 1;
-  options.local_steps = maker.integer(0, 1) == 1;
-  return options;
-}
 
 /// phi of the cells times 2^53 and summed: states are multiples of 2^-53, so there is no rounding.
 std::int64_t mass_in_quanta(const fv::CellStates& cells) {

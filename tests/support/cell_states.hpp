@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "shearfront/fv/run.hpp"
 #include "shearfront/fv/solve.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solver/solver.hpp"
@@ -10,11 +11,7 @@
 /// The cells of a finite-volume solution, through the interface of all solvers.
 namespace shearfront::support {
 
-/// The grid a solver takes.
-inline fv::Grid grid_of(const Scene<double>& scene, const SolverOptions& options) {
-  return options.align_cells ? fv::aligned_grid(scene, options.cells)
-                             : fv::Grid{scene.bottom(), scene.top(), options.cells, {}, {}};
-}
+using fv::grid_of;
 
 inline std::vector<double> middles(const fv::Grid& grid) {
   std::vector<double> z;

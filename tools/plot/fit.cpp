@@ -80,8 +80,14 @@ Measured measured(const fit::FitSpec& spec, const fit::Estimate& estimate) {
   if (is_cumulative) {
     result.high = std::max(estimate.scene->mass(), 1e-300);
   } else {
-    result.low = spec.scene.range_at(spec.scene.bottom()).lowest;
-    result.high = spec.scene.range_at(spec.scene.bottom()).highest;
+    std::vector<double> heights = spec.scene.knots();
+    heights.push_back(spec.scene.bottom()), heights.push_back(spec.scene.top());
+    const auto range_at = [&](double z) { return spec.scene.range_at(z); };
+    result.low = range_at(heights.back()).lowest, result.high = range_at(heights.back()).highest;
+    for (const double z : heights) {
+      result.low = std::min(result.low, range_at(z).lowest);
+      result.high = std::max(result.high, range_at(z).highest);
+    }
   }
   return result;
 }

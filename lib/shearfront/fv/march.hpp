@@ -40,7 +40,7 @@ class March {
   /// Cost: updates_per_step() cell updates a step. Large grids with equal steps everywhere are swept in
   /// blocks that stay in the cache for many steps.
   void advance(std::uint64_t steps);
-  /// Whether a further step would change nothing. Cost: one step.
+  /// Whether the states come back after a step, or after up to four. Cost: as many steps.
   [[nodiscard]] bool is_at_rest();
   /// phi of every cell after a last step of `fraction` (0 <= fraction < 1) of a whole one; the march itself
   /// stays where it is. Continuous in fraction, also where the fraction turns into a whole step.

@@ -117,14 +117,20 @@ template <Real Scalar>
 /// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
 /// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
-/// order 3/2 where paths do (a falling along them), phi first order. Cost:
-/// O(n_layers + knots).
+/// order 3/2 where paths do (a falling along them), phi first order. With a packing, layers also end at the
+/// initial jumps: the layers, each with the mean of c, then hold what the bed does. Cost: O(n_layers +
+/// knots).
 template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
   using std::ceil;
   std::vector<Scalar> cuts{scene.bottom()};
   std::vector<bool> is_break;
   for (const Scalar& z : scene.knots()) cuts.push_back(z);
+  if (scene.spec().packing) {
+    cuts.insert(cuts.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  }
   cuts.push_back(scene.top());
   const Scalar height = scene.top() - scene.bottom();
   std::vector<Scalar> boundaries{scene.bottom()}, rates;

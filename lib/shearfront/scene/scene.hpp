@@ -78,14 +78,8 @@ class Scene {
   }
   /// Heights inside the domain where the flux, a, c, T or one of their slopes jumps; ascending.
   [[nodiscard]] std::vector<Scalar> knots() const {
-    std::vector<Scalar> all = spec_.flux_breaks;
-    const auto take = [&](const DepthProfile<Scalar>& profile) {
-      for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
-        if (z > spec_.bottom && z < spec_.top) all.push_back(z);
-    };
-    take(spec_.shear_rate);
-    if (spec_.packing) take(*spec_.packing);
-    if (spec_.temperature) take(*spec_.temperature);
+    std::vector<Scalar> all = profile_knots(spec_);
+    all.insert(all.end(), spec_.flux_breaks.begin(), spec_.flux_breaks.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
@@ -183,6 +177,18 @@ class Scene {
     }
     return lo + (hi - lo) / Scalar(2);
   }
+  /// int phi dz over [lo, hi] if phi is as high, or as low, as it can be. Cost: O(fluxes + knots of c).
+  [[nodiscard]] Scalar amount(const Scalar& lo, const Scalar& hi, bool is_highest) const {
+    CompensatedSum<Scalar> sum;
+    for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
+      const Scalar begin = i == 0 ? lo : std::max(lo, spec_.flux_breaks[i - 1]);
+      const Scalar end = i + 1 == spec_.fluxes.size() ? hi : std::min(hi, spec_.flux_breaks[i]);
+      if (!(begin < end)) continue;
+      const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[i]);
+      sum += solid(begin, end) * (is_highest ? range.highest : range.lowest);
+    }
+    return sum.value();
+  }
   /// int_lo^hi c dz; hi - lo without packing. Cost: O(knots) with one.
   [[nodiscard]] Scalar solid(const Scalar& lo, const Scalar& hi) const {
     if (!spec_.packing) return hi - lo;
@@ -201,18 +207,6 @@ class Scene {
  private:
   [[nodiscard]] static Scalar value(const DepthProfile<Scalar>& profile, const Scalar& z) {
     return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, profile);
-  }
-  /// int phi dz over [lo, hi] if phi is as high or as low as it can be.
-  [[nodiscard]] Scalar amount(const Scalar& lo, const Scalar& hi, bool is_highest) const {
-    CompensatedSum<Scalar> sum;
-    for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
-      const Scalar begin = i == 0 ? lo : std::max(lo, spec_.flux_breaks[i - 1]);
-      const Scalar end = i + 1 == spec_.fluxes.size() ? hi : std::min(hi, spec_.flux_breaks[i]);
-      if (!(begin < end)) continue;
-      const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[i]);
-      sum += solid(begin, end) * (is_highest ? range.highest : range.lowest);
-    }
-    return sum.value();
   }
   template <class Function>
   [[nodiscard]] static Scalar mean_of(const Function& f, const Scalar& lo, const Scalar& hi) {

@@ -104,14 +104,8 @@ class Checker {
   }
   /// Heights at which something may be largest or smallest: between them every profile is monotone.
   [[nodiscard]] std::vector<Scalar> heights() const {
-    std::vector<Scalar> all{spec_.bottom, spec_.top};
-    const auto take = [&](const DepthProfile<Scalar>& profile) {
-      for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
-        if (z > spec_.bottom && z < spec_.top) all.push_back(z);
-    };
-    take(spec_.shear_rate);
-    if (spec_.packing) take(*spec_.packing);
-    if (spec_.temperature) take(*spec_.temperature);
+    std::vector<Scalar> all = profile_knots(spec_);
+    all.insert(all.begin(), {spec_.bottom, spec_.top});
     return all;
   }
 

@@ -42,6 +42,20 @@ struct SceneSpec {
   bool is_periodic = false;  ///< what leaves at the top comes in at the bottom
 };
 
+/// Heights inside the domain where a, c, T or one of their slopes jumps, in no order.
+template <Real Scalar>
+[[nodiscard]] std::vector<Scalar> profile_knots(const SceneSpec<Scalar>& spec) {
+  std::vector<Scalar> all;
+  const auto take = [&](const DepthProfile<Scalar>& profile) {
+    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
+      if (z > spec.bottom && z < spec.top) all.push_back(z);
+  };
+  take(spec.shear_rate);
+  if (spec.packing) take(*spec.packing);
+  if (spec.temperature) take(*spec.temperature);
+  return all;
+}
+
 /// "flux." or, where there are several, "flux[1].".
 template <class Spec>
 [[nodiscard]] std::string flux_prefix(const Spec& spec, std::size_t i) {

@@ -155,9 +155,11 @@ void add_noise(Observations& observations, double sigma, std::uint64_t seed, std
 
 void clip(Observations& observations, const Scene<double>& scene) {
   for (Observation& o : observations.rows) {
-    const StateRange<double> range = scene.range_at(o.z);
-    const double height = observations.quantity == Quantity::cumulative ? o.z - scene.bottom() : 1;
-    o.value = std::clamp(o.value, range.lowest * height, range.highest * height);
+    const StateRange<double> range = observations.quantity == Quantity::cumulative
+                                         ? StateRange<double>{scene.amount(scene.bottom(), o.z, false),
+                                                              scene.amount(scene.bottom(), o.z, true)}
+                                         : scene.range_at(o.z);
+    o.value = std::clamp(o.value, range.lowest, range.highest);
   }
 }
 

@@ -88,6 +88,7 @@ class FrontSystem {
   /// Now another state lies beyond an open end. Precondition: what meets at this time has met.
   void change_outside(std::size_t end, State state) {
     outside_[end] = state;
+    last_collision_ = std::max(last_collision_, now_);
     const FrontIndex b = end == 0 ? 0 : static_cast<FrontIndex>(grid_->n_layers());
     collide_at_boundary(b, b, b, fronts_[b].below, fronts_[b].above);
     n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
