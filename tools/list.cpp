@@ -96,6 +96,11 @@ std::string unknowns() {
     spec.fluxes = {F{}};
     visit(spec, "flux.", F::kName);
   });
+  ClosePackingList<double>::for_each([&]<class C>() {
+    SceneSpec<double> spec;
+    spec.close_packing = C{};
+    visit(spec, "close_packing.", C::kName);
+  });
   std::stable_partition(fields.begin(), fields.end(), [](const Field& f) { return !f.models.empty(); });
   TextTable table({"name", "models"});
   for (const Field& field : fields) table.add({field.name, field.models});
@@ -113,7 +118,12 @@ int list() {
   ShearRateList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
-  all += indented(rates.text()) + "\nSolvers (--method)\n";
+  all += indented(rates.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";
+  TextTable packings({"name", "c(x), x the share of small grains", "entries"});
+  ClosePackingList<double>::for_each([&]<class C>() {
+    packings.add({std::string(C::kName), std::string(C::kFormula), entries<C>()});
+  });
+  all += indented(packings.text()) + "\nSolvers (--method)\n";
   TextTable solvers({"name", "what it is", "guarantees"});
   SolverList::for_each([&]<class S>() {
     solvers.add({std::string(S::kName), std::string(S::kDescription), described(S::guarantees())});

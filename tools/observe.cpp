@@ -15,6 +15,7 @@
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
+#include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -38,7 +39,7 @@ struct Experiment {
 
 std::vector<std::string> quantity_names() {
   std::vector<std::string> names;
-  for (const Quantity q : {Quantity::point, Quantity::bin, Quantity::cumulative})
+  for (const Quantity q : {Quantity::point, Quantity::bin, Quantity::cumulative, Quantity::bed_height})
     names.emplace_back(name_of(q));
   return names;  // in the order of Quantity
 }
@@ -70,7 +71,10 @@ void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, 
 void check_arguments(const ObserveArguments& arguments) {
   constexpr std::string_view kLists = "missing; must be a list such as 0.5,6 or 0:10:21";
   if (arguments.times.empty()) throw InputError("--times", "", std::string(kLists));
-  if (arguments.depths.empty()) throw InputError("--depths", "", std::string(kLists));
+  const bool has_depths = arguments.quantity != name_of(Quantity::bed_height);
+  if (has_depths && arguments.depths.empty()) throw InputError("--depths", "", std::string(kLists));
+  if (!has_depths && !arguments.depths.empty())
+    refuse("--depths", arguments.depths, "must not be given: the height of the bed has no depth");
   if (arguments.noise.empty() && !arguments.seed.empty()) refuse("--seed", arguments.seed, "needs --noise");
   if (arguments.noise.empty() && arguments.truncate) throw InputError("--truncate", "", "needs --noise");
   check_outputs(arguments.scene, {{"-o", arguments.output}});
@@ -87,8 +91,13 @@ Experiment experiment_of(const ObserveArguments& arguments, const Scene<double>&
   const std::string inside =
       fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()), number_text(scene.top()));
   plan.times = list_option("--times", arguments.times, {0}, ">= 0", Steady::refused);
-  plan.depths =
-      list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+  if (plan.quantity == Quantity::bed_height) {
+    if (const std::string reason = BedHeight::refusal(scene); !reason.empty())
+      refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
+  } else {
+    plan.depths =
+        list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+  }
   if (static_cast<double>(plan.times.size()) * static_cast<double>(plan.depths.size()) > kMostRows)
     refuse("--times", arguments.times, "must give at most 1e7 pairs of time and depth");
   plan.width = width_of(arguments, plan);
@@ -107,9 +116,10 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string command_line(const ObserveArguments& arguments, const Experiment& experiment) {
-  std::string line =
-      fmt::format("shearfront observe {} --times {} --depths {} --quantity {}", shell_word(arguments.scene),
-                  shell_word(arguments.times), shell_word(arguments.depths), arguments.quantity);
+  std::string line = fmt::format("shearfront observe {} --times {}{} --quantity {}",
+                                 shell_word(arguments.scene), shell_word(arguments.times),
+                                 arguments.depths.empty() ? "" : " --depths " + shell_word(arguments.depths),
+                                 arguments.quantity);
   if (experiment.plan.width > 0) line += " --width " + number_text(experiment.plan.width);
   line += " " + arguments.method.settings();
   if (experiment.sigma > 0)
@@ -153,7 +163,7 @@ int observe_scene(const ObserveArguments& arguments) {
   const SolverResult result = solve_with(arguments.method.method(), scene, request, options);
   if (!result.summary.usable()) return report_unusable(result.summary);
 
-  Observations observations = observe(experiment.plan, scene, result.samples);
+  Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);
   if (arguments.truncate) clip(observations, scene);
   observations.comments = recipe(arguments, experiment, source.text());
@@ -174,7 +184,8 @@ Command add_observe(CLI::App& program) {
       ->type_name("LIST");
   app->add_option(
          "--quantity", arguments->quantity,
-         "phi at a point, its mean over a bin, or M = integral of phi from the bottom; default point")
+         "phi at a point, its mean over a bin, M = integral of phi from the bottom, or the height of the "
+         "bed; default point")
       ->type_name(fmt::format("{}", fmt::join(quantity_names(), "|")));
   app->add_option("--width", arguments->width, "width of the bins; default the spacing of the depths")
       ->type_name("W");
@@ -182,8 +193,9 @@ Command add_observe(CLI::App& program) {
   app->add_option("--noise", arguments->noise, "standard deviation of normal noise; default none")
       ->type_name("SIGMA");
   app->add_option("--seed", arguments->seed, "seed of the noise, a whole number; default 1")->type_name("S");
-  app->add_flag("--truncate", arguments->truncate,
-                "clip noisy values: phi to [0, 1], M to [0, height above the bottom]");
+  app->add_flag(
+      "--truncate", arguments->truncate,
+      "clip noisy values: phi to [0, 1], M to [0, height above the bottom] (not heights of the bed)");
   app->add_option("-o", arguments->output, "result file, CSV; default standard output")->type_name("FILE");
   return {app, "SCENE", [arguments] { return observe_scene(*arguments); }};
 }

@@ -14,6 +14,7 @@
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "solve/bed_course.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::size_t kDefaultDepths = 101;
 constexpr double kMostSamples = 1e8;  // times x depths
 
 struct SolveArguments {
-  std::string scene, times, depths, output, fronts, plot;
+  std::string scene, times, depths, quantity, output, fronts, plot;
   bool json = false;
   MethodArguments method;
 };
@@ -73,8 +74,54 @@ int draw(const SolveArguments& arguments, const Scene<double>& scene, const Solv
   return draw_profiles(arguments.plot, scene, arguments.method.method(), times, options);
 }
 
+SolvedQuantity quantity_of(const SolveArguments& arguments) {
+  if (arguments.quantity.empty()) return SolvedQuantity::concentration;
+  const std::vector<std::string> names(kSolvedQuantityNames.begin(), kSolvedQuantityNames.end());
+  return static_cast<SolvedQuantity>(choice_option("--quantity", arguments.quantity, names));
+}
+
+/// Numbers of the whole bed instead of concentrations.
+int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
+  if (!arguments.depths.empty())
+    refuse("--depths", arguments.depths, "must not be given: " + arguments.quantity + " has no depth");
+  if (!arguments.fronts.empty())
+    refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
+  SolverOptions options = arguments.method.options();
+  const auto scene = read_scene<double>(arguments.scene);
+  if (const std::string reason = refusal_of_course(scene); !reason.empty())
+    refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
+  const std::vector<double> times = list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed);
+  if (static_cast<double>(times.size()) > kMostSamples)
+    refuse("--times", arguments.times, "must give at most 1e8 times");
+  OutputFile output(arguments.output.empty() ? "-" : arguments.output);
+  check_picture_target(arguments.plot);
+  note_unused_layers(arguments.method, scene);
+
+  ProgressLine progress;
+  options.progress = progress.callback();
+  const BedCourse course = bed_course(quantity, arguments.method.method(), scene, times, options);
+  if (!course.summary.usable()) return report_unusable(course.summary);
+  std::string extra;
+  if (course.lowest)
+    extra = fmt::format(R"("lowest": {{"t": {}, "H": {}}})", number_text(course.lowest->t),
+                        number_text(course.lowest->height));
+  if (arguments.json)
+    write_time_table_json(output, scene.name(), arguments.method.method(), course.table, extra,
+                          course.summary);
+  else
+    write_time_table_csv(output, course.table);
+  output.commit();
+  if (course.lowest && !arguments.json)
+    note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(course.lowest->t, 7),
+                     number_text(course.lowest->height, 10)));
+  if (arguments.plot.empty()) return kDone;
+  return draw_bed_course(arguments.plot, scene, arguments.method.method(), course, options);
+}
+
 int solve(const SolveArguments& arguments) {
   check_arguments(arguments);
+  if (const SolvedQuantity quantity = quantity_of(arguments); quantity != SolvedQuantity::concentration)
+    return solve_bed(arguments, quantity);
   SolverOptions options = arguments.method.options();
   const auto scene = read_scene<double>(arguments.scene);
   const SolverRequest request = request_of(arguments, scene);
@@ -114,6 +161,10 @@ Command add_solve(CLI::App& program) {
       ->type_name("LIST");
   app->add_option("--depths", arguments->depths, "heights z: as --times; default 101 over the whole domain")
       ->type_name("LIST");
+  app->add_option("--quantity", arguments->quantity,
+                  "phi and M at depths, or of the whole bed: entropy and mixing parameter, height; default "
+                  "concentration")
+      ->type_name(fmt::format("{}", fmt::join(kSolvedQuantityNames, "|")));
   arguments->method.add_to(*app);
   app->add_option("-o", arguments->output, "result file, CSV (JSON with --json); default standard output")
       ->type_name("FILE");

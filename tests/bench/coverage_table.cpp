@@ -68,7 +68,7 @@ Observations without_noise(const Example& example, Quantity quantity) {
   ObservationPlan plan{example.times, example.depths, quantity, 0};
   if (quantity == Quantity::bin) plan.width = example.depths[1] - example.depths[0];
   const Scene<double> scene(example.truth);
-  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}).samples);
+  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
 }
 
 /// Standard deviations of the logarithms of the parameters by the Cramer-Rao bound, for sigma = 1: from the

@@ -23,7 +23,7 @@ Scene<double> may(double bottom = 0, double top = 1) {
 }
 
 Observations observed(const ObservationPlan& plan, const Scene<double>& scene) {
-  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}).samples);
+  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
 }
 
 std::string problems(const ObservationPlan& plan) {

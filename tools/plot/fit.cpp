@@ -99,7 +99,9 @@ int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estim
   }
   Gnuplot plot(path, kFitWidth, kFitHeight);
   plot.add("set multiplot title " + Gnuplot::text(spec.name) + " noenhanced");
-  if (fit::measured_profiles(spec.observations).size() <= kMostProfiles)
+  if (spec.observations.quantity == Quantity::bed_height)
+    add_bed_heights(plot, {0.13, 0.82, 0.56, 0.9}, spec, estimate);
+  else if (fit::measured_profiles(spec.observations).size() <= kMostProfiles)
     add_profiles(plot, {0.08, 0.97, 0.56, 0.855}, spec, estimate);
   else
     add_maps(plot, {0.08, 0.895, 0.56, 0.885}, spec, estimate);

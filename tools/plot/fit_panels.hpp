@@ -43,6 +43,9 @@ struct Measured {
 
 /// Observed points and fitted lines, one panel per time, in this part of the figure.
 void add_profiles(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
+/// Observed and fitted heights of the bed against time; the legend stands to the right of the panel.
+void add_bed_heights(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec,
+                     const fit::Estimate& estimate);
 /// Observed, fitted and residual over t and z: cells where the data lie on a grid, points elsewhere.
 void add_maps(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
 /// s a(z) of the start and of the estimate with its 95 % band; the legend stands to the right of the panel.

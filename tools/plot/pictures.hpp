@@ -7,6 +7,7 @@
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/solver/solver.hpp"
+#include "solve/bed_course.hpp"
 
 namespace shearfront::tools {
 
@@ -25,6 +26,11 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 /// on top.
 int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
                   const std::vector<double>& times, const SolverOptions& options);
+
+/// Mixing or bed height against time: the curve up to the last time, the times asked for as points, the
+/// lowest bed marked.
+int draw_bed_course(const std::string& path, const Scene<double>& scene, std::string_view method,
+                    const BedCourse& course, const SolverOptions& options);
 
 /// A fit: the observations beside what the estimate predicts (profiles for few times, else maps over t and z
 /// with the residuals), s a(z) with its 95 % band, and the course of the search. Without a usable estimate

@@ -121,7 +121,7 @@ class Run {
   void find() {
     const VectorXd start = coordinates_.coordinates(parameters_.start());
     has_stages_ = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm)) &&
-                  quantity_ != CumulativeMisfit::kName;
+                  quantity_ != CumulativeMisfit::kName && quantity_ != BedHeightMisfit::kName;
     if (has_stages_ && spec_.search.starts > 1 && spec_.search.algorithm != "global")
       find_from_many(start);
     else

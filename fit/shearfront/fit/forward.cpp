@@ -7,6 +7,8 @@
 #include "shearfront/hopf_lax/refusal.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/solution/bed_height.hpp"
+#include "shearfront/solution/observation.hpp"
 #include "shearfront/solver/all.hpp"
 
 namespace shearfront::fit {
@@ -95,29 +97,78 @@ class ExactForward final : public ForwardModel {
   bool has_derivatives_ = true;
 };
 
+using Solve = SolverResult (*)(const Scene<double>&, const SolverRequest&, const SolverOptions&);
+
+/// Points of which some have the same time, or height: positions among the distinct ones.
+std::size_t position(const std::vector<double>& xs, double x) {
+  return static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
+}
+void keep_distinct(std::vector<double>& xs) {
+  std::sort(xs.begin(), xs.end());
+  xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
+}
+
+/// Heights of the bed, by any solver.
+class BedHeightForward final : public ForwardModel {
+ public:
+  BedHeightForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, bool is_exact,
+                   std::vector<Point> points)
+      : ForwardModel(parameters, Field::bed_height, std::move(points)),
+        solve_(solve),
+        options_(forward.options),
+        is_exact_(is_exact) {
+    for (const Point& point : points_) times_.push_back(point.t);
+    keep_distinct(times_);
+  }
+
+  [[nodiscard]] bool has_derivatives() const override { return false; }
+  [[nodiscard]] double smallest_step() const override { return is_exact_ ? 1e-6 : 1e-3; }
+
+  [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
+    Prediction prediction;
+    SceneSpec<double> spec = parameters_.scene_with(values);
+    if (const Problems problems = find_problems(spec); !problems.empty()) {
+      prediction.failure = problems.front().text();
+      return prediction;
+    }
+    const Scene<double> scene(std::move(spec));
+    const BedHeight bed(scene);
+    SolverRequest request;
+    request.times = times_;
+    request.integrand = bed.integrand();
+    const SolverResult result = solve_(scene, request, options_);
+    if (!result.summary.usable()) {
+      prediction.failure = result.summary.message;
+      return prediction;
+    }
+    prediction.values.resize(n_points());
+    for (Index i = 0; i < n_points(); ++i)
+      prediction.values[i] =
+          bed.height(result.integrals[position(times_, points_[static_cast<std::size_t>(i)].t)]);
+    return prediction;
+  }
+
+ private:
+  Solve solve_;
+  SolverOptions options_;
+  bool is_exact_;
+  std::vector<double> times_;
+};
+
 class SolverForward final : public ForwardModel {
  public:
-  using Solve = SolverResult (*)(const Scene<double>&, const SolverRequest&, const SolverOptions&);
-
   SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Field field,
                 std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), solve_(solve), options_(forward.options) {
     // M of the states themselves is of second order and varies more smoothly than M of the lines through
     // them.
     if (field == Field::M) options_.reconstruct = Reconstruction::constant;
-    const auto keep_distinct = [](std::vector<double>& xs) {
-      std::sort(xs.begin(), xs.end());
-      xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
-    };
     for (const Point& point : points_) {
       request_.times.push_back(point.t);
       request_.depths.push_back(point.z);
     }
     keep_distinct(request_.times);
     keep_distinct(request_.depths);
-    const auto position = [](const std::vector<double>& xs, double x) {
-      return static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
-    };
     for (const Point& point : points_)
       samples_.push_back(position(request_.times, point.t) * request_.depths.size() +
                          position(request_.depths, point.z));
@@ -157,16 +208,23 @@ class SolverForward final : public ForwardModel {
 
 std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward, Field field,
                                       std::vector<Point> points) {
+  if (field == Field::bed_height)
+    if (const std::string reason = BedHeight::refusal(parameters.scene()); !reason.empty())
+      throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),
+                       "must suit the scene: " + reason);
   std::unique_ptr<Forward> model;
   SolverList::for_each([&]<class S>() {
     if (forward.method != S::kName) return;
-    if constexpr (std::is_same_v<S, ExactSolver>) {
+    constexpr bool kIsExact = std::is_same_v<S, ExactSolver>;
+    if constexpr (kIsExact)
       if (const std::string reason = hopf_lax::refusal(parameters.scene()); !reason.empty())
         throw InputError("forward.method", quoted_text(forward.method), "must suit the scene: " + reason);
+    if (field == Field::bed_height)
+      model = std::make_unique<BedHeightForward>(parameters, forward, &S::solve, kIsExact, std::move(points));
+    else if constexpr (kIsExact)
       model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));
-    } else {
+    else
       model = std::make_unique<SolverForward>(parameters, forward, &S::solve, field, std::move(points));
-    }
   });
   if (!model)
     throw InputError("forward.method", quoted_text(forward.method), "must be one of: " + SolverList::names());

@@ -16,8 +16,9 @@ struct Point {
   friend auto operator<=>(const Point&, const Point&) = default;
 };
 
-/// Which of the two the observations are made of.
-enum class Field { phi, M };
+/// What the observations are made of. The height of the bed has no place in it: z of its points does not
+/// matter.
+enum class Field { phi, M, bed_height };
 
 /// Values at the points and, if asked for, their derivatives: row = point, column = parameter.
 struct Prediction {

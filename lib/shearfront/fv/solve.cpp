@@ -9,6 +9,7 @@
 
 #include "shearfront/fv/run.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solution/share_integral.hpp"
 
 namespace shearfront::fv {
 namespace {
@@ -83,17 +84,21 @@ SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& 
   const std::size_t n = request.depths.size();
   result.samples.resize(request.times.size() * n);
   if (request.profiles) result.profiles.resize(request.times.size());
+  if (request.integrand) result.integrals.resize(request.times.size());
   for (const std::size_t i : order) {
     const CellStates cells = run.at(request.times[i], status);
     if (status != Status::ok) break;
     const auto samples = output.samples(cells, request.depths);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
+    if (request.integrand)
+      result.integrals[i] = share_integral(scene, output.profile(cells), request.integrand);
     if (request.profiles) result.profiles[i] = output.profile(cells);
   }
   if (status == Status::ok && run.is_at_rest()) status = Status::steady;
   if (status != Status::ok && status != Status::steady) {
     result.samples.clear();
     result.profiles.clear();
+    result.integrals.clear();
   }
   result.summary.status = status;
   result.summary.message = message_of(status, run.n_updates(), scene.has_walls());

@@ -73,9 +73,15 @@ NormalForm<Scalar>::NormalForm(const Scene<Scalar>& scene, std::size_t layers)
       image_(make_image()) {}
 
 template <Real Scalar>
-Scalar NormalForm<Scalar>::u_of(const Scalar& share, std::size_t k) const {
+Scalar NormalForm<Scalar>::state_of(const Scalar& share, std::size_t k) const {
   const std::size_t i = layers_.flux_index(k);
   return (is_concave_ ? highest_[i] - share : share - lowest_[i]) / width_[i];
+}
+
+template <Real Scalar>
+Scalar NormalForm<Scalar>::share_of(const Scalar& u, std::size_t k) const {
+  const std::size_t i = layers_.flux_index(k);
+  return is_concave_ ? highest_[i] - u * width_[i] : lowest_[i] + u * width_[i];
 }
 
 template <Real Scalar>
@@ -140,7 +146,7 @@ void NormalForm<Scalar>::set_initial_data(SceneSpec<Scalar>& spec) {
     if (is_same) {
       drop_break();  // an interface inside the piece
     } else {
-      const Scalar u = u_of(scene_.initial_values()[piece], k);
+      const Scalar u = state_of(scene_.initial_values()[piece], k);
       spec.initial_values.push_back(std::min(Scalar(1), std::max(Scalar(0), u)));
       initial_piece_.push_back(piece);
       initial_layer_.push_back(k);
@@ -213,8 +219,8 @@ Profile<Scalar> NormalForm<Scalar>::image_of(const Profile<Scalar>& profile) con
                        : Scalar(profile.below()[cell] + rise * ((z - from) / (to - from)));
     };
     const auto add = [&](const Scalar& lo, const Scalar& hi) {
-      below.push_back(u_of(phi(lo) / layers_.packing(k), k));
-      above.push_back(u_of(phi(hi) / layers_.packing(k), k));
+      below.push_back(state_of(phi(lo) / layers_.packing(k), k));
+      above.push_back(state_of(phi(hi) / layers_.packing(k), k));
       y.push_back(std::max(y.back(), image_of(hi)));
     };
     Scalar lo = from;

@@ -52,6 +52,9 @@ class NormalForm {
   [[nodiscard]] Scalar sign() const { return Scalar(is_concave_ ? -1 : 1); }
   /// d(phi / c) / du in layer k.
   [[nodiscard]] Scalar state_slope(std::size_t k) const { return sign() * width_[layers_.flux_index(k)]; }
+  /// u of the share phi / c in layer k, and back.
+  [[nodiscard]] Scalar state_of(const Scalar& share, std::size_t k) const;
+  [[nodiscard]] Scalar share_of(const Scalar& u, std::size_t k) const;
   /// Piece of the scene's initial data to which piece j of the image's belongs.
   [[nodiscard]] std::size_t initial_piece(std::size_t j) const { return initial_piece_[j]; }
   /// Lowest layer of piece j of the image's initial data; all of its layers have the same flux.
@@ -70,7 +73,6 @@ class NormalForm {
 
  private:
   [[nodiscard]] static LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers);
-  [[nodiscard]] Scalar u_of(const Scalar& share, std::size_t k) const;
   [[nodiscard]] Scene<Scalar> make_image();
   void set_initial_data(SceneSpec<Scalar>& spec);
 

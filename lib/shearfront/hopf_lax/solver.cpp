@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/exact_share_integral.hpp"
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/hopf_lax/refusal.hpp"
 
@@ -48,6 +49,7 @@ SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest&
       result.summary.status = Status::interrupted;
       result.summary.message = "interrupted at t = " + number_text(t);
       result.samples.clear();
+      result.integrals.clear();
       break;
     }
     for (const double z : request.depths) {
@@ -55,6 +57,7 @@ SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest&
       result.samples.push_back({value.phi, value.M});
       worst_M = std::max(worst_M, value.M_error);
     }
+    if (request.integrand) result.integrals.push_back(share_integral(solution, t, request.integrand));
   }
   if (result.summary.usable() && request.timeline)
     result.timeline = exact_timeline(scene, {.layers = options.layers});

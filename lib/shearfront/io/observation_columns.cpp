@@ -96,10 +96,17 @@ void ObservationColumns::read_known() {
     else
       at = i;
   }
-  if (has(Column::phi) && has(Column::M))
-    refuse(std::max(field(Column::phi), field(Column::M)),
+  std::vector<Column> values;
+  for (const Column column : {Column::phi, Column::M, Column::H})
+    if (has(column)) values.push_back(column);
+  std::sort(values.begin(), values.end(), [&](Column a, Column b) { return field(a) < field(b); });
+  if (values.size() > 1)
+    refuse(field(values[1]),
            fmt::format("must not stand beside {}: a file has one quantity, remove or rename one of them",
-                       field(Column::phi) < field(Column::M) ? "phi" : "M"));
+                       name_of(values[0])));
+  else if (has(Column::H) && (has(Column::z) || has(Column::width)))
+    refuse(field(has(Column::z) ? Column::z : Column::width),
+           "must not stand beside H: the height of the bed has no place in it");
   else if (has(Column::M) && has(Column::width))
     refuse(field(Column::width), "must not stand beside M: only concentrations are averaged over bins");
 }
@@ -126,11 +133,13 @@ void ObservationColumns::read_unknown() {
 
 void ObservationColumns::find_missing() {
   for (const Column column : {Column::t, Column::z, Column::phi}) {
-    if (has(column) || (column == Column::phi && has(Column::M))) continue;
-    std::string constraint = column == Column::t ? "must have a column t (time)"
-                             : column == Column::z
-                                 ? "must have a column z (height)"
-                                 : "must have a column phi (concentration) or M (cumulative)";
+    if (has(column) || (column == Column::phi && value() != Column::phi)) continue;
+    if (column == Column::z && has(Column::H)) continue;
+    std::string constraint =
+        column == Column::t ? "must have a column t (time)"
+        : column == Column::z
+            ? "must have a column z (height)"
+            : "must have a column phi (concentration), M (cumulative) or H (height of the bed)";
     if (const auto meant = misspelt(column)) constraint += "; rename " + *meant + " if that is meant";
     refuse_header(std::move(constraint));
   }
@@ -173,6 +182,7 @@ void ObservationColumns::refuse_header(std::string constraint) {
 }
 
 Quantity ObservationColumns::quantity() const {
+  if (has(Column::H)) return Quantity::bed_height;
   if (has(Column::M)) return Quantity::cumulative;
   return has(Column::width) ? Quantity::bin : Quantity::point;
 }

@@ -109,11 +109,13 @@ class ObservationsReader {
     Observation o;
     bool is_good = read_number(offset, Column::t, o.t, "");
     if (is_good && !(o.t >= 0)) is_good = refuse(offset, Column::t, "must be >= 0");
-    is_good = read_height(offset, o) && is_good;
+    if (columns_->has(Column::z)) is_good = read_place(offset, o) && is_good;
     const bool has_value = !is_missing(fields_[columns_->field(columns_->value())].text);
     if (has_value)
       is_good =
           read_number(offset, columns_->value(), o.value, ", or empty or NA if it is missing") && is_good;
+    if (has_value && is_good && columns_->has(Column::H) && !(o.value > 0))
+      is_good = refuse(offset, Column::H, "must be > 0");
     is_good = read_sigma(offset, o) && is_good;
     if (!has_value) {
       ++result_.n_missing;
@@ -123,7 +125,7 @@ class ObservationsReader {
     }
   }
 
-  bool read_height(std::size_t offset, Observation& o) {
+  bool read_place(std::size_t offset, Observation& o) {
     bool is_good = read_number(offset, Column::z, o.z, "");
     if (is_good && !(o.z >= bottom_ && o.z <= top_))
       is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
@@ -216,16 +218,22 @@ class ObservationsReader {
         continue;
       }
       const Origin& again = origins_[order[i]];
-      report_.add(position_of(again, Column::z),
-                  {fmt::format("z[{}]", again.row), number_text(rows[order[i]].z),
-                   fmt::format("must differ from z of line {}, which has the same t{}",
-                               source_.position(origins_[order[first]].offset).line,
-                               columns_->has(Column::width) ? " and width" : "")});
+      const bool has_place = columns_->has(Column::z);
+      const Observation& row = rows[order[i]];
+      report_.add(
+          position_of(again, has_place ? Column::z : Column::t),
+          {fmt::format("{}[{}]", has_place ? "z" : "t", again.row), number_text(has_place ? row.z : row.t),
+           fmt::format("must differ from {} of line {}{}", has_place ? "z" : "t",
+                       source_.position(origins_[order[first]].offset).line,
+                       !has_place                     ? ""
+                       : columns_->has(Column::width) ? ", which has the same t and width"
+                                                      : ", which has the same t")});
     }
   }
 
   void note_range() {
     if (result_.quantity == Quantity::cumulative) return;
+    if (result_.quantity == Quantity::bed_height) return note_heights();
     const auto largest =
         std::max_element(result_.rows.begin(), result_.rows.end(),
                          [](const Observation& a, const Observation& b) { return a.value < b.value; });
@@ -233,6 +241,20 @@ class ObservationsReader {
       result_.notes.push_back(fmt::format(
           "{}: phi goes up to {}; it must be a fraction, 1 where all grains are small (is it in percent?)",
           printable(source_.name()), number_text(largest->value)));
+  }
+
+  /// A bed whose grains have come apart is as high as the domain, one that mixes hardly lower.
+  void note_heights() {
+    constexpr double kPlausible = 2;
+    const double height = top_ - bottom_;
+    if (!std::isfinite(height)) return;
+    for (const Observation& o : result_.rows) {
+      if (o.value < kPlausible * height && o.value > height / kPlausible) continue;
+      result_.notes.push_back(
+          fmt::format("{}: H = {} where a segregated bed has {}, the height of the domain (in another unit?)",
+                      printable(source_.name()), number_text(o.value), number_text(height)));
+      return;
+    }
   }
 
   static constexpr std::size_t kLongestShown = 40;

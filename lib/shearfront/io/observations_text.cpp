@@ -30,14 +30,16 @@ std::string observations_text(const Observations& observations) {
     text += (name == "t" ? "" : ",") + detail::csv_field(detail::heading_text(name, unit));
   };
   heading("t", units.t);
-  heading("z", units.z);
-  heading(observations.quantity == Quantity::cumulative ? "M" : "phi", units.value);
+  const bool has_place = observations.quantity != Quantity::bed_height;
+  if (has_place) heading("z", units.z);
+  heading(!has_place ? "H" : observations.quantity == Quantity::cumulative ? "M" : "phi", units.value);
   if (is_bin) heading("width", units.z);
   if (has_sigma) heading("sigma", units.value);
   text += '\n';
   for (const Observation& o : observations.rows) {
     text += number_text(o.t);
-    for (const double x : {o.z, o.value}) (text += ',') += number_text(x);
+    if (has_place) (text += ',') += number_text(o.z);
+    (text += ',') += number_text(o.value);
     if (is_bin) (text += ',') += number_text(o.width);
     if (has_sigma) (text += ',') += number_text(o.sigma);
     text += '\n';

@@ -24,6 +24,21 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
                         const std::vector<double>& times, const std::vector<double>& depths,
                         const std::vector<Sample>& samples, const Summary& summary);
 
+/// What belongs to a whole bed, as a function of time: one row per time, with the names of its columns.
+struct TimeTable {
+  std::vector<std::string> columns;  ///< names, without t
+  std::vector<double> times;
+  std::vector<std::vector<double>> rows;
+};
+
+/// Header t and the columns, one row per time.
+void write_time_table_csv(OutputFile& file, const TimeTable& table);
+
+/// {"scene","method","times", one array per column, then `extra` (members of an object, or nothing),
+/// "summary"}.
+void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
+                           const TimeTable& table, std::string_view extra, const Summary& summary);
+
 /// {"scene","method","mass","steady_height","t0","t1","t_star","interfaces":[{"z","first","last"}],"summary"}.
 /// A time that never comes is null. `digits` > 17 writes every number of the timeline with that many digits.
 template <Real S>

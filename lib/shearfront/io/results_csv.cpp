@@ -34,6 +34,19 @@ void write_samples_csv(OutputFile& file, const std::vector<double>& times, const
   hand_on(file, rows, 0);
 }
 
+void write_time_table_csv(OutputFile& file, const TimeTable& table) {
+  std::string rows = "t";
+  for (const std::string& column : table.columns) rows += "," + column;
+  rows += '\n';
+  for (std::size_t i = 0; i < table.times.size(); ++i) {
+    rows += field(table.times[i]);
+    for (const double x : table.rows[i]) (rows += ',') += field(x);
+    rows += '\n';
+    hand_on(file, rows, kBlock);
+  }
+  hand_on(file, rows, 0);
+}
+
 void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts) {
   std::string rows = "layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above\n";
   for (const FrontSegment<double>& f : fronts) {

@@ -51,6 +51,19 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
   file.write(fmt::format("  \"summary\": {}\n}}\n", summary_text(summary)));
 }
 
+void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
+                           const TimeTable& table, std::string_view extra, const Summary& summary) {
+  file.write(fmt::format("{{\n  \"scene\": {},\n  \"method\": {},\n  \"times\": {},\n", json_text(scene),
+                         json_text(method), array(table.times)));
+  for (std::size_t j = 0; j < table.columns.size(); ++j) {
+    std::vector<double> column;
+    for (const std::vector<double>& row : table.rows) column.push_back(row[j]);
+    file.write(fmt::format("  {}: {},\n", json_text(table.columns[j]), array(column)));
+  }
+  if (!extra.empty()) file.write(fmt::format("  {},\n", extra));
+  file.write(fmt::format("  \"summary\": {}\n}}\n", summary_text(summary)));
+}
+
 template <Real S>
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
                        const Timeline<S>& timeline, const Summary& summary, int digits) {

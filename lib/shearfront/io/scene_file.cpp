@@ -37,8 +37,9 @@ class SceneReader {
     fluxes(root.tables("flux", Need::optional, "must be a table with model, or an array of such tables"));
     if (auto table = root.table("shear_rate", Need::required, "must be a table with model and its entries"))
       shear_rate(*table);
-    profile(root, "packing", spec_.packing);
-    profile(root, "temperature", spec_.temperature);
+    optional_model<ShearRateList<S>>(root, "packing", spec_.packing);
+    optional_model<ShearRateList<S>>(root, "temperature", spec_.temperature);
+    optional_model<ClosePackingList<S>>(root, "close_packing", spec_.close_packing);
     if (auto table = root.table("initial", Need::required, "must be a table with breaks and values")) {
       table->number("breaks", Need::required, spec_.initial_breaks);
       table->number("values", Need::required, spec_.initial_values);
@@ -84,13 +85,14 @@ class SceneReader {
     if (is_known) table.finish();  // otherwise nobody knows which keys are right
   }
 
-  void profile(TableReader& root, std::string_view key, std::optional<DepthProfile<S>>& profile) {
+  /// A table that may be missing.
+  template <class List, class Variant>
+  void optional_model(TableReader& root, std::string_view key, std::optional<Variant>& variant) {
     auto table = root.table(key, Need::optional, "must be a table with model and its entries");
     if (!table) return;
-    using List = ShearRateList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table->text("model", Need::required, what);
-    if (model && model_by_name<List>(*table, *model, what, profile.emplace()))
+    if (model && model_by_name<List>(*table, *model, what, variant.emplace()))
       table->finish();
     else
       unknown_.emplace_back(key);

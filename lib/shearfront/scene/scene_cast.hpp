@@ -84,6 +84,9 @@ template <Real To, Real From>
   to.scale = number_cast<To>(from.scale);
   if (from.packing) to.packing = profile(*from.packing);
   if (from.temperature) to.temperature = profile(*from.temperature);
+  if (from.close_packing)
+    to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
+                                  *from.close_packing);
   to.initial_breaks = numbers_cast<To>(from.initial_breaks);
   to.initial_values = numbers_cast<To>(from.initial_values);
   to.bottom = number_cast<To>(from.bottom);

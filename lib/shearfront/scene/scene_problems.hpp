@@ -33,6 +33,7 @@ class Checker {
     check_number("shear_rate.scale", Range::positive, spec_.scale, problems_);
     if (spec_.packing) profile("packing.", *spec_.packing);
     if (spec_.temperature) profile("temperature.", *spec_.temperature);
+    if (spec_.close_packing) close_packing();
     if (problems_.empty()) scaled_rate();
     if (problems_.empty()) scaled_packing();
     check_number("initial.breaks", Range::any, spec_.initial_breaks, problems_);
@@ -97,6 +98,15 @@ class Checker {
           if (domain_ok_) model.check(prefix, spec_.bottom, spec_.top, problems_);
         },
         profile);
+  }
+
+  void close_packing() {
+    std::visit(
+        [&](const auto& law) {
+          law.fields(law, field("close_packing."));
+          law.check("close_packing.", problems_);
+        },
+        *spec_.close_packing);
   }
 
   [[nodiscard]] static Scalar value(const DepthProfile<Scalar>& profile, const Scalar& z) {

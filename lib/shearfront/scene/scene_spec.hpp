@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/close_packing/all.hpp"
 #include "shearfront/flux/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/scene/field.hpp"
@@ -35,6 +36,8 @@ struct SceneSpec {
   Scalar scale{1};                                  ///< s, 1/time if a is dimensionless
   std::optional<DepthProfile<Scalar>> packing;      ///< c(z); 1 if not given
   std::optional<DepthProfile<Scalar>> temperature;  ///< T(z); 1 if not given
+  /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
+  std::optional<ClosePacking<Scalar>> close_packing;
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
   std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z
@@ -83,6 +86,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   };
   profile(spec.packing, "packing.");
   profile(spec.temperature, "temperature.");
+  profile(spec.close_packing, "close_packing.");
   visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
   visit(std::string("initial.values"), Range::any, spec.initial_values);
   visit(std::string("domain.bottom"), Range::any, spec.bottom);

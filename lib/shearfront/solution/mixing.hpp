@@ -2,6 +2,7 @@
 #pragma once
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
+#include "shearfront/solution/share_function.hpp"
 
 namespace shearfront {
 
@@ -19,13 +20,15 @@ struct Mixing {
 
 /// e(x), 0 at both ends; shares beyond [0, 1] (schemes that overshoot) count as pure.
 [[nodiscard]] double entropy_of_share(double x);
+/// e as a function to be integrated.
+[[nodiscard]] ShareFunction entropy_function();
 
-/// Mixing of a profile of phi in the scene's bed. E is exact to rounding where x is constant between the
-/// knots of c and the cells of the profile (finite volumes, staircases of front tracking); elsewhere by
-/// Gauss's rule with 7 points per piece, whose error where x runs linearly from 0 to 1 within one piece is
-/// 2e-3 of its height, and falls with the square of the change of x. Psi <= 1 by Jensen's inequality, to
-/// rounding. Cost: O(cells + knots). Source: the thesis named in docs/packing.md, eqs.
-/// (5.4) to (5.9).
+/// Mixing of a bed with the entropy E that holds `amount` of the grains phi counts, of `solid` = int c dz.
+/// Psi <= 1 by Jensen's inequality, to rounding.
+[[nodiscard]] Mixing mixing(double entropy, double amount, double solid);
+
+/// Mixing of a profile of phi in the scene's bed, with the accuracy of share_integral(). Source: the thesis
+/// named in docs/packing.md, eqs. (5.4) to (5.9).
 [[nodiscard]] Mixing mixing(const Scene<double>& scene, const Profile<double>& profile);
 
 }  // namespace shearfront

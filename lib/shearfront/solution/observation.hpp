@@ -12,9 +12,10 @@ namespace shearfront {
 
 /// What a measured number is.
 enum class Quantity {
-  point,      ///< phi(z, t)
-  bin,        ///< mean of phi over [z - width/2, z + width/2]
-  cumulative  ///< M(z, t) = int_bottom^z phi
+  point,       ///< phi(z, t)
+  bin,         ///< mean of phi over [z - width/2, z + width/2]
+  cumulative,  ///< M(z, t) = int_bottom^z phi
+  bed_height   ///< H(t), the height of the bed (solution/bed_height.hpp)
 };
 
 [[nodiscard]] constexpr std::string_view name_of(Quantity quantity) {
@@ -25,12 +26,15 @@ enum class Quantity {
       return "bin";
     case Quantity::cumulative:
       return "cumulative";
+    case Quantity::bed_height:
+      return "bed-height";
   }
   return "unknown";
 }
 
 /// One measured number with its place. Time >= 0 and z in the units of the scene; sigma > 0 is the standard
-/// deviation of its noise, NaN where the file gives none; width > 0 for bins, 0 otherwise.
+/// deviation of its noise, NaN where the file gives none; width > 0 for bins, 0 otherwise. A height of the
+/// bed has no place of its own: z is then 0.
 struct Observation {
   double t = 0, z = 0, value = 0, width = 0;
   double sigma = std::numeric_limits<double>::quiet_NaN();

@@ -14,6 +14,7 @@
 
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront {
 namespace {
@@ -66,6 +67,8 @@ Problems find_problems(const ObservationPlan& plan, double bottom, double top) {
   for (std::size_t i = 0; i < plan.times.size(); ++i)
     if (!(plan.times[i] >= 0) || !std::isfinite(plan.times[i]))
       add(element("times", i), plan.times[i], "must be a finite number >= 0");
+  if (plan.quantity == Quantity::bed_height && !plan.depths.empty())
+    add("depths", plan.depths[0], "must not be given: the height of the bed has no depth");
   const bool is_bin = plan.quantity == Quantity::bin;
   const bool is_width_good = is_bin ? plan.width > 0 && std::isfinite(plan.width) : plan.width == 0;
   for (std::size_t i = 0; i < plan.depths.size(); ++i) {
@@ -101,6 +104,10 @@ SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene
     throw InputError(std::move(problems));
   SolverRequest request;
   request.times = plan.times;
+  if (plan.quantity == Quantity::bed_height) {
+    request.integrand = BedHeight(scene).integrand();
+    return request;
+  }
   if (plan.quantity != Quantity::bin) {
     request.depths = plan.depths;
     return request;
@@ -113,8 +120,21 @@ SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene
   return request;
 }
 
-Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
-                     const std::vector<Sample>& samples) {
+/// Heights of the bed, one per time.
+static Observations observed_heights(const ObservationPlan& plan, const Scene<double>& scene,
+                                     const std::vector<double>& integrals) {
+  SHEARFRONT_EXPECTS(integrals.size() == plan.times.size(), "integrals of request_of()");
+  Observations observations;
+  observations.quantity = Quantity::bed_height;
+  const BedHeight bed(scene);
+  for (std::size_t i = 0; i < integrals.size(); ++i)
+    observations.rows.push_back({plan.times[i], 0, bed.height(integrals[i])});
+  return observations;
+}
+
+Observations observe(const ObservationPlan& plan, const Scene<double>& scene, const SolverResult& result) {
+  if (plan.quantity == Quantity::bed_height) return observed_heights(plan, scene, result.integrals);
+  const std::vector<Sample>& samples = result.samples;
   const bool is_bin = plan.quantity == Quantity::bin;
   SHEARFRONT_EXPECTS(samples.size() == plan.times.size() * plan.depths.size() * (is_bin ? 2 : 1),
                      "samples of request_of()");
@@ -154,6 +174,7 @@ void add_noise(Observations& observations, double sigma, std::uint64_t seed, std
 }
 
 void clip(Observations& observations, const Scene<double>& scene) {
+  if (observations.quantity == Quantity::bed_height) return;
   for (Observation& o : observations.rows) {
     const StateRange<double> range = observations.quantity == Quantity::cumulative
                                          ? StateRange<double>{scene.amount(scene.bottom(), o.z, false),

@@ -12,11 +12,11 @@
 ///
 ///     const ObservationPlan plan{{0.5, 1}, {0.25, 0.75}, Quantity::cumulative, 0};
 ///     auto result = ExactSolver::solve(scene, request_of(plan, scene), options);
-///     auto observations = observe(plan, scene, result.samples);
+///     auto observations = observe(plan, scene, result);
 ///     add_noise(observations, 0.01, 1);
 namespace shearfront {
 
-/// Where and what to observe: every time with every depth.
+/// Where and what to observe: every time with every depth. The height of the bed has no depths.
 struct ObservationPlan {
   std::vector<double> times, depths;
   Quantity quantity = Quantity::point;
@@ -33,16 +33,19 @@ struct ObservationPlan {
 /// is the one with the fewest digits: 0.1 for 0.05, 0.15, ..., 0.95.
 [[nodiscard]] std::optional<double> equal_spacing(std::vector<double> depths);
 
-/// What a solver has to compute: the depths of the plan, for bins their edges.
-/// Errors: InputError with find_problems().
+/// What a solver has to compute: the depths of the plan, for bins their edges; the integral of
+/// BedHeight(scene) for heights of the bed.
+/// Errors: InputError with find_problems(). Precondition: BedHeight::refusal(scene) is empty if the quantity
+/// is the height of the bed.
 [[nodiscard]] SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene);
 
-/// The samples of request_of() as observations, one row per time and depth, depths running fastest:
-///     point phi(z, t)      cumulative M(z, t)      bin (M(z + w/2, t) - M(z - w/2, t)) / w
+/// The result of request_of() as observations, one row per time and depth, depths running fastest:
+///     point phi(z, t)      cumulative M(z, t)      bin (M(z + w/2, t) - M(z - w/2, t)) / w      bed height
+///     H(t)
 /// without noise and without sigma. A bin is as exact as M is, up to a rounding of about eps top / w.
-/// Precondition: samples are those of request_of(plan, scene).
+/// Precondition: the result is a usable one of request_of(plan, scene).
 [[nodiscard]] Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
-                                   const std::vector<Sample>& samples);
+                                   const SolverResult& result);
 
 /// The seed of an independent stream of random numbers: h(h(seed) + replicate), where h(x) is the output of
 /// Splitmix64 in state x (Steele, Lea & Flood 2014). h is a bijection, so two replicates of one seed never
@@ -57,8 +60,9 @@ struct ObservationPlan {
 void add_noise(Observations& observations, double sigma, std::uint64_t seed, std::uint64_t replicate = 0);
 
 /// Clips every value to what the quantity can be: phi to the range of the flux [lo, hi], usually [0, 1], and
-/// M to [lo, hi] * (z - bottom). The noise is then no longer normal where it would have led outside: it has a
-/// mean towards the inside and a standard deviation below sigma, which is left as it is.
+/// M to what the bed below z can hold; heights of the bed are left alone. The noise is then no longer normal
+/// where it would have led outside: it has a mean towards the inside and a standard deviation below sigma,
+/// which is left as it is.
 void clip(Observations& observations, const Scene<double>& scene);
 
 }  // namespace shearfront

@@ -12,6 +12,7 @@
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/front_segment.hpp"
 #include "shearfront/solution/profile.hpp"
+#include "shearfront/solution/share_function.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
 
@@ -56,9 +57,10 @@ struct SolverOptions {
 struct SolverRequest {
   std::vector<double> times;
   std::vector<double> depths;
-  bool timeline = false;  ///< event times wanted
-  bool fronts = false;    ///< front segments wanted (solvers that have fronts)
-  bool profiles = false;  ///< phi over the whole domain wanted (solvers that have profiles)
+  bool timeline = false;      ///< event times wanted
+  bool fronts = false;        ///< front segments wanted (solvers that have fronts)
+  bool profiles = false;      ///< phi over the whole domain wanted (solvers that have profiles)
+  ShareFunction integrand{};  ///< g, if int c g(phi / c) dz over the bed is wanted
 };
 
 struct Sample {
@@ -71,6 +73,7 @@ struct SolverResult {
   std::optional<Timeline<double>> timeline;
   std::vector<FrontSegment<double>> fronts;
   std::vector<Profile<double>> profiles;  ///< profiles[i] belongs to times[i]; the samples are its values
+  std::vector<double> integrals;          ///< integrals[i], of the integrand, belongs to times[i]
   Summary summary;
 };
 

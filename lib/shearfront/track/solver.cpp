@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solution/share_integral.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
@@ -96,6 +97,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   Status status = Status::ok;
   const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
   if (request.profiles) result.profiles.resize(request.times.size());
+  if (request.integrand) result.integrals.resize(request.times.size());
   for (const std::size_t i : order) {
     status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
@@ -103,6 +105,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
     const auto values = profile.at(request.depths);
     for (std::size_t j = 0; j < values.size(); ++j)
       result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
+    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
     if (request.profiles) result.profiles[i] = std::move(profile);
   }
   if (request.timeline && is_usable()) {
@@ -113,7 +116,10 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
     tracker.close_record();
     result.fronts = tracker.observer().segments();
   }
-  if (!is_usable()) result.profiles.clear();
+  if (!is_usable()) {
+    result.profiles.clear();
+    result.integrals.clear();
+  }
   summary.status = status;
   summary.message = message_of(status, tracker.n_collisions(), tracker.n_unreachable());
   summary.collisions = tracker.n_collisions();

@@ -18,6 +18,7 @@ struct BinMisfit {
   static constexpr bool kIsSmooth = true;
 
   static std::string refusal(const Observations& observations) {
+    if (observations.quantity == Quantity::bed_height) return "heights of the bed have no concentrations";
     if (observations.quantity == Quantity::bin) return "";
     for (const MeasuredProfile& profile : measured_profiles(observations))
       if (profile.rows.size() > 1) return "";

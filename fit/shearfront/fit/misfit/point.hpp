@@ -17,6 +17,7 @@ struct PointMisfit {
 
   /// Why these data cannot be compared in this way; empty if they can.
   static std::string refusal(const Observations& observations) {
+    if (observations.quantity == Quantity::bed_height) return "heights of the bed have no concentrations";
     return observations.quantity == Quantity::cumulative ? "cumulative data have no point values; use bin"
                                                          : "";
   }

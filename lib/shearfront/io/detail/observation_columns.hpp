@@ -13,8 +13,8 @@
 
 namespace shearfront::detail {
 
-enum class Column { t, z, phi, M, width, sigma };
-inline constexpr std::array<std::string_view, 6> kColumnNames{"t", "z", "phi", "M", "width", "sigma"};
+enum class Column { t, z, phi, M, H, width, sigma };
+inline constexpr std::array<std::string_view, 7> kColumnNames{"t", "z", "phi", "M", "H", "width", "sigma"};
 
 [[nodiscard]] constexpr std::string_view name_of(Column column) {
   return kColumnNames[static_cast<std::size_t>(column)];
@@ -39,7 +39,9 @@ class ObservationColumns {
   /// The number of the field. Precondition: has(column).
   [[nodiscard]] std::size_t field(Column column) const { return *at_[index(column)]; }
   [[nodiscard]] std::size_t n_fields() const { return headings_.size(); }
-  [[nodiscard]] Column value() const { return has(Column::M) ? Column::M : Column::phi; }
+  [[nodiscard]] Column value() const {
+    return has(Column::H) ? Column::H : has(Column::M) ? Column::M : Column::phi;
+  }
   [[nodiscard]] Quantity quantity() const;
   [[nodiscard]] ObservationUnits units() const;
   /// One line per column that is not used.

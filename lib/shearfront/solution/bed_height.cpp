@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/solution/bed_height.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace shearfront {
+namespace {
+
+bool counts_large_grains(const Scene<double>& scene) {
+  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<double>& flux) {
+    const auto* packed = std::get_if<Packed<double>>(&flux);
+    return packed && packed->grains == Grains::large;
+  });
+}
+
+}  // namespace
+
+std::string BedHeight::refusal(const Scene<double>& scene) {
+  if (scene.spec().outside_bottom || scene.spec().outside_top)
+    return "grains come and go at the open ends of this bed: it has no height of its own";
+  for (const Flux<double>& flux : scene.fluxes()) {
+    const StateRange<double> range = std::visit([](const auto& f) { return f.range(); }, flux);
+    if (range.lowest < 0 || range.highest > 1)
+      return "the states of this bed are no shares of grains: they must lie between 0 and 1";
+  }
+  return "";
+}
+
+BedHeight::BedHeight(const Scene<double>& scene) {
+  const auto law = scene.spec().close_packing.value_or(PackingPolynomial<double>{});
+  const bool is_large = counts_large_grains(scene);
+  const auto packing = [law, is_large](double x) {
+    const double share = std::clamp(x, 0.0, 1.0);
+    return std::visit([&](const auto& model) { return model.value(is_large ? 1 - share : share); }, law);
+  };
+  integrand_.value = [packing](double x) { return 1 / packing(x); };
+  integrand_.kinks = std::visit([](const auto& model) { return model.kinks(); }, law);
+  if (is_large) {
+    for (double& x : integrand_.kinks) x = 1 - x;
+    std::reverse(integrand_.kinks.begin(), integrand_.kinks.end());
+  }
+  const double mass = scene.mass(), solid = scene.solid(scene.bottom(), scene.top());
+  scale_ = (scene.top() - scene.bottom()) / (mass / packing(1) + (solid - mass) / packing(0));
+}
+
+}  // namespace shearfront
