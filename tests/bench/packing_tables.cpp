@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "shearfront/fv/plain_march.hpp"
-#include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
+#include "support/packed_scene.hpp"
 
 namespace {
 
@@ -57,7 +57,7 @@ double overshoot(fv::FaceRule rule, const Scene<double>& scene, std::size_t cell
   return most;
 }
 
-/// Largest phi - c of front tracking over a sample of times; smooth scenes as a staircase, c of its layers.
+/// Largest phi - c(z) of front tracking over a sample of times, at the ends of the pieces of its profiles.
 double tracked_overshoot(const Scene<double>& scene, double resolution) {
   SolverRequest request{{}, {}};
   for (int i = 1; i <= 30; ++i) request.times.push_back(0.05 * i);
@@ -65,17 +65,10 @@ double tracked_overshoot(const Scene<double>& scene, double resolution) {
   SolverOptions options;
   options.resolution = resolution;
   options.layers = 200;
-  const LayerStack<double> stack =
-      scene.is_layered() ? exact_layers(scene) : staircase(scene, options.layers);
   const SolverResult result = FrontTrackingSolver::solve(scene, request, options);
   if (!result.summary.usable()) return std::nan("");
   double most = 0;
-  for (const auto& profile : result.profiles)
-    for (std::size_t i = 0; i < profile.n_cells(); ++i) {
-      const double lo = profile.z()[i], hi = profile.z()[i + 1];
-      const double c = stack.packing(stack.layer_at(lo + (hi - lo) / 2));
-      if (hi > lo) most = std::max({most, profile.below()[i] - c, profile.above()[i] - c});
-    }
+  for (const auto& profile : result.profiles) most = std::max(most, support::overshoot(scene, profile));
   return most;
 }
 

@@ -6,9 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/solution/mixing.hpp"
+#include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
+#include "shearfront/track/solver.hpp"
 #include "shearfront/track/tracker.hpp"
 #include "shearfront/track/verify.hpp"
+#include "support/packed_scene.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -68,6 +72,60 @@ TEST(PackingLaws, NoOvershootAndNoLossOver1000Profiles) {
       EXPECT_NEAR(tracker.mass(), mass, 1e-13);
       if (number < 100)
         for (const std::string& violation : verify(tracker, 1e-12, 1e-12)) ADD_FAILURE() << violation;
+    }
+  }
+}
+
+// Layers carry x = phi / c; where c is smooth the solution is x c(z), not x times the mean of a layer.
+TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
+  SceneMaker maker(support::seed_of(7302));
+  for (int number = 0; number < 60; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    SceneSpec<double> spec = draw_scene(maker).spec();
+    if (number % 3 == 0) {
+      spec.packing = Exponential<double>{0.7, maker.uniform(0.2, 2)};
+    } else {
+      spec.packing = Table<double>{{0, 0.3, maker.uniform(0.4, 1), 1},
+                                   {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7), 0.5, 0.3}};
+    }
+    spec.initial_breaks = maker.heights(2, 0, 1);
+    const Scene<double> scene(spec);
+    SolverRequest request{{0.05, 0.5, infinity<double>()}, {0, 0.2, 0.71, 1}};
+    request.profiles = true;
+    SolverOptions options;
+    options.resolution = 0.1;
+    options.layers = 16;
+    const SolverResult result = FrontTrackingSolver::solve(scene, request, options);
+    ASSERT_TRUE(result.summary.usable()) << result.summary.message;
+    for (const Profile<double>& profile : result.profiles) {
+      EXPECT_LE(support::overshoot(scene, profile), 0);
+      EXPECT_NEAR(profile.mass(), scene.mass(), 1e-14);
+      EXPECT_TRUE(std::is_sorted(profile.z().begin(), profile.z().end()));
+      for (const double phi : profile.below()) EXPECT_GE(phi, 0);
+    }
+    if (number % 3 != 0) {  // an exponential is not quite its chords
+      EXPECT_NEAR(mixing(scene, result.profiles[2]).parameter, 0, 1e-12);
+    }
+    EXPECT_NEAR(result.samples.back().M, scene.mass(), 1e-14);
+  }
+}
+
+// M is that of the staircase at its interfaces and of second order in its layers between.
+TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
+  SceneMaker maker(support::seed_of(7303));
+  for (int number = 0; number < 40; ++number) {
+    SceneSpec<double> spec = draw_scene(maker).spec();
+    spec.packing = Table<double>{{0, 1}, {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7)}};
+    const Scene<double> scene(spec);
+    const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
+    Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+    tracker.advance_to(0.3);
+    const Profile<double> layers = tracker.profile(), smooth = packed_profile(tracker, scene, setup.stack);
+    ASSERT_EQ(layers.n_cells(), smooth.n_cells());
+    for (std::size_t i = 0; i < layers.z().size(); ++i) {
+      EXPECT_NEAR(smooth.cumulative()[i], layers.cumulative()[i], 1e-14);
+      // At most c' h / c / 8 of a layer h = 1/8 high, |c'| < 0.4 and c > 0.3.
+      EXPECT_NEAR(smooth.z()[i], layers.z()[i], 0.4 / 0.3 / 8 / 64);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "shearfront/flux/burgers.hpp"
 #include "shearfront/flux/cubic.hpp"
 #include "shearfront/flux/lwr.hpp"
+#include "shearfront/flux/lwr_cubic.hpp"
 #include "shearfront/flux/packed.hpp"
 #include "shearfront/flux/quadratic.hpp"
 #include "shearfront/flux/richardson_zaki.hpp"
@@ -14,8 +15,8 @@ namespace shearfront {
 
 /// Every flux of the toolkit. To add one: copy skeleton.hpp, include it here, and name it in the list.
 template <Real Scalar>
-using FluxList = TypeList<Quadratic<Scalar>, Packed<Scalar>, Cubic<Scalar>, Lwr<Scalar>, Triangular<Scalar>,
-                          RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
+using FluxList = TypeList<Quadratic<Scalar>, Packed<Scalar>, Cubic<Scalar>, Lwr<Scalar>, LwrCubic<Scalar>,
+                          Triangular<Scalar>, RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
 
 template <Real Scalar>
 using Flux = typename FluxList<Scalar>::Variant;

@@ -9,6 +9,7 @@
 
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/share_integral.hpp"
+#include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
@@ -72,7 +73,9 @@ std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_
 }
 
 template <class AnyTracker>
-Profile<double> profile_of(const AnyTracker& tracker, Reconstruction reconstruct) {
+Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene,
+                           const LayerStack<double>& stack, Reconstruction reconstruct) {
+  if (has_smooth_packing(scene)) return packed_profile(tracker, scene, stack);
   if constexpr (kIsLevelGrid<std::decay_t<decltype(tracker.grid())>>)
     if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
   return tracker.profile();
@@ -101,7 +104,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   for (const std::size_t i : order) {
     status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
-    Profile<double> profile = profile_of(tracker, options.reconstruct);
+    Profile<double> profile = profile_of(tracker, scene, setup.stack, options.reconstruct);
     const auto values = profile.at(request.depths);
     for (std::size_t j = 0; j < values.size(); ++j)
       result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
