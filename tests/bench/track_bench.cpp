@@ -3,8 +3,14 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <ctime>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "shearfront/track/setup.hpp"
+#include "shearfront/track/unimodal_grid.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -39,22 +45,30 @@ Scene<double> random_jumps(std::size_t n) {
   return Scene<double>(spec);
 }
 
+template <class Grid = LevelGrid<double>>
 void run(benchmark::State& state, const Scene<double>& scene, double resolution, double t) {
   double collisions = 0, levels = 0, fronts = 0;
+  std::clock_t building = 0, all = 0;
   for (auto _ : state) {
-    const TrackingSetup<double> setup(scene, resolution);
-    Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces);
+    const std::clock_t begin = std::clock();
+    const TrackingSetup<double, Grid> setup(scene, resolution);
+    building += std::clock() - begin;
+    Tracker<Grid> tracker(setup.grid, setup.pieces);
     tracker.advance_to(t);
     benchmark::DoNotOptimize(tracker.last_collision());
     collisions = static_cast<double>(tracker.n_collisions());
     levels = static_cast<double>(setup.grid.n_levels());
     fronts = static_cast<double>(tracker.n_fronts_max());
+    all += std::clock() - begin;
   }
   state.counters["collisions"] = collisions;
   state.counters["levels"] = levels;
   state.counters["fronts"] = fronts;
   state.counters["per_collision"] = benchmark::Counter(
       collisions, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["without_grid"] =
+      static_cast<double>(all - building) / CLOCKS_PER_SEC /
+      (collisions * static_cast<double>(state.iterations()));  // seconds per collision
 }
 
 void example_1_to_steady(benchmark::State& state) {
@@ -75,6 +89,84 @@ void exponential_to_0_9(benchmark::State& state) {
   run(state, exponential(), 1 / static_cast<double>(state.range(0)), 0.9);
 }
 BENCHMARK(exponential_to_0_9)->Arg(30)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
+
+/// One flux of every kind; the first one is what the others are compared with.
+const std::vector<std::pair<std::string, Flux<double>>>& fluxes() {
+  static const std::vector<std::pair<std::string, Flux<double>>> all{
+      {"quadratic", Quadratic<double>{}},
+      {"packed", Packed<double>{Grains::large}},
+      {"lwr", Lwr<double>{0.125}},
+      {"cubic_0.25", Cubic<double>{0.25}},
+      {"cubic_0.9", Cubic<double>{0.9}},
+      {"cubic_0.9_scaled", Cubic<double>{0.9, CubicScaling::quadratic_extremum}},
+      {"triangular", Triangular<double>{0.25, 1}},
+      {"richardson-zaki", RichardsonZaki<double>{4.7}},
+      {"table", FluxTable<double>{{0, 0.1, 0.4, 0.7, 1}, {0, -0.125, -0.25, -0.0625, 0}}}};
+  return all;
+}
+
+/// Layers, with the share of the range that opens a fan below the jump, and the other one above.
+SceneSpec<double> step_of(const Flux<double>& flux) {
+  SceneSpec<double> spec;
+  spec.fluxes = {flux};
+  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
+  spec.initial_breaks = {0.5};
+  std::visit(
+      [&](const auto& f) {
+        const auto [lowest, highest] = f.range();
+        const bool has_minimum = f.value(f.extrema().front()) < 0;
+        spec.initial_values = {has_minimum ? lowest : highest, has_minimum ? highest : lowest};
+      },
+      flux);
+  return spec;
+}
+
+/// 1000 jumps between 32 states, drawn at random.
+SceneSpec<double> jumps_of(const Flux<double>& flux) {
+  support::SceneMaker maker(2);
+  SceneSpec<double> spec = step_of(flux);
+  const double highest = std::visit([](const auto& f) { return f.range().highest; }, flux);
+  spec.initial_breaks.clear();
+  spec.initial_values.clear();
+  for (int i = 0; i <= 1000; ++i) {
+    if (i > 0) spec.initial_breaks.push_back(i / 1001.0);
+    spec.initial_values.push_back(highest * maker.integer(0, 31) / 31);
+  }
+  return spec;
+}
+
+/// Of an exponential a(z): every layer has a grid of its own.
+SceneSpec<double> staircase_of(const Flux<double>& flux) {
+  SceneSpec<double> spec = step_of(flux);
+  spec.shear_rate = Exponential<double>{4, 0.2};
+  return spec;
+}
+
+void any_flux(benchmark::State& state, const SceneSpec<double>& spec, double resolution, double t) {
+  const Scene<double> scene(spec);
+  state.SetLabel(fluxes()[static_cast<std::size_t>(state.range(0))].first);
+  if (LevelGrid<double>::refusal(tracking_layers(scene, resolution, 0)).empty())
+    run<LevelGrid<double>>(state, scene, resolution, t);
+  else
+    run<UnimodalGrid<double>>(state, scene, resolution, t);
+}
+const Flux<double>& flux_of(const benchmark::State& state) {
+  return fluxes()[static_cast<std::size_t>(state.range(0))].second;
+}
+void flux_step_to_steady(benchmark::State& state) {
+  any_flux(state, step_of(flux_of(state)), 1e-4, infinity<double>());
+}
+void flux_jumps_to_steady(benchmark::State& state) {
+  any_flux(state, jumps_of(flux_of(state)), 0.01, infinity<double>());
+}
+void flux_staircase_to_3(benchmark::State& state) { any_flux(state, staircase_of(flux_of(state)), 0.03, 3); }
+void every_flux(benchmark::internal::Benchmark* bench) {
+  for (std::size_t i = 0; i < fluxes().size(); ++i) bench->Arg(static_cast<std::int64_t>(i));
+  bench->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(flux_step_to_steady)->Apply(every_flux);
+BENCHMARK(flux_jumps_to_steady)->Apply(every_flux);
+BENCHMARK(flux_staircase_to_3)->Apply(every_flux);
 
 }  // namespace
 }  // namespace shearfront

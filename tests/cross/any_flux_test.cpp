@@ -65,7 +65,10 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
   for (const Flux<double>& flux : unimodal_fluxes())
     for (int number = 0; number < 2; ++number) {
       SCOPED_TRACE(name_of(flux) + ", scene " + std::to_string(number));
-      const Scene<double> scene(draw(maker, flux, 2 + number, 2));
+      SceneSpec<double> spec = draw(maker, flux, 2 + number, 2);
+      // Pieces of a few coarse cells say nothing about the order.
+      while (spec.initial_breaks[1] - spec.initial_breaks[0] < 0.05) spec = draw(maker, flux, 2 + number, 2);
+      const Scene<double> scene(spec);
       const double height = std::visit([](const auto& f) { return f.range().highest; }, flux);
       SolverRequest request;
       request.times = {0.2, 1};
@@ -136,69 +139,6 @@ TEST(AnyFlux, CompoundWaveOfANonConvexFlux) {
     ASSERT_EQ(result.profiles.size(), 1u);
     EXPECT_LT(l1_error(result.profiles[0]), 0.15 * resolution) << resolution;
   }
-}
-
-/// Flux at an interface by supply and demand, on the fluxes themselves.
-double supply_and_demand(const Flux<double>& below, double rate_below, double l, const Flux<double>& above,
-                         double rate_above, double r) {
-  return std::visit(
-      [&](const auto& f, const auto& g) {
-        const double m_f = f.extrema()[0], m_g = g.extrema()[0];
-        if (f.value(m_f) < 0)
-          return std::max(rate_below * f.value(std::max(l, m_f)), rate_above * g.value(std::min(r, m_g)));
-        return std::min(rate_below * f.value(std::min(l, m_f)), rate_above * g.value(std::max(r, m_g)));
-      },
-      below, above);
-}
-
-TEST(AnyFlux, InterfaceOfAnyTwoFluxesIsSupplyAndDemand) {
-  SceneMaker maker(support::seed_of(8103));
-  const std::vector<Flux<double>> fluxes = unimodal_fluxes();
-  const auto is_minimum = [](const Flux<double>& flux) {
-    return std::visit([](const auto& f) { return f.value(f.extrema()[0]) < 0; }, flux);
-  };
-  int n_crossing = 0;
-  for (int number = 0; number < 100000; ++number) {
-    const Flux<double>& below = fluxes[static_cast<std::size_t>(maker.integer(0, int(fluxes.size()) - 1))];
-    const Flux<double>& above = fluxes[static_cast<std::size_t>(maker.integer(0, int(fluxes.size()) - 1))];
-    if (is_minimum(below) != is_minimum(above)) continue;
-    const double a = maker.uniform(0.1, 4), b = maker.uniform(0.1, 4);
-    const auto state = [&](const Flux<double>& flux) {
-      const auto [lowest, highest] = std::visit([](const auto& f) { return f.range(); }, flux);
-      const int kind = maker.integer(0, 5);
-      if (kind < 2) return kind == 0 ? lowest : highest;
-      if (kind == 2) return std::visit([](const auto& f) { return f.extrema()[0]; }, flux);
-      return maker.uniform(lowest, highest);
-    };
-    const double l = state(below), r = state(above);
-    const LayerStack<double> stack({0, 0.5, 1}, {a, b}, 1, {true}, {{below, above}, {0, 1}, {}});
-    const auto built = UnimodalGrid<double>::exact_levels(stack, 1, {{0, l}, {1, r}});
-    const auto& grid = built.grid;
-    ASSERT_EQ(grid.phi(0, built.states[0]), l);
-    ASSERT_EQ(grid.phi(1, built.states[1]), r);
-    const StatePair pair = solve_interface(grid, 0, built.states[0], built.states[1]);
-    const double flux = supply_and_demand(below, a, l, above, b, r);
-    ASSERT_NEAR(grid.flux(0, pair.below), flux, 1e-14) << number;
-    ASSERT_NEAR(grid.flux(1, pair.above), flux, 1e-14) << number;
-    // Waves leave the interface: downwards below it, upwards above it.
-    solve_in_layer(grid, 0, built.states[0], pair.below,
-                   [&](State p, State q) { EXPECT_LE(grid.speed(0, p, q), 1e-14) << number; });
-    solve_in_layer(grid, 1, pair.above, built.states[1],
-                   [&](State p, State q) { EXPECT_GE(grid.speed(1, p, q), -1e-14) << number; });
-    const auto difference = [&](double u) {
-      const auto value = [&](const Flux<double>& f, double rate) {
-        return std::visit(
-            [&](const auto& g) {
-              const auto [lowest, highest] = g.range();
-              return rate * g.value(lowest + (highest - lowest) * u);
-            },
-            f);
-      };
-      return value(below, a) - value(above, b);
-    };
-    n_crossing += difference(0.05) * difference(0.95) < 0;
-  }
-  EXPECT_GT(n_crossing, 1000);
 }
 
 }  // namespace

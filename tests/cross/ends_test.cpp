@@ -61,9 +61,20 @@ TEST(Ends, APeriodicBedIsTheMiddleOfManyCopies) {
     }
 }
 
-// The bed goes on beyond its ends in the state that lies outside: then the ends are not there.
+/// Whether a wave that has left a bed from 0 to 1 turns, caught up by one that left later; those that leave
+/// the walls at `bottom` and `top` are not meant.
+bool turns(const std::vector<FrontSegment<double>>& fronts, double bottom, double top) {
+  return std::any_of(fronts.begin(), fronts.end(), [&](const auto& f) {
+    return (f.z_begin > 1 && f.z_begin < top && f.z_end < f.z_begin) ||
+           (f.z_begin < 0 && f.z_begin > bottom && f.z_end > f.z_begin);
+  });
+}
+
+// The bed goes on beyond its ends in the state that lies outside: then the ends are not there, as long as all
+// that leaves goes on leaving. (An end knows only the state outside, not what has gone there.)
 TEST(Ends, AnOpenEndNextToItsOwnStateIsNotThere) {
   SceneMaker maker(support::seed_of(8105));
+  int n_compared = 0;
   for (const Flux<double>& flux : unimodal_fluxes())
     for (int number = 0; number < 4; ++number) {
       SCOPED_TRACE(name_of(flux) + ", scene " + std::to_string(number));
@@ -77,11 +88,15 @@ TEST(Ends, AnOpenEndNextToItsOwnStateIsNotThere) {
       SolverOptions options;
       options.resolution = 0.05;
       const auto open = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
+      request.fronts = true;
       const auto all = FrontTrackingSolver::solve(Scene<double>(wide), request, options);
       ASSERT_EQ(open.samples.size(), 100u) << open.summary.message;
       ASSERT_EQ(all.samples.size(), 100u) << all.summary.message;
+      if (turns(all.fronts, wide.bottom, wide.top)) continue;
+      ++n_compared;
       for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(open.samples[i].phi, all.samples[i].phi, 1e-12) << i;
     }
+  EXPECT_GT(n_compared, 60);
 }
 
 // States beyond both ends that change often, more of them than the grid makes vertices of.

@@ -41,7 +41,9 @@ TEST(GeneralLaw, BranchesInvertTheFlux) {
   };
   for (const auto& flux : Lwr<double>::samples()) check(flux);
   for (const auto& flux : Triangular<double>::samples()) check(flux);
-  for (const double gamma : {0.0, 0.25, 0.5}) check(Cubic<double>{gamma});
+  for (const double gamma : {0.0, 0.25, 0.5})
+    for (const CubicScaling scaling : {CubicScaling::none, CubicScaling::quadratic_extremum})
+      check(Cubic<double>{gamma, scaling});
   check(FluxTable<double>::samples().front());
 }
 

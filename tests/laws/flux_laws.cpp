@@ -171,5 +171,31 @@ TYPED_TEST(FluxLaws, ParabolaIsOne) {
   });
 }
 
+// Gajjar & Gray compare fluxes of one extremum; the factor is 1 without and 27/16 with full asymmetry.
+TEST(CubicFlux, ScaledExtremumIsThatOfTheQuadraticFlux) {
+  constexpr auto kScaled = CubicScaling::quadratic_extremum;
+  const Quadratic<double> quadratic;
+  constexpr double kBound = 20 * 0x1p-53 / 4;  // about 20 operations, each of relative error 2^-53
+  for (int i = 0; i <= 1000; ++i) {
+    const Cubic<double> flux{i / 1000.0, kScaled}, own{i / 1000.0};
+    const double extremum = flux.extrema()[0];
+    EXPECT_NEAR(flux.value(extremum), quadratic.value(0.5), kBound) << flux.gamma;
+    EXPECT_EQ(extremum, own.extrema()[0]);
+    EXPECT_EQ(flux.curvature(), own.curvature());
+    // Nowhere deeper, and one factor for all states.
+    for (const double phi : states(0, 1)) EXPECT_GE(flux.value(phi), -0.25 - kBound) << flux.gamma;
+    EXPECT_NEAR(flux.value(0.3) / own.value(0.3), flux.derivative(0) / own.derivative(0), 4 * kBound);
+    const Cubic<Real50> fine{Real50(flux.gamma), kScaled};
+    EXPECT_NEAR(to_double(Real50(fine.value(fine.extrema()[0]) + Real50(0.25))), 0, 1e-48);
+  }
+  EXPECT_EQ((Cubic<double>{0, kScaled}.value(0.375)), quadratic.value(0.375));
+  EXPECT_NEAR((Cubic<double>{1, kScaled}.derivative(0)), -27.0 / 16, 4e-16);
+}
+
+TEST(TableFlux, TakesItsLastValueToTheBit) {
+  for (const auto& flux : FluxTable<double>::samples())
+    EXPECT_EQ(flux.value(flux.phi.back()), flux.values.back());
+}
+
 }  // namespace
 }  // namespace shearfront

@@ -26,7 +26,8 @@ inline Flux<double> random_flux(SceneMaker& make, FluxShape shape) {
       if (make.integer(0, 2) == 0) return Packed<double>{Grains::small};
       if (make.integer(0, 1) == 0)
         return FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.1875, -0.25, -0.1875, 0}};
-      return Cubic<double>{make.uniform(0, 0.5)};
+      if (make.integer(0, 1) == 0) return Cubic<double>{make.uniform(0, 0.5)};
+      return Cubic<double>{make.uniform(0, 0.5), CubicScaling::quadratic_extremum};
     case FluxShape::concave:
       if (make.integer(0, 2) == 0) return Lwr<double>{make.uniform(0.125, 2)};
       {

@@ -11,14 +11,15 @@
 
 #include "shearfront/fv/plain_march.hpp"
 #include "support/random_scene.hpp"
+#include "support/thesis_cases.hpp"
 
 namespace shearfront {
 namespace {
 
 using fv::FaceRule;
 
-double small_flux(double phi, double c) { return -phi * (c - phi) / c; }
-double least(double c) { return -c / 4; }
+using support::kTenCases;
+using support::ThesisCase;
 
 double flux(FaceRule rule, double phi_l, double c_l, double phi_r, double c_r) {
   const fv::FluxBranches f = fv::flux_branches(Packed<double>{Grains::small});
@@ -26,40 +27,22 @@ double flux(FaceRule rule, double phi_l, double c_l, double phi_r, double c_r) {
                        c_l);
 }
 
-struct Case {
-  const char* name;
-  double phi_l, c_l, phi_r, c_r, expected;
-};
-
-// The third column of the table, by hand: f(U_L), f(U_R) and the two minima.
-const std::vector<Case> kTenCases{
-    {"1: waves go down, f_R > f_L", 0.2, 0.6, 0.05, 0.6, small_flux(0.05, 0.6)},
-    {"2: waves go down, f_Lmin <= f_R < f_L", 0.1, 0.6, 0.2, 0.7, small_flux(0.2, 0.7)},
-    {"3: L cannot carry f_R", 0.1, 0.4, 0.3, 0.7, least(0.4)},
-    {"4: both ways, L is narrower", 0.1, 0.4, 0.5, 0.7, least(0.4)},
-    {"5: both ways, R is narrower", 0.25, 0.7, 0.4, 0.6, least(0.6)},
-    {"6: both ways, R cannot carry f_L", 0.3, 0.7, 0.25, 0.3, least(0.3)},
-    {"7: towards each other, f_R > f_L", 0.4, 0.6, 0.05, 0.6, small_flux(0.05, 0.6)},
-    {"8: towards each other, f_R < f_L", 0.55, 0.6, 0.25, 0.6, small_flux(0.55, 0.6)},
-    {"9: waves go up, R can carry f_L", 0.55, 0.6, 0.4, 0.5, small_flux(0.55, 0.6)},
-    {"10: waves go up, R cannot carry f_L", 0.4, 0.7, 0.25, 0.3, least(0.3)}};
-
 TEST(FaceRule, TenCasesOfTheThesis) {
-  for (const Case& c : kTenCases)
+  for (const ThesisCase& c : kTenCases)
     EXPECT_NEAR(flux(FaceRule::godunov, c.phi_l, c.c_l, c.phi_r, c.c_r), c.expected, 1e-16) << c.name;
 }
 
 // It takes the flux of L or R where the other side cannot carry it: cases 3 and 10, and minima of either
 // side.
 TEST(FaceRule, ClassicalFluxIsNotMatchedInCases3And10) {
-  for (const Case& c : kTenCases) {
+  for (const ThesisCase& c : kTenCases) {
     const double classical = flux(FaceRule::classical_godunov, c.phi_l, c.c_l, c.phi_r, c.c_r);
     const std::string number(c.name, std::string(c.name).find(':'));
     if (number == "3") {
-      EXPECT_NEAR(classical, small_flux(c.phi_r, c.c_r), 1e-16);
+      EXPECT_NEAR(classical, support::small_grains_flux(c.phi_r, c.c_r), 1e-16);
     }
     if (number == "10") {  // phi falls: the larger one of both own fluxes, not what both can carry
-      EXPECT_NEAR(classical, small_flux(c.phi_r, c.c_r), 1e-16);
+      EXPECT_NEAR(classical, support::small_grains_flux(c.phi_r, c.c_r), 1e-16);
       EXPECT_NE(classical, c.expected);
     }
     if (number == "1" || number == "2" || number == "7" || number == "8") {

@@ -45,6 +45,7 @@ struct FluxTable {
     return is_convex ? Curvature::convex : is_concave ? Curvature::concave : Curvature::mixed;
   }
   [[nodiscard]] Scalar value(const Scalar& x) const {
+    if (x == phi.back()) return values.back();  // not but for rounding: a wall needs a flux of 0
     const Piece piece = piece_at(x);
     const Scalar d = x - piece.begin;
     return piece.value + d * (piece.slope + d * (piece.square + d * piece.cube));

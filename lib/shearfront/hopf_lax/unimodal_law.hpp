@@ -96,8 +96,7 @@ class UnimodalLaw {
     } else if constexpr (std::is_same_v<Model, Triangular<Scalar>>) {
       return Scalar(0);
     } else if constexpr (std::is_same_v<Model, Cubic<Scalar>>) {
-      const Scalar second = Scalar(2) * (Scalar(1) + f.gamma) - Scalar(6) * f.gamma * place(d, up);
-      return second * (width_ * width_ / depth_);
+      return f.second_derivative(place(d, up)) * (width_ * width_ / depth_);
     } else {
       const Scalar step = Scalar(1) / Scalar(1 << 13);
       const Scalar lo = d > step ? Scalar(d - step) : Scalar(0);

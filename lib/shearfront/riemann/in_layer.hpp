@@ -1,26 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <algorithm>
-#include <boost/container/small_vector.hpp>
-
+#include "shearfront/riemann/envelope.hpp"
 #include "shearfront/riemann/state.hpp"
 
 namespace shearfront {
-
-/// The general case of solve_in_layer(): a monotone chain, in which a vertex stays on the envelope while
-/// speeds increase along the path from l to r.
-template <StateGrid Grid, class Emit>
-void solve_by_envelope(const Grid& grid, std::size_t layer, State l, State r, Emit&& emit) {
-  boost::container::small_vector<State, 64> envelope{l};
-  for (State i = l; i != r;) {
-    i = l < r ? std::min(grid.next_vertex(layer, i), r) : std::max(grid.previous_vertex(layer, i), r);
-    while (envelope.size() > 1 && !(grid.speed(layer, envelope[envelope.size() - 2], envelope.back()) <
-                                    grid.speed(layer, envelope.back(), i)))
-      envelope.pop_back();
-    envelope.push_back(i);
-  }
-  for (std::size_t i = 0; i + 1 < envelope.size(); ++i) emit(envelope[i], envelope[i + 1]);
-}
 
 /// Whether the Riemann problem l | r is known without a search to be a single shock.
 template <StateGrid Grid>
@@ -35,12 +18,13 @@ template <StateGrid Grid>
 /// r and its upper concave envelope if l > r (Dafermos 1972; Holden & Risebro 2015, Section 2.1); every edge
 /// of the envelope is one front. For a convex flux this is one front per polygon edge (a fan) or a single
 /// shock. Guaranteed: the fronts join l to r without gap; each satisfies Rankine-Hugoniot and the Oleinik
-/// condition for the polygon. Cost: O(|l - r|).
+/// condition for the polygon. Cost: O(1) per front, and what Envelope says where the polygon bends both
+/// ways.
 template <StateGrid Grid, class Emit>
 void solve_in_layer(const Grid& grid, std::size_t layer, State l, State r, Emit&& emit) {
   if (l == r) return;
   const Bend bend = l < r ? grid.bend(layer, l, r) : grid.bend(layer, r, l);
-  if (bend == Bend::mixed) return solve_by_envelope(grid, layer, l, r, emit);
+  if (bend == Bend::mixed) return Envelope<Grid>(grid, layer, l, r).for_each(emit);
   if ((bend == Bend::convex) == (l > r)) {
     emit(l, r);
   } else if (l < r) {

@@ -62,6 +62,7 @@ class PolygonStack {
   [[nodiscard]] State previous_vertex(std::size_t, State i) const { return i - 1; }
   [[nodiscard]] static bool is_reversed() { return false; }
   [[nodiscard]] static Bend bend(std::size_t, State, State) { return Bend::mixed; }
+  [[nodiscard]] static State run_end(std::size_t, State i, Bend) { return i + 1; }
   /// Fronts inside one edge all have bitwise the speed of the edge.
   [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
     const State lo = std::min(l, r), hi = std::max(l, r);

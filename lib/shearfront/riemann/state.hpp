@@ -33,6 +33,8 @@ enum class Bend { convex, concave, mixed };
 ///   is_reversed()    phi falls with the state index, and flux_rank orders fluxes downwards: a problem with
 ///                    maxima told as one with minima
 ///   bend(k, lo, hi)  how the polygon bends between the states lo < hi, in the orientation of the indices
+///   run_end(k, i, b) the last state up to which the polygon bends like b (convex or concave) from i on; at
+///                    least the next vertex
 ///   kUnimodal        every layer flux has one minimum (in that orientation); then also
 ///   bottom_state(k)  the state of least flux: fluxes fall up to it and rise after it
 ///   falling_state(k, rank), rising_state(k, rank)  the state with this flux below and above it
@@ -42,6 +44,7 @@ concept StateGrid = requires(const G& g, std::size_t k, State i) {
   { G::kUnimodal } -> std::convertible_to<bool>;
   { g.is_reversed() } -> std::convertible_to<bool>;
   { g.bend(k, i, i) } -> std::same_as<Bend>;
+  { g.run_end(k, i, Bend::convex) } -> std::convertible_to<State>;
   { g.n_layers() } -> std::convertible_to<std::size_t>;
   { g.n_states(k) } -> std::convertible_to<State>;
   { g.boundary(k) } -> std::convertible_to<typename G::Scalar>;

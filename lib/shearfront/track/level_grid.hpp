@@ -88,6 +88,9 @@ class LevelGrid {
   /// Whether fluxes have a maximum: then phi falls with the state index.
   [[nodiscard]] bool is_reversed() const { return is_reversed_; }
   [[nodiscard]] static constexpr Bend bend(std::size_t, State, State) { return Bend::convex; }
+  [[nodiscard]] State run_end(std::size_t layer, State i, Bend kind) const {
+    return kind == Bend::convex ? n_states(layer) - 1 : next_vertex(layer, i);
+  }
   [[nodiscard]] State flux_rank(std::size_t layer, State i) const { return -level(layer, i); }
   [[nodiscard]] static State zero_flux_rank() { return 0; }
   /// The state with the given flux rank on the falling / rising branch.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -15,6 +16,7 @@ namespace shearfront {
 namespace {
 
 constexpr int kRoundings = 8;  // of a flux value, in units of its last place
+constexpr int kNewtonSteps = 8;
 
 /// The flux of a class of layers along y, the distance from the state of index 0: h(y) rises up to the
 /// extremum and falls after it.
@@ -47,15 +49,36 @@ class Curve {
     const S f = strength_ * std::visit([&](const auto& flux) { return S(flux.value(x)); }, flux_);
     return is_reversed_ ? f : S(-f);
   }
-  /// y between `from`, where h is not above `level`, and `to`, where it is not below.
+  /// dh/dy.
+  [[nodiscard]] S slope(const S& y) const {
+    return -strength_ * std::visit([&](const auto& flux) { return S(flux.derivative(share(y))); }, flux_);
+  }
+  /// y between `from`, where h is not above `level`, and `to`, the extremum: Newton's method from `from`,
+  /// which is near, and bracketing where that fails.
   [[nodiscard]] S solve(const S& level, const S& from, const S& to) const {
+    using std::sqrt;
     const auto rest = [&](const S& y) { return S(h(y) - level); };
-    const S at_from = rest(from), at_to = rest(to);
+    const S at_from = rest(from);
     if (!(at_from < 0)) return from;
-    if (!(at_to > 0)) return to;
+    if (!(level < capacity_)) return to;
+    const bool is_upwards = from < to;
+    const S enough = sqrt(unit_roundoff<S>()) / S(2);
+    S y = from, at_y = at_from;
+    for (int n = 0; n < kNewtonSteps; ++n) {
+      const S steepness = slope(y);
+      if (!(is_upwards ? steepness > 0 : steepness < 0)) break;
+      const S next = y - at_y / steepness, step = next < y ? S(y - next) : S(next - y);
+      if (!(is_upwards ? next > from && next < to : next < from && next > to)) break;
+      // The next error is step^2 |h'' / 2 h'|, and h' vanishes nowhere but at the ends of a branch.
+      const S to_middle = next < to ? S(to - next) : S(next - to);
+      if (step < enough * std::min(to_middle, std::min(next, S(width_ - next)))) return next;
+      y = next;
+      at_y = rest(next);
+    }
     std::uintmax_t n = 200;
     const boost::math::tools::eps_tolerance<S> tolerance(std::numeric_limits<S>::digits);
-    const bool is_upwards = from < to;
+    const S at_to = rest(to);
+    if (!(at_to > 0)) return to;
     const auto [a, b] = boost::math::tools::toms748_solve(
         rest, is_upwards ? from : to, is_upwards ? to : from, is_upwards ? at_from : at_to,
         is_upwards ? at_to : at_from, tolerance, n);
@@ -300,38 +323,29 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
     const S strength = stack.rate(k) * stack.packing(k);
     const auto [it, is_new] =
         ids.try_emplace({stack.flux_index(k), strength}, static_cast<std::uint32_t>(grid.classes_.size()));
-    if (is_new) grid.classes_.push_back({stack.flux_index(k), strength, 0, {}, {}, {}, {}, {}});
+    if (is_new) grid.classes_.push_back({stack.flux_index(k), strength, 0, {}, {}, {}, {}, {}, {}});
     grid.layers_.push_back({stack.rate(k), stack.packing(k), it->second});
   }
   built.states = Draft(grid, resolution).build(wanted);
 
   const auto zero = std::find(grid.levels_.begin(), grid.levels_.end(), S(0));
   if (zero != grid.levels_.end()) grid.zero_rank_ = -static_cast<State>(zero - grid.levels_.begin());
-  for (Class& c : grid.classes_) {
-    std::vector<S> slope;
+  for (Class& c : grid.classes_)
     std::visit(
         [&](const auto& flux) {
           for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
-            slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
+            c.slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
           const bool is_convex =
               flux.curvature() == (grid.is_reversed_ ? Curvature::concave : Curvature::convex);
-          Shape<S> shape(slope);
+          Shape<S> shape(c.slope);
           c.next = std::move(shape.next), c.previous = std::move(shape.previous);
           if (is_convex) return;
           c.convex_to = std::move(shape.convex_to), c.concave_to = std::move(shape.concave_to);
         },
         grid.fluxes_[c.flux]);
-  }
-  for (const Layer& layer : grid.layers_) {
-    const Class& c = grid.classes_[layer.id];
-    const auto size = [](const S& x) { return x < 0 ? S(-x) : x; };
-    for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
-      grid.fastest_ = std::max(
-          grid.fastest_,
-          S(layer.rate *
-            size(std::visit([&](const auto& flux) { return S(flux.secant(c.share[i], c.share[i + 1])); },
-                            grid.fluxes_[c.flux]))));
-  }
+  for (const Layer& layer : grid.layers_)
+    for (const S& v : grid.classes_[layer.id].slope)
+      grid.fastest_ = std::max(grid.fastest_, S(layer.rate * (v < 0 ? S(-v) : v)));
   return built;
 }
 
