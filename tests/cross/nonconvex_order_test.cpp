@@ -65,7 +65,7 @@ template <class Solver>
 void check_order(const Problem& problem, std::size_t most) {
   SCOPED_TRACE(std::string(Solver::kName) + ", " + problem.name);
   const std::vector<double> error = distances<Solver>(problem, most);
-  constexpr double kPerDoubling = 0.35;
+  constexpr double kPerDoubling = 0.3;
   std::printf("| %s | %s |", problem.name, std::string(Solver::kName).c_str());
   for (std::size_t i = 0; i < error.size(); ++i) {
     const double doublings = static_cast<double>(i);
