@@ -47,8 +47,8 @@ struct Scope {
     constexpr std::array<std::string_view, 4> kFluxes{"parabolas", "convex or concave fluxes",
                                                       "fluxes with one extremum",
                                                       "any flux in a uniform bed, else with one extremum"};
-    return std::string(several_fluxes ? "" : "one of ") +
-           std::string(kFluxes[static_cast<std::size_t>(flux)]) + (open_ends ? ", open ends" : ", walls");
+    return std::string(kFluxes[static_cast<std::size_t>(flux)]) +
+           (several_fluxes ? "" : ", the same everywhere") + (open_ends ? ", open ends" : ", walls");
   }
 
  private:
