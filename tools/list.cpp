@@ -45,7 +45,7 @@ std::string described(const Guarantees& g) {
   say(g.order_M > 0, fmt::format("M of order {}", g.order_M));
   say(g.conservative, "conservative");
   say(g.bounded, "bounded");
-  say(g.any_scene, "any scene");
+  say(true, g.scope.text());
   say(g.has_timeline, "event times");
   say(g.has_fronts, "fronts");
   say(g.has_profiles, "whole profiles");

@@ -44,7 +44,7 @@ SolverRequest request_of(const SolveArguments& arguments, const Scene<double>& s
   request.fronts = !arguments.fronts.empty();
   // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
   request.timeline =
-      guarantees_of(arguments.method.method()).has_timeline &&
+      guarantees_of(arguments.method.method()).has_timeline && scene.has_walls() &&
       (request.fronts || !std::isfinite(*std::max_element(request.times.begin(), request.times.end())));
   return request;
 }

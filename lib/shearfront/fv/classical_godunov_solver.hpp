@@ -19,6 +19,7 @@ struct ClassicalGodunovSolver {
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.has_profiles = true;
+    g.scope = {FluxScope::parabola};
     return g;
   }
   static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,

@@ -20,7 +20,7 @@ struct EngquistOsherSolver {
   static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
   static Guarantees guarantees() {
     Guarantees g;
-    g.conservative = g.bounded = g.any_scene = g.has_profiles = true;
+    g.conservative = g.bounded = g.has_profiles = true;
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;

@@ -21,7 +21,7 @@ struct GodunovSolver {
   static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
   static Guarantees guarantees() {
     Guarantees g;
-    g.conservative = g.bounded = g.any_scene = g.has_profiles = true;
+    g.conservative = g.bounded = g.has_profiles = true;
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;

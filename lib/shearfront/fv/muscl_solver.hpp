@@ -25,6 +25,7 @@ struct MusclSolver {
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.has_profiles = true;
+    g.scope = {FluxScope::one_extremum, false, false};
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;

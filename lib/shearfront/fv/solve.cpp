@@ -38,7 +38,7 @@ bool is_for_kernels(const Scene<double>& scene, const UnimodalFlux& flux) {
 
 /// Why the plain march cannot solve the scene; empty if it can.
 std::string refusal(FaceRule rule, const Scene<double>& scene) {
-  const bool has_jumps = !scene.knots().empty() || !scene.is_layered();
+  const bool has_jumps = !is_uniform(scene);
   for (const Flux<double>& flux : scene.fluxes()) {
     const FluxBranches branches = flux_branches(flux);
     const std::string name = std::visit([](const auto& f) { return std::string(f.kName); }, flux);

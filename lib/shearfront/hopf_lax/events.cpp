@@ -6,6 +6,7 @@
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/hopf_lax/final_time.hpp"
 #include "shearfront/hopf_lax/first_wave.hpp"
+#include "shearfront/hopf_lax/general_first_wave.hpp"
 #include "shearfront/hopf_lax/medium.hpp"
 
 namespace shearfront {
@@ -88,11 +89,9 @@ Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>
   }
   events.t_star = is_steady(scene) ? Scalar(0) : last_time(scene, *medium, events.steady_height, events.mass);
 
-  const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium);
-  if (layered == nullptr || !scene.is_layered()) return events;
-  for (std::size_t i = 1; i < layered->layers().n_layers(); ++i) {
-    const Scalar& z = layered->layers().boundary(i);
-    typename Timeline<Scalar>::InterfaceTimes times{z, hopf_lax::first_wave(*layered, i, events.mass), {}};
+  if (!scene.is_layered()) return events;
+  const auto add = [&](const Scalar& z, std::optional<Scalar> first) {
+    typename Timeline<Scalar>::InterfaceTimes times{z, std::move(first), {}};
     // Only 1 below or only 0 above: no flux ever passes z, which acts as a wall; the first wave there is the
     // last.
     if (is_pure(scene, scene.bottom(), z, 1) || is_pure(scene, z, scene.top(), 0)) {
@@ -103,7 +102,13 @@ Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>
       if (times.first && *times.last < *times.first) times.last = times.first;
     }
     events.interfaces.push_back(std::move(times));
-  }
+  };
+  if (const auto* layered = dynamic_cast<const hopf_lax::LayeredMedium<Scalar>*>(medium))
+    for (std::size_t i = 1; i < layered->layers().n_layers(); ++i)
+      add(layered->layers().boundary(i), hopf_lax::first_wave(*layered, i, events.mass));
+  if (const auto* general = dynamic_cast<const hopf_lax::GeneralMedium<Scalar>*>(medium))
+    for (std::size_t i = 1; i < general->layers().n_layers(); ++i)
+      add(general->layers().boundary(i), hopf_lax::first_wave(*general, i, events.mass, *events.t_star));
   return events;
 }
 
@@ -120,7 +125,10 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
   Timeline<Scalar> events = plain_timeline(form.image(), &solution.medium());
   events.mass = solution.mass();
   events.steady_height = solution.steady_height();
-  if (!scene.is_layered()) events.interfaces.clear();
+  if (!scene.is_layered()) {
+    events.interfaces.clear();
+    events.steady_height = scene.steady_height();  // of the smooth c, not of its staircase
+  }
   for (std::size_t i = 0; i < events.interfaces.size(); ++i)
     events.interfaces[i].z = form.layers().boundary(i + 1);
   return events;

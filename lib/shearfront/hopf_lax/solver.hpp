@@ -11,6 +11,7 @@ struct ExactSolver {
   static Guarantees guarantees() {
     Guarantees g;
     g.exact = g.conservative = g.bounded = g.has_timeline = true;
+    g.scope = {FluxScope::convex_or_concave, true, false};
     return g;
   }
   static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,

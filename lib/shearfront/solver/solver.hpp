@@ -15,6 +15,7 @@
 #include "shearfront/solution/share_function.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
+#include "shearfront/solver/scope.hpp"
 
 /// What every solver offers to the program, the fits and the cross tests. A solver never includes another
 /// solver.
@@ -79,12 +80,12 @@ struct SolverResult {
 
 /// What a solver promises; the cross tests check exactly what is promised here.
 struct Guarantees {
+  Scope scope;                ///< what it solves; anything else is Status::unsupported
   bool exact = false;         ///< M and phi to rounding
   bool conservative = false;  ///< M(top, t) equals the initial mass to rounding
   bool bounded = false;       ///< phi stays in the range of the flux
   double order_phi = 0;       ///< L1 order of phi in the resolution, 0 if exact
   double order_M = 0;         ///< order of M in the resolution, 0 if exact
-  bool any_scene = false;     ///< every scene of the toolkit
   bool has_fronts = false;    ///< can return front segments
   bool has_timeline = false;  ///< can return event times
   bool has_profiles = false;  ///< can return the solution as a function of z: it is linear in pieces

@@ -39,6 +39,21 @@ std::string refusal_of_levels(const LayerStack<double>& stack, const SolverOptio
   return {};
 }
 
+/// A flux that does not vanish at the ends of its range may bring more to a layer than that can carry.
+std::string refusal_between_layers(const Scene<double>& scene) {
+  if (is_uniform(scene)) return {};
+  for (const Flux<double>& flux : scene.fluxes())
+    if (std::string name = std::visit(
+            [](const auto& f) {
+              const bool vanishes = f.value(f.range().lowest) == 0 && f.value(f.range().highest) == 0;
+              return vanishes ? std::string() : std::string(f.kName);
+            },
+            flux);
+        !name.empty())
+      return "flux " + name + " must vanish at both ends of its range where a, c or T vary";
+  return {};
+}
+
 std::string refusal(const Scene<double>& scene, const SolverRequest& request, const LayerStack<double>& stack,
                     const SolverOptions& options) {
   if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
@@ -54,7 +69,8 @@ std::string refusal(const Scene<double>& scene, const SolverRequest& request, co
   if (options.reconstruct != Reconstruction::constant)
     return "the linear reconstruction is known for the quadratic flux only";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
-  return UnimodalGrid<double>::refusal(stack, options.resolution);
+  if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
+  return refusal_between_layers(scene);
 }
 
 std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {

@@ -10,7 +10,8 @@ struct FrontTrackingSolver {
   static constexpr std::string_view kDescription = "event-driven front tracking, exact for a polygonal flux";
   static Guarantees guarantees() {
     Guarantees g;
-    g.conservative = g.bounded = g.any_scene = g.has_fronts = g.has_timeline = g.has_profiles = true;
+    g.conservative = g.bounded = g.has_fronts = g.has_timeline = g.has_profiles = true;
+    g.scope = {FluxScope::one_extremum};
     g.order_phi = 1;
     g.order_M = 2;
     return g;

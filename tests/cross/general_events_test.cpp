@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Event times at interfaces for fluxes other than parabolas: against those of parabolas, and of front
+// tracking.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/hopf_lax/general_first_wave.hpp"
+#include "shearfront/hopf_lax/normal_form.hpp"
+#include "shearfront/track/solver.hpp"
+#include "support/flux_scenes.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::FluxShape;
+using support::SceneMaker;
+
+TEST(GeneralEvents, FirstWavesOfParabolasAreThoseOfTheClosedForms) {
+  SceneMaker make(support::seed_of(5401));
+  for (int number = 0; number < 200; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    const Scene<double> scene(make.data(make.integer(2, 5), make.order(), 5));
+    const Timeline<double> times = exact_timeline(scene);
+    const hopf_lax::GeneralMedium<double> medium(hopf_lax::NormalForm<double>(scene, 1));
+    for (std::size_t i = 0; i < times.interfaces.size(); ++i) {
+      const auto first = hopf_lax::first_wave(medium, i + 1, scene.mass(), *times.t_star);
+      ASSERT_EQ(first.has_value(), times.interfaces[i].first.has_value()) << "interface " << i;
+      if (!first) continue;
+      EXPECT_NEAR(*first, *times.interfaces[i].first, 1e-9 * (1 + *first)) << "interface " << i;
+    }
+  }
+}
+
+class GeneralEvents : public testing::TestWithParam<FluxShape> {};
+
+// A fan of front tracking starts with a secant: first waves come late, by up to the resolution.
+TEST_P(GeneralEvents, AreThoseOfFrontTracking) {
+  SceneMaker make(support::seed_of(5402));
+  for (int number = 0; number < 60; ++number) {
+    SCOPED_TRACE("scene " + std::to_string(number));
+    const Scene<double> scene(support::random_flux_scene(make, GetParam()));
+    // Fronts on a straight branch run side by side, and rounding decides where the tracked ones meet.
+    if (std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<double>& flux) {
+          return std::holds_alternative<Triangular<double>>(flux);
+        }))
+      continue;
+    SolverRequest request;
+    request.timeline = true;
+    SolverOptions options;
+    options.resolution = 0.002;
+    const SolverResult tracked = FrontTrackingSolver::solve(scene, request, options);
+    ASSERT_TRUE(tracked.summary.usable()) << tracked.summary.message;
+    const Timeline<double> exact = exact_timeline(scene);
+    ASSERT_EQ(exact.interfaces.size(), tracked.timeline->interfaces.size());
+    const auto same = [](const std::optional<double>& a, const std::optional<double>& b, const char* what) {
+      ASSERT_EQ(a.has_value(), b.has_value()) << what;
+      if (!a) return;
+      EXPECT_NEAR(*a, *b, 0.02 * (1 + *a)) << what;
+    };
+    same(exact.t0, tracked.timeline->t0, "t0");
+    same(exact.t1, tracked.timeline->t1, "t1");
+    same(exact.t_star, tracked.timeline->t_star, "t*");
+    for (std::size_t i = 0; i < exact.interfaces.size(); ++i) {
+      const auto &a = exact.interfaces[i], &b = tracked.timeline->interfaces[i];
+      EXPECT_NEAR(a.z, b.z, 1e-14);
+      same(a.first, b.first, "first");
+      same(a.last, b.last, "last");
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, GeneralEvents,
+                         testing::Values(FluxShape::convex_parabolas, FluxShape::concave_parabolas,
+                                         FluxShape::convex, FluxShape::concave));
+
+}  // namespace
+}  // namespace shearfront
