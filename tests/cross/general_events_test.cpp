@@ -44,11 +44,6 @@ TEST_P(GeneralEvents, AreThoseOfFrontTracking) {
   for (int number = 0; number < 60; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene(support::random_flux_scene(make, GetParam()));
-    // Fronts on a straight branch run side by side, and rounding decides where the tracked ones meet.
-    if (std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<double>& flux) {
-          return std::holds_alternative<Triangular<double>>(flux);
-        }))
-      continue;
     SolverRequest request;
     request.timeline = true;
     SolverOptions options;

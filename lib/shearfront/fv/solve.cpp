@@ -65,9 +65,16 @@ std::string message_of(Status status, std::uint64_t n_updates, bool has_walls) {
       return has_walls
                  ? "the shear rates differ so much that rounding stops the slow cells; use another method"
                  : "the bed has not come to rest; ask for a finite time";
+    case Status::diverged:
+      return "the scheme has diverged: its fluxes do not match between unequal cells; use godunov";
     default:
       return "reached the last time";
   }
+}
+
+/// False for a scheme that promises no bounds and has left them for good.
+bool is_finite(const CellStates& cells) {
+  return std::all_of(cells.phi.begin(), cells.phi.end(), [](double phi) { return std::isfinite(phi); });
 }
 
 using Clock = std::chrono::steady_clock;
@@ -87,6 +94,7 @@ SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& 
   if (request.integrand) result.integrals.resize(request.times.size());
   for (const std::size_t i : order) {
     const CellStates cells = run.at(request.times[i], status);
+    if (status == Status::ok && !is_finite(cells)) status = Status::diverged;
     if (status != Status::ok) break;
     const auto samples = output.samples(cells, request.depths);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));

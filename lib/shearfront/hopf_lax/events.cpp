@@ -2,6 +2,7 @@
 #include "shearfront/hopf_lax/events.hpp"
 
 #include <algorithm>
+#include <variant>
 
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/hopf_lax/final_time.hpp"
@@ -57,19 +58,23 @@ bool is_steady(const Scene<Scalar>& scene) {
 
 template <Real Scalar>
 Scalar last_time(const Scene<Scalar>& scene, const Medium<Scalar>& medium, const Scalar& z,
-                 const Scalar& mass) {
+                 const Scalar& mass, bool is_straight) {
   const Scalar steady_height = std::min(Scalar(scene.bottom() + mass), scene.top());
   const auto amount = z < steady_height   ? hopf_lax::FinalAmount::full_below
                       : z > steady_height ? hopf_lax::FinalAmount::all_mass
                                           : hopf_lax::FinalAmount::both;
   const Scalar start =
       std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(scene.top(), z));
-  return hopf_lax::final_time(medium, z, amount, start, Scalar(scene.top() - scene.bottom()));
+  const Scalar height = scene.top() - scene.bottom();
+  const Scalar t = hopf_lax::final_time(medium, z, amount, start, height);
+  return is_straight ? hopf_lax::final_time_of_contacts(medium, z, amount, t, height) : t;
 }
 
-/// The times of a scene of the quadratic flux, or of the normal form of another one, in the medium given.
+/// The times of a scene of the quadratic flux, or of the normal form of another one, in the medium given;
+/// `is_straight`: that one has straight branches.
 template <Real Scalar>
-Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>* medium) {
+Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>* medium,
+                                bool is_straight = false) {
   Timeline<Scalar> events;
   events.mass = scene.mass();
   events.steady_height = std::min(Scalar(scene.bottom() + events.mass), scene.top());
@@ -87,7 +92,9 @@ Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>
   } else if (at_top != Scalar(0)) {
     events.t1 = Scalar(0);
   }
-  events.t_star = is_steady(scene) ? Scalar(0) : last_time(scene, *medium, events.steady_height, events.mass);
+  events.t_star = is_steady(scene)
+                      ? Scalar(0)
+                      : last_time(scene, *medium, events.steady_height, events.mass, is_straight);
 
   if (!scene.is_layered()) return events;
   const auto add = [&](const Scalar& z, std::optional<Scalar> first) {
@@ -97,7 +104,7 @@ Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>
     if (is_pure(scene, scene.bottom(), z, 1) || is_pure(scene, z, scene.top(), 0)) {
       times.last = times.first;
     } else {
-      times.last = last_time(scene, *medium, z, events.mass);
+      times.last = last_time(scene, *medium, z, events.mass, is_straight);
       // The same wave can be the first and the last: rounding must not order them.
       if (times.first && *times.last < *times.first) times.last = times.first;
     }
@@ -122,7 +129,10 @@ Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions opti
   }
   const ExactSolution<Scalar> solution(scene, {options.layers});
   const hopf_lax::NormalForm<Scalar>& form = *solution.normal_form();
-  Timeline<Scalar> events = plain_timeline(form.image(), &solution.medium());
+  const bool is_straight =
+      std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
+                  [](const Flux<Scalar>& flux) { return std::holds_alternative<Triangular<Scalar>>(flux); });
+  Timeline<Scalar> events = plain_timeline(form.image(), &solution.medium(), is_straight);
   events.mass = solution.mass();
   events.steady_height = solution.steady_height();
   if (!scene.is_layered()) {

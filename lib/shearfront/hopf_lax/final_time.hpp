@@ -57,4 +57,25 @@ template <Real Scalar>
   return t;
 }
 
+/// The same for fluxes with straight branches: pure states then travel with the contacts behind them, and a
+/// moving path that ties with one at rest says nothing. M meets its final amount with a slope that is no
+/// smaller than that of a contact, so M itself tells the time, to `tie` over that slope. Precondition:
+/// `late` is no earlier. Cost: 60 queries.
+template <Real Scalar>
+[[nodiscard]] Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
+                                            const Scalar& late, const Scalar& height) {
+  const Scalar u = unit_roundoff<Scalar>(), tie = Scalar(64) * u * height;
+  const auto is_reached = [&](const Scalar& time) {
+    const Candidate<Scalar> best = medium.best_free(z, time, infinity<Scalar>());
+    return best.kind == PathKind::none || !(medium.shortfall(best, z, time, amount) > tie);
+  };
+  Scalar lo(0), hi = late;
+  while (hi - lo > Scalar(4) * u * hi) {
+    const Scalar t = lo + (hi - lo) / Scalar(2);
+    if (!(t > lo && t < hi)) break;
+    (is_reached(t) ? hi : lo) = t;
+  }
+  return hi;
+}
+
 }  // namespace shearfront::hopf_lax

@@ -36,6 +36,7 @@ class Arrival {
     return upward ? Scalar(phi - law(cell).peak()) : Scalar(law(cell).peak() - phi);
   }
   [[nodiscard]] Scalar flux(std::size_t cell) const {
+    if (cells_.phi[cell] == Scalar(0) || cells_.phi[cell] == Scalar(1)) return Scalar(0);
     const Scalar above = over(cell, true);
     const bool up = above > 0;
     return capacity(cell) * (Scalar(1) - law(cell).lack(up ? above : Scalar(-above), up));

@@ -14,6 +14,7 @@ enum class Status {
   steady,          ///< reached the steady state; nothing changes afterwards
   budget_reached,  ///< stopped at the largest amount of work allowed
   not_converged,   ///< an iteration did not reach its tolerance
+  diverged,        ///< the numbers grew beyond all bounds: the scheme is unstable for this scene
   unsupported,     ///< the method does not apply to this scene; the message says which does
   interrupted      ///< the caller asked to stop
 };
@@ -30,6 +31,8 @@ enum class Status {
       return "budget_reached";
     case Status::not_converged:
       return "not_converged";
+    case Status::diverged:
+      return "diverged";
     case Status::unsupported:
       return "unsupported";
     case Status::interrupted:

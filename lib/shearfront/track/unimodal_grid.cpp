@@ -265,6 +265,23 @@ class UnimodalGrid<S>::Draft {
 
 namespace {
 
+/// Slopes that differ by no more than rounding made equal: fronts on a straight branch of the flux never
+/// meet.
+template <Real S>
+void straighten(const std::vector<S>& share, std::vector<S>& slope) {
+  constexpr double kLargestSlack = 1e-6;
+  S steepest(0);
+  for (const S& v : slope) steepest = std::max(steepest, v < 0 ? S(-v) : v);
+  for (std::size_t i = 1; i < slope.size(); ++i) {
+    // A secant of states that are off by a rounding each.
+    const S step = std::min(share[i + 1] - share[i], share[i] - share[i - 1]);
+    const S slack =
+        std::min(S(S(kRoundings) * unit_roundoff<S>() * steepest / step), S(steepest * S(kLargestSlack)));
+    const S bend = slope[i] - slope[i - 1];
+    if (bend <= slack && bend >= -slack) slope[i] = slope[i - 1];
+  }
+}
+
 /// Vertices and bends of a polygon with the slopes `slope` between neighbouring states.
 template <Real S>
 struct Shape {
@@ -335,6 +352,7 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
         [&](const auto& flux) {
           for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
             c.slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
+          straighten(c.share, c.slope);
           const bool is_convex =
               flux.curvature() == (grid.is_reversed_ ? Curvature::concave : Curvature::convex);
           Shape<S> shape(c.slope);
