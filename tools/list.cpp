@@ -96,6 +96,11 @@ std::string unknowns() {
     spec.fluxes = {F{}};
     visit(spec, "flux.", F::kName);
   });
+  InitialProfileList<double>::for_each([&]<class P>() {
+    SceneSpec<double> spec;
+    spec.initial_profile = P{};
+    visit(spec, "initial.", P::kName);
+  });
   ClosePackingList<double>::for_each([&]<class C>() {
     SceneSpec<double> spec;
     spec.close_packing = C{};
@@ -118,7 +123,12 @@ int list() {
   ShearRateList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
-  all += indented(rates.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";
+  all += indented(rates.text()) + "\nSmooth initial profiles, with diffusion (initial.model)\n";
+  TextTable initial({"name", "phi(z, 0)", "entries"});
+  InitialProfileList<double>::for_each([&]<class P>() {
+    initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});
+  });
+  all += indented(initial.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";
   TextTable packings({"name", "c(x), x the share of small grains", "entries"});
   ClosePackingList<double>::for_each([&]<class C>() {
     packings.add({std::string(C::kName), std::string(C::kFormula), entries<C>()});

@@ -23,7 +23,8 @@ SolverResult unsupported(std::string why) {
   return result;
 }
 
-std::string refusal(const SolverOptions& options) {
+std::string refusal(const Scene<double>& scene, const SolverOptions& options) {
+  if (scene.has_diffusion()) return "this scheme knows no diffusion; use crank-nicolson";
   if (options.cells < 1) return "cells = 0; must be >= 1";
   if (options.cells > kMostCells)
     return "cells = " + std::to_string(options.cells) + "; must be <= " + std::to_string(kMostCells);
@@ -124,7 +125,7 @@ Grid grid_of(const Scene<double>& scene, const SolverOptions& options) {
 
 SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
                    const SolverRequest& request, const SolverOptions& options) {
-  if (std::string why = refusal(options); !why.empty()) return unsupported(std::move(why));
+  if (std::string why = refusal(scene, options); !why.empty()) return unsupported(std::move(why));
   if (!flux.refusal.empty()) return unsupported(flux.refusal);
   const auto begin = Clock::now();
   return outcome(*kernel_run(scheme, flux, kernel, scene, options), scene, request, begin);
@@ -132,7 +133,7 @@ SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel
 
 SolverResult solve(FaceRule rule, const Scene<double>& scene, const SolverRequest& request,
                    const SolverOptions& options) {
-  std::string why = refusal(options);
+  std::string why = refusal(scene, options);
   if (why.empty()) why = refusal(rule, scene);
   if (!why.empty()) return unsupported(std::move(why));
   const auto begin = Clock::now();
@@ -141,6 +142,7 @@ SolverResult solve(FaceRule rule, const Scene<double>& scene, const SolverReques
 
 SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
                    const SolverOptions& options) {
+  if (std::string why = refusal(scene, options); !why.empty()) return unsupported(std::move(why));
   const UnimodalFlux flux = std::visit([](const auto& f) { return unimodal_flux(f); }, scene.fluxes()[0]);
   if (is_for_kernels(scene, flux)) {
     const auto kernel = flux.is_quadratic ? quadratic_kernel(scheme, options.limiter)

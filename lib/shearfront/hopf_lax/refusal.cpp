@@ -42,6 +42,8 @@ std::string refusal_of(const Model& flux) {
 template <Real Scalar>
 std::string refusal(const Scene<Scalar>& scene) {
   if (scene.is_plain()) return {};
+  if (scene.has_diffusion())
+    return "grains diffuse in this bed: crank-nicolson applies, cole-hopf where it has a closed form";
   const auto curvature = [](const Flux<Scalar>& flux) {
     return std::visit([](const auto& f) { return f.curvature(); }, flux);
   };

@@ -40,11 +40,9 @@ class SceneReader {
     optional_model<ShearRateList<S>>(root, "packing", spec_.packing);
     optional_model<ShearRateList<S>>(root, "temperature", spec_.temperature);
     optional_model<ClosePackingList<S>>(root, "close_packing", spec_.close_packing);
-    if (auto table = root.table("initial", Need::required, "must be a table with breaks and values")) {
-      table->number("breaks", Need::required, spec_.initial_breaks);
-      table->number("values", Need::required, spec_.initial_values);
-      table->finish();
-    }
+    if (auto table = root.table("diffusion", Need::optional, "must be a table with D")) diffusion(*table);
+    if (auto table = root.table("initial", Need::required, "must be a table with breaks and values"))
+      initial(*table);
     if (auto table = root.table("domain", Need::optional, "must be a table with bottom and top")) {
       table->number("bottom", Need::optional, spec_.bottom);
       table->number("top", Need::optional, spec_.top);
@@ -98,7 +96,40 @@ class SceneReader {
       unknown_.emplace_back(key);
   }
 
+  void diffusion(TableReader& table) {
+    Diffusion<S>& diffusion = spec_.diffusion.emplace();
+    table.number("D", Need::required, diffusion.D);
+    if (const auto other = table.choice("proportional_to", Need::optional, {"shear_rate"}))
+      diffusion.follows_shear_rate = true;
+    if (!table.node("model")) return table.finish();
+    if (diffusion.follows_shear_rate)
+      table.add(*table.node("model"), table.path("model"), "must not stand beside proportional_to");
+    using List = ShearRateList<S>;
+    const std::string what = "must be one of: " + List::names();
+    const auto model = table.text("model", Need::required, what);
+    if (model && model_by_name<List>(table, *model, what, diffusion.profile.emplace()))
+      table.finish();
+    else
+      unknown_.emplace_back("diffusion");
+  }
+
+  void initial(TableReader& table) {
+    if (!table.node("model")) {
+      table.number("breaks", Need::required, spec_.initial_breaks);
+      table.number("values", Need::required, spec_.initial_values);
+      return table.finish();
+    }
+    using List = InitialProfileList<S>;
+    const std::string what = "must be one of: " + List::names();
+    const auto model = table.text("model", Need::required, what);
+    if (model && model_by_name<List>(table, *model, what, spec_.initial_profile.emplace()))
+      table.finish();
+    else
+      unknown_.emplace_back("initial");
+  }
+
   void boundary(TableReader& table) {
+    spec_.is_neumann = table.boolean("neumann", Need::optional).value_or(false);
     spec_.is_periodic = table.boolean("periodic", Need::optional).value_or(false);
     const auto outside = [&](std::string_view key, std::optional<OutsideState<S>>& state) {
       auto side = table.table(key, Need::optional, "must be a table with values, and breaks in time");

@@ -75,4 +75,26 @@ void check_breaks(const std::string& key, const std::vector<S>& breaks, const S&
   }
 }
 
+/// Points (z[i], values[i]) of a function on the domain: at least two, ascending, from its bottom to its top.
+template <Real S>
+void check_points(const std::string& prefix, const std::vector<S>& z, std::size_t n_values, const S& bottom,
+                  const S& top, Problems& problems) {
+  if (z.size() < 2)
+    problems.push_back(
+        {prefix + "z", "(" + std::to_string(z.size()) + " entries)", "must have at least 2 entries"});
+  if (n_values != z.size())
+    problems.push_back({prefix + "values", "(" + std::to_string(n_values) + " entries)",
+                        "must have as many entries as z (" + std::to_string(z.size()) + ")"});
+  for (std::size_t i = 1; i < z.size(); ++i)
+    if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1]))
+      problems.push_back({prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),
+                          "must be greater than the entry before it (" + number_text(z[i - 1]) + ")"});
+  if (!z.empty() && z.front() > bottom)
+    problems.push_back({prefix + "z[0]", number_text(z.front()),
+                        "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});
+  if (z.size() > 1 && z.back() < top)
+    problems.push_back({prefix + "z[" + std::to_string(z.size() - 1) + "]", number_text(z.back()),
+                        "must not lie below the top of the domain (" + number_text(top) + ")"});
+}
+
 }  // namespace shearfront

@@ -22,7 +22,8 @@ namespace shearfront {
 ///
 ///     phi_t + (s a(z) sqrt(T(z)) c(z) f(phi / c(z)))_z = 0 on bottom < z < top.
 ///
-/// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. The ends are walls (no flux),
+/// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. With diffusion the right side
+/// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_problems(spec()) is empty. Immutable after construction.
 /// Errors: the constructor throws InputError that carries every problem.
@@ -61,11 +62,19 @@ class Scene {
   /// Whether all of the scene is the model of May, Shearer & Daniels: one quadratic flux, c = T = 1, walls.
   [[nodiscard]] bool is_plain() const {
     return spec_.fluxes.size() == 1 && std::holds_alternative<Quadratic<Scalar>>(spec_.fluxes[0]) &&
-           !spec_.packing && !spec_.temperature && has_walls();
+           !spec_.packing && !spec_.temperature && has_walls() && !has_diffusion();
   }
   /// Whether no grain can leave or come in.
   [[nodiscard]] bool has_walls() const {
-    return !spec_.outside_bottom && !spec_.outside_top && !spec_.is_periodic;
+    return !spec_.outside_bottom && !spec_.outside_top && !spec_.is_periodic && !spec_.is_neumann;
+  }
+  /// Whether grains diffuse: then phi is smooth, and the engines for D = 0 do not apply.
+  [[nodiscard]] bool has_diffusion() const { return spec_.diffusion && spec_.diffusion->D > 0; }
+  /// D(z); 0 without diffusion.
+  [[nodiscard]] Scalar diffusivity_at(const Scalar& z) const {
+    if (!has_diffusion()) return Scalar(0);
+    const Diffusion<Scalar>& d = *spec_.diffusion;
+    return d.D * (d.follows_shear_rate ? shear_rate_at(z) : d.profile ? value(*d.profile, z) : Scalar(1));
   }
 
   /// True if flux, a, c and T are constant between the knots().
@@ -133,7 +142,7 @@ class Scene {
     return mean_of([&](const Scalar& z) { return value(*spec_.packing, z); }, lo, hi);
   }
 
-  /// phi(z, 0) / c(z); at a jump the value above it. Cost: O(log jumps).
+  /// phi(z, 0) / c(z) of data that are constant in pieces; at a jump the value above it. Cost: O(log jumps).
   [[nodiscard]] const Scalar& initial_share(const Scalar& z) const {
     const auto& breaks = spec_.initial_breaks;
     const auto k = std::upper_bound(breaks.begin(), breaks.end(), z) - breaks.begin();
@@ -141,11 +150,14 @@ class Scene {
   }
   /// phi(z, 0); at a jump the value above it. Cost: O(log jumps).
   [[nodiscard]] Scalar initial_phi(const Scalar& z) const {
+    if (spec_.initial_profile)
+      return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, *spec_.initial_profile);
     const Scalar& share = initial_share(z);
     return spec_.packing ? packing_at(z) * share : share;
   }
   /// Amount of small grains, int phi(z, 0) dz (compensated sum). Constant in time between walls.
   [[nodiscard]] Scalar mass() const {
+    if (spec_.initial_profile) return initial_amount(spec_.bottom, spec_.top);
     CompensatedSum<Scalar> sum;
     const auto& breaks = spec_.initial_breaks;
     for (std::size_t i = 0; i < spec_.initial_values.size(); ++i) {
@@ -157,6 +169,22 @@ class Scene {
     const Scalar height = solid(spec_.bottom, spec_.top);
     const auto [least, most] = std::minmax_element(spec_.initial_values.begin(), spec_.initial_values.end());
     return std::clamp(sum.value(), Scalar(*least * height), Scalar(*most * height));
+  }
+  /// int_lo^hi phi(z, 0) dz. Cost: O(jumps, or points of the profile).
+  [[nodiscard]] Scalar initial_amount(const Scalar& lo, const Scalar& hi) const {
+    if (spec_.initial_profile)
+      return std::visit([&](const auto& model) { return Scalar(model.integral(lo, hi)); },
+                        *spec_.initial_profile);
+    CompensatedSum<Scalar> sum;
+    Scalar from = lo;
+    for (const Scalar& z : spec_.initial_breaks) {
+      if (!(z > from)) continue;
+      if (!(z < hi)) break;
+      sum += solid(from, z) * initial_share(from);
+      from = z;
+    }
+    sum += solid(from, hi) * initial_share(from);
+    return sum.value();
   }
   /// Height of the jump in the steady state between walls: grains of a flux with a minimum have sunk below
   /// it, those of one with a maximum have risen above it.

@@ -84,6 +84,15 @@ template <Real To, Real From>
   to.scale = number_cast<To>(from.scale);
   if (from.packing) to.packing = profile(*from.packing);
   if (from.temperature) to.temperature = profile(*from.temperature);
+  if (from.diffusion) {
+    to.diffusion.emplace();
+    to.diffusion->D = number_cast<To>(from.diffusion->D);
+    if (from.diffusion->profile) to.diffusion->profile = profile(*from.diffusion->profile);
+    to.diffusion->follows_shear_rate = from.diffusion->follows_shear_rate;
+  }
+  if (from.initial_profile)
+    to.initial_profile = std::visit(
+        [](const auto& model) -> InitialProfile<To> { return model_cast<To>(model); }, *from.initial_profile);
   if (from.close_packing)
     to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
                                   *from.close_packing);
@@ -98,6 +107,7 @@ template <Real To, Real From>
   };
   to.outside_bottom = outside(from.outside_bottom);
   to.outside_top = outside(from.outside_top);
+  to.is_neumann = from.is_neumann;
   to.is_periodic = from.is_periodic;
   return Scene<To>(std::move(to));
 }

@@ -36,14 +36,16 @@ class Checker {
     if (spec_.close_packing) close_packing();
     if (problems_.empty()) scaled_rate();
     if (problems_.empty()) scaled_packing();
+    if (spec_.diffusion) diffusion();
+    if (spec_.initial_profile) initial_profile();
     check_number("initial.breaks", Range::any, spec_.initial_breaks, problems_);
     if (domain_ok_) check_breaks("initial.breaks", spec_.initial_breaks, spec_.bottom, spec_.top, problems_);
-    states("initial.", spec_.initial_values, spec_.initial_breaks);
+    if (!spec_.initial_profile) states("initial.", spec_.initial_values, spec_.initial_breaks);
     if (flux_ok_ && domain_ok_ && has_right_lengths()) initial_states();
     if (spec_.outside_bottom) outside("boundary.bottom.", *spec_.outside_bottom, 0);
     if (spec_.outside_top) outside("boundary.top.", *spec_.outside_top, spec_.fluxes.size() - 1);
     if (problems_.empty()) ends();
-    if (problems_.empty()) neighbours();
+    if (problems_.empty() && !has_diffusion()) neighbours();
     return std::move(problems_);
   }
 
@@ -98,6 +100,36 @@ class Checker {
           if (domain_ok_) model.check(prefix, spec_.bottom, spec_.top, problems_);
         },
         profile);
+  }
+
+  [[nodiscard]] bool has_diffusion() const { return spec_.diffusion && spec_.diffusion->D > 0; }
+  void diffusion() {
+    check_number("diffusion.D", spec_.diffusion->D == 0 ? Range::any : Range::positive, spec_.diffusion->D,
+                 problems_);
+    if (spec_.diffusion->profile) profile("diffusion.", *spec_.diffusion->profile);
+  }
+  void initial_profile() {
+    const std::size_t before = problems_.size();
+    std::visit(
+        [&](const auto& model) {
+          model.fields(model, field("initial."));
+          if (domain_ok_) model.check("initial.", spec_.bottom, spec_.top, problems_);
+          if (problems_.size() > before || !flux_ok_) return;
+          for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
+            const StateRange<Scalar> range =
+                std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[i]);
+            const Scalar lowest = model.lowest(), highest = model.highest();
+            if (lowest >= range.lowest && highest <= range.highest) continue;
+            return add("initial.model", std::string(model.kName),
+                       "must stay between " + number_text(range.lowest) + " and " +
+                           number_text(range.highest) + " (goes from " + number_text(lowest) + " to " +
+                           number_text(highest) + ")");
+          }
+        },
+        *spec_.initial_profile);
+    if (!has_diffusion())
+      add("initial.model", "",
+          "must not be given for a bed without diffusion: its data are constant in pieces");
   }
 
   void close_packing() {
@@ -207,8 +239,14 @@ class Checker {
     const auto vanishes = [&](const Flux<Scalar>& flux) {
       return end_flux(flux, false) == 0 && end_flux(flux, true) == 0;
     };
-    const bool is_bottom_wall = !spec_.is_periodic && !spec_.outside_bottom;
-    const bool is_top_wall = !spec_.is_periodic && !spec_.outside_top;
+    if (spec_.is_neumann &&
+        (spec_.is_periodic || spec_.outside_bottom || spec_.outside_top || !has_diffusion()))
+      return add(
+          "boundary.neumann", "true",
+          has_diffusion() ? "must not stand beside other ends" : "must not be given without diffusion");
+    const bool is_inside = !spec_.is_periodic && !spec_.is_neumann;
+    const bool is_bottom_wall = is_inside && !spec_.outside_bottom;
+    const bool is_top_wall = is_inside && !spec_.outside_top;
     for (const bool is_top : {false, true}) {
       const std::size_t i = is_top ? spec_.fluxes.size() - 1 : 0;
       if ((is_top ? is_top_wall : is_bottom_wall) && !vanishes(spec_.fluxes[i]))

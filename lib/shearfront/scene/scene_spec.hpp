@@ -8,6 +8,7 @@
 
 #include "shearfront/close_packing/all.hpp"
 #include "shearfront/flux/all.hpp"
+#include "shearfront/initial/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/scene/field.hpp"
 #include "shearfront/shear_rate/all.hpp"
@@ -26,6 +27,14 @@ struct OutsideState {
       values;  ///< between them, in the units of SceneSpec::initial_values; one more than breaks
 };
 
+/// Diffusion of the grains: D(z) = D profile(z), in units of height^2 / time.
+template <Real Scalar>
+struct Diffusion {
+  Scalar D{0};                                  ///< 0: none
+  std::optional<DepthProfile<Scalar>> profile;  ///< 1 if not given
+  bool follows_shear_rate = false;              ///< profile(z) = a(z), without the scale s
+};
+
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
 template <Real Scalar>
 struct SceneSpec {
@@ -38,14 +47,17 @@ struct SceneSpec {
   std::optional<DepthProfile<Scalar>> temperature;  ///< T(z); 1 if not given
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
+  std::optional<Diffusion<Scalar>> diffusion;
+  std::optional<InitialProfile<Scalar>> initial_profile;  ///< smooth; breaks and values are then empty
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
   std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z
   std::optional<OutsideState<Scalar>> outside_bottom, outside_top;  ///< open ends; a wall if not given
+  bool is_neumann = false;   ///< phi_z = 0 at both ends, the flux passes (beds with diffusion)
   bool is_periodic = false;  ///< what leaves at the top comes in at the bottom
 };
 
-/// Heights inside the domain where a, c, T or one of their slopes jumps, in no order.
+/// Heights inside the domain where a, c, T, D or one of their slopes jumps, in no order.
 template <Real Scalar>
 [[nodiscard]] std::vector<Scalar> profile_knots(const SceneSpec<Scalar>& spec) {
   std::vector<Scalar> all;
@@ -56,6 +68,7 @@ template <Real Scalar>
   take(spec.shear_rate);
   if (spec.packing) take(*spec.packing);
   if (spec.temperature) take(*spec.temperature);
+  if (spec.diffusion && spec.diffusion->profile) take(*spec.diffusion->profile);
   return all;
 }
 
@@ -87,8 +100,17 @@ void visit_fields(Spec& spec, Visit&& visit) {
   profile(spec.packing, "packing.");
   profile(spec.temperature, "temperature.");
   profile(spec.close_packing, "close_packing.");
-  visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
-  visit(std::string("initial.values"), Range::any, spec.initial_values);
+  if (spec.diffusion) {
+    // 0 stands for none; what is positive is found by its logarithm in a fit.
+    visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? Range::any : Range::positive,
+          spec.diffusion->D);
+    profile(spec.diffusion->profile, "diffusion.");
+  }
+  profile(spec.initial_profile, "initial.");
+  if (!spec.initial_profile) {
+    visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
+    visit(std::string("initial.values"), Range::any, spec.initial_values);
+  }
   visit(std::string("domain.bottom"), Range::any, spec.bottom);
   visit(std::string("domain.top"), Range::any, spec.top);
   const auto outside = [&](auto& optional, const std::string& prefix) {

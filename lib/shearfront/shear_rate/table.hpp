@@ -28,22 +28,7 @@ struct Table {
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Problems& problems) const {
-    if (z.size() < 2)
-      problems.push_back(
-          {prefix + "z", "(" + std::to_string(z.size()) + " entries)", "must have at least 2 entries"});
-    if (values.size() != z.size())
-      problems.push_back({prefix + "values", "(" + std::to_string(values.size()) + " entries)",
-                          "must have as many entries as z (" + std::to_string(z.size()) + ")"});
-    for (std::size_t i = 1; i < z.size(); ++i)
-      if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1]))
-        problems.push_back({prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),
-                            "must be greater than the entry before it (" + number_text(z[i - 1]) + ")"});
-    if (!z.empty() && z.front() > bottom)
-      problems.push_back({prefix + "z[0]", number_text(z.front()),
-                          "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});
-    if (z.size() > 1 && z.back() < top)
-      problems.push_back({prefix + "z[" + std::to_string(z.size() - 1) + "]", number_text(z.back()),
-                          "must not lie below the top of the domain (" + number_text(top) + ")"});
+    check_points(prefix, z, values.size(), bottom, top, problems);
   }
 
   [[nodiscard]] Scalar value(const Scalar& height) const {

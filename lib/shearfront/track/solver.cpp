@@ -59,6 +59,7 @@ std::string refusal(const Scene<double>& scene, const SolverRequest& request, co
   if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
     return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
   if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
+  if (scene.has_diffusion()) return "there are no fronts where grains diffuse; use crank-nicolson";
   if (request.timeline && !scene.has_walls()) return "event times are those of a bed between walls";
   if (scene.spec().is_periodic &&
       std::any_of(request.times.begin(), request.times.end(), [](double t) { return !std::isfinite(t); }))
