@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shearfront/diffusion/face_rule.hpp"
+#include "shearfront/diffusion/problem.hpp"
+#include "shearfront/diffusion/step_control.hpp"
+#include "shearfront/diffusion/tridiagonal.hpp"
+#include "shearfront/solution/summary.hpp"
+
+namespace shearfront::diffusion {
+
+enum class Iteration { newton, fixed_point };
+
+struct Options {
+  double dt = 0;         ///< largest time step; 0: steps are chosen for `tolerance`
+  double tolerance = 0;  ///< adaptive steps: aim for the error of time stepping, in units of max |phi|
+  Scheme scheme = Scheme::central;
+  Iteration iteration = Iteration::newton;
+  double iteration_tolerance = 1e-8;  ///< largest change of a state in the last iteration, over max |phi|
+  std::size_t smoothed_steps = 0;     ///< fixed steps: so many first steps are two backward Euler halves each
+  std::uint64_t max_steps = 1'000'000'000;
+  /// Called after every step with (t, steps so far); return false to stop with Status::interrupted.
+  std::function<bool(double, std::uint64_t)> progress;
+};
+
+/// One step of the scheme below.
+struct TimeStep {
+  double length, theta;
+};
+
+/// Crank-Nicolson for segregation with diffusion (see Problem): means phi_j of the cells, fluxes F_i of the
+/// faces (see Scheme) at a state v inside the step,
+///
+///   v_j = phi_j^n - theta dt (F_{j+1} - F_j) / dz,   phi_j^{n+1} = phi_j^n - dt (F_{j+1} - F_j) / dz,
+///   F = F(v),   theta = 1/2:  v is the mean of phi^n and phi^{n+1}.
+///
+/// Unknowns of the nonlinear system are the fluxes, which makes the scheme conservative in every iterate.
+/// Guaranteed:
+///   (1) the mass sum phi_j dz is that of the beginning, to 1e-15 relative, after any number of steps,
+///   whether
+///       or not the iteration converged (walls, periodic; neumann: up to what passes the ends);
+///   (2) second order in dt and dz for smooth data (central; fitted where the cell Peclet number is small);
+///   (3) Scheme::fitted with walls or periodic ends: phi stays in [lo, hi] if f(lo) = f(hi) = 0, up to
+///       rounding, for all steps; if r is constant (any ends but walls) no new extrema appear. Proof:
+///       the flux is monotone, so the implicit part of a step obeys the comparison principle for any dt, and
+///       the explicit part does if (1 - theta) dt L <= 1, L = explicit_rate(). Hence theta = max(1/2, 1 -
+///       1 / (dt L)): second order in dt as long as dt L <= 2, of first order beyond. (No scheme of order two
+///       has such bounds for all steps: Bolley & Crouzeix 1978, RAIRO Anal. Numer. 12, 237-245.)
+///   (4) tangents are the derivatives of the computed states for the same steps, to rounding.
+/// Adaptive steps: the local error is estimated from the distance to a quadratic extrapolation in time and
+/// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. They start with
+/// short steps of backward Euler, which also damp what data that do not satisfy the conditions at the walls
+/// excite. They grow without bound; at rest they end, see is_steady().
+/// Cost: O(N) a step and iteration; usually one iteration a step. Each tangent costs one further right-hand
+/// side. Source: Christov (2018), Materials Physics and Mechanics 35, 21-27; Gresho, Lee & Sani (1980) for
+/// the control of steps; Rannacher (1984), Numer. Math. 43, 309-327 for the smoothing.
+class CrankNicolson {
+ public:
+  CrankNicolson(const Problem& problem, Options options, std::vector<Tangent> tangents = {});
+
+  /// Goes on to time t >= time(), exactly. Status::ok; steady: at rest; budget_reached, interrupted; not_
+  /// converged: the iteration failed even for steps 2^20 times shorter than wanted. See message().
+  Status advance_to(double t);
+  /// Makes the given steps (of another run), the tangents along with them.
+  Status repeat(std::span<const TimeStep> steps);
+
+  [[nodiscard]] std::span<const double> states() const { return {phi_.data() + 1, n_}; }
+  /// Derivatives of states() with respect to parameter k.
+  [[nodiscard]] std::span<const double> tangent(std::size_t k) const { return tangents_[k]; }
+  [[nodiscard]] double time() const { return time_; }
+  /// Length of the last step.
+  [[nodiscard]] double step() const { return steps_.empty() ? 0 : steps_.back().length; }
+  [[nodiscard]] const std::vector<TimeStep>& steps() const { return steps_; }
+  [[nodiscard]] std::uint64_t n_steps() const { return steps_.size(); }
+  /// Linear systems solved, those of tangents and rejected steps included.
+  [[nodiscard]] std::uint64_t n_iterations() const { return n_iterations_; }
+  /// Fixed steps: the last step changed no state by more than its rounding. Adaptive steps: a last step of
+  /// backward Euler of 10^4 times the time elapsed moved no state by more than a tenth of the tolerance, and
+  /// the states are those after it. advance_to() then only sets the time.
+  [[nodiscard]] bool is_steady() const { return is_steady_; }
+  [[nodiscard]] const std::string& message() const { return message_; }
+
+ private:
+  struct Attempt {
+    bool converged = false;
+    double surprise = 0;  ///< largest distance of a state from its extrapolation
+  };
+
+  Attempt attempt(const TimeStep& step);
+  bool iterate(double tau, double theta);
+  void predict(const TimeStep& step);
+  void place_inner(double tau);
+  double correct(double tau, bool same_matrix);
+  void commit(const TimeStep& step);
+  void commit_tangents(const TimeStep& step);
+  void set_ghosts(std::vector<double>& v) const;
+
+  Status march_fixed(double t);
+  Status march_adaptive(double t);
+  /// A step of the length wanted, or as many shorter ones as the iteration needs.
+  bool take(double length, double theta);
+  [[nodiscard]] double theta_of(double length) const;
+  void start_adaptive(double t);
+  void try_rest();
+  [[nodiscard]] Status stop_reason();
+
+  Problem problem_;
+  Options options_;
+  std::vector<Tangent> parameters_;
+  std::size_t n_;
+  double width_;
+  std::unique_ptr<FaceRule> rule_;
+  Tridiagonal matrix_;
+  FaceFluxes fluxes_;
+  std::vector<double> phi_, rest_, inner_;  ///< with a cell beyond each end; rest_: what rounding left over
+  std::vector<double> q_, q_predicted_, q_last_, q_before_, correction_;  ///< F / dz
+  std::vector<std::vector<double>> tangents_;
+  FluxTimes flux_times_;
+  StepControl control_;
+  double scale_ = 0, largest_change_ = 0, time_ = 0;
+  std::vector<TimeStep> steps_;
+  std::uint64_t n_iterations_ = 0, n_rest_checked_ = 0;
+  bool is_steady_ = false;
+  std::string message_;
+};
+
+}  // namespace shearfront::diffusion

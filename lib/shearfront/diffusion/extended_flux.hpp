@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "shearfront/flux/all.hpp"
+
+namespace shearfront::diffusion {
+
+/// A flux for all real states: outside its range f goes on along the tangents at the ends, as iterates of an
+/// implicit step may stray there. Polynomials of degree two need no such care.
+template <class Model>
+class ExtendedFlux {
+ public:
+  explicit ExtendedFlux(const Model& flux) : flux_(flux), range_(flux.range()) {}
+
+  [[nodiscard]] double value(double phi) const {
+    if constexpr (kIsEntire) {
+      return flux_.value(phi);
+    } else {
+      const double inside = clamp(phi);
+      const double f = flux_.value(inside);
+      return phi == inside ? f : f + flux_.derivative(inside) * (phi - inside);
+    }
+  }
+  [[nodiscard]] double derivative(double phi) const {
+    if constexpr (kIsEntire) return flux_.derivative(phi);
+    return flux_.derivative(clamp(phi));
+  }
+  [[nodiscard]] double secant(double p, double q) const {
+    if (kIsEntire || (p == clamp(p) && q == clamp(q))) return flux_.secant(p, q);
+    return p == q ? derivative(p) : (value(q) - value(p)) / (q - p);
+  }
+  /// max |f'| over the range: at an end if f' is monotone, from samples otherwise.
+  [[nodiscard]] double fastest() const {
+    const int n_samples = flux_.curvature() == Curvature::mixed ? 4097 : 2;
+    double fastest = 0;
+    for (int i = 0; i < n_samples; ++i) {
+      const double share = static_cast<double>(i) / (n_samples - 1);
+      const double phi =
+          i + 1 == n_samples ? range_.highest : range_.lowest + (range_.highest - range_.lowest) * share;
+      fastest = std::max(fastest, std::abs(flux_.derivative(phi)));
+    }
+    return fastest;
+  }
+
+ private:
+  static constexpr bool kIsEntire = Model::kIsParabola || std::is_same_v<Model, Burgers<double>>;
+
+  [[nodiscard]] double clamp(double phi) const { return std::clamp(phi, range_.lowest, range_.highest); }
+
+  Model flux_;
+  StateRange<double> range_;
+};
+
+}  // namespace shearfront::diffusion

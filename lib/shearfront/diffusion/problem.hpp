@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/flux/all.hpp"
+
+namespace shearfront::diffusion {
+
+/// What holds at both ends of the bed.
+///   no_flux   r f(phi) - D phi_z = 0: walls, the bed keeps its mass
+///   neumann   phi_z = 0, and r f(phi) passes
+///   periodic  the top continues at the bottom
+enum class Ends { no_flux, neumann, periodic };
+
+/// Segregation with diffusion in one bed, on a grid of equal cells:
+///
+///   phi_t + (r(z) f(phi))_z = (D(z) phi_z)_z,   bottom < z < top
+///
+/// Any consistent units. Coefficients belong to the faces z_i = bottom + i (top - bottom) / n_cells.
+/// Where r jumps at a face, the mean of both sides keeps the scheme second order (phi and the flux are
+/// continuous there if D is); where D jumps, the harmonic mean of both sides does.
+struct Problem {
+  double bottom = 0, top = 1;
+  std::size_t n_cells = 0;          ///< at least 2
+  std::vector<double> rate;         ///< r at the n_cells + 1 faces, any sign; the ends equal if periodic
+  std::vector<double> diffusivity;  ///< D >= 0 at the faces; the ends equal if periodic
+  Ends ends = Ends::no_flux;
+  Flux<double> flux = Quadratic<double>{};
+  std::vector<double> initial;  ///< means of phi over the cells
+
+  [[nodiscard]] double width() const { return (top - bottom) / static_cast<double>(n_cells); }
+};
+
+/// Derivatives of the data of a Problem with respect to one parameter. An empty vector stands for zeros.
+struct Tangent {
+  std::vector<double> rate, diffusivity;  ///< at the faces
+  std::vector<double> initial;            ///< of the cells
+};
+
+}  // namespace shearfront::diffusion

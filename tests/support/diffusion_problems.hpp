@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "shearfront/diffusion/crank_nicolson.hpp"
+
+/// Problems with diffusion whose solutions are known, and errors of computed ones.
+namespace shearfront::diffusion::support {
+
+/// int over [a, b] / (b - a), Gauss with three points.
+template <class Function>
+double mean_over(double a, double b, const Function& g) {
+  const double x = 0.5 * (b - a) * std::sqrt(0.6), m = 0.5 * (a + b);
+  return (5 * g(m - x) + 8 * g(m) + 5 * g(m + x)) / 18;
+}
+
+template <class Function>
+std::vector<double> cell_means(const Problem& p, const Function& g) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < p.n_cells; ++i) {
+    const double z = p.bottom + static_cast<double>(i) * p.width();
+    all.push_back(mean_over(z, z + p.width(), g));
+  }
+  return all;
+}
+
+/// Constant r and D, from a uniform state.
+inline Problem uniform_problem(double length, std::size_t n, double rate, double diffusivity, double phi) {
+  Problem p;
+  p.top = length;
+  p.n_cells = n;
+  p.rate.assign(n + 1, rate);
+  p.diffusivity.assign(n + 1, diffusivity);
+  p.initial.assign(n, phi);
+  return p;
+}
+
+/// Differences of cell means in the max norm, L2 and H1.
+struct Errors {
+  double max = 0, l2 = 0, h1 = 0;
+
+  Errors() = default;
+  Errors(std::span<const double> a, std::span<const double> b, double width) {
+    double values = 0, slopes = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double d = a[i] - b[i];
+      max = std::max(max, std::abs(d));
+      values += d * d * width;
+      if (i > 0) slopes += (d - (a[i - 1] - b[i - 1])) * (d - (a[i - 1] - b[i - 1])) / width;
+    }
+    l2 = std::sqrt(values);
+    h1 = std::sqrt(values + slopes);
+  }
+};
+
+/// The travelling kink of speed c = -1/4 for r = 1, D = 0.01, at y0 = 0.2 in the beginning.
+inline double kink(double y, double t) {
+  constexpr double kSpeed = -0.25, kDiffusivity = 0.01;
+  return 0.5 * (1 + kSpeed) * (1 + std::tanh(-(1 + kSpeed) * (y - 0.2 - kSpeed * t) / (2 * kDiffusivity)));
+}
+
+/// At t = 2 on [-1/2, 1/2] with homogeneous Neumann conditions, which the kink fulfils to 3e-7.
+inline Errors kink_errors(std::size_t n, double dt) {
+  Problem p = uniform_problem(1, n, 1, 0.01, 0);
+  p.bottom = -0.5;
+  p.top = 0.5;
+  p.ends = Ends::neumann;
+  p.initial = cell_means(p, [](double y) { return kink(y, 0); });
+  Options options;
+  options.dt = dt;
+  CrankNicolson run(p, options);
+  run.advance_to(2);
+  return {run.states(), cell_means(p, [](double y) { return kink(y, 2); }), p.width()};
+}
+
+}  // namespace shearfront::diffusion::support
