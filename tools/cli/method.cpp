@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -79,6 +81,18 @@ void MethodArguments::add_to(CLI::App& app) {
                "finite volumes: edges of cells on the interfaces, equal cells within each layer");
   app.add_flag("--local-steps", local_steps_,
                "finite volumes: parts of the bed that move slowly take longer time steps");
+  add_diffusion_to(app);
+}
+
+void MethodArguments::add_diffusion_to(CLI::App& app) {
+  app.add_option("--time-step", time_step_, "crank-nicolson: fixed time step; default chosen by --tolerance")
+      ->type_name("DT");
+  app.add_option("--tolerance", tolerance_,
+                 "crank-nicolson: aim for the error that time steps make in phi; > 0 and <= 1, default 1e-5")
+      ->type_name("E");
+  app.add_flag(
+      "--monotone", monotone_,
+      "crank-nicolson: fitted fluxes, which do not wiggle where cells are coarse (first order there)");
 }
 
 std::string_view MethodArguments::method() const {
@@ -109,6 +123,12 @@ SolverOptions MethodArguments::options() const {
   if (!face_coefficient_.empty())
     options.face_coefficient = static_cast<FaceCoefficient>(
         choice_option("--face-coefficient", face_coefficient_, face_coefficient_names()));
+  if (!time_step_.empty())
+    options.time_step =
+        number_option("--time-step", time_step_, {0, std::numeric_limits<double>::max(), true}, "> 0");
+  if (!tolerance_.empty())
+    options.tolerance = number_option("--tolerance", tolerance_, {0, 1, true}, "> 0 and <= 1");
+  options.monotone = monotone_;
   options.align_cells = align_cells_;
   options.local_steps = local_steps_;
   return options;
@@ -122,13 +142,18 @@ std::string MethodArguments::settings() const {
     text += fmt::format(" --resolution {} --grid {} --reconstruct {}", number_text(chosen.resolution),
                         grid_names()[static_cast<std::size_t>(chosen.grid)],
                         reconstruction_names()[static_cast<std::size_t>(chosen.reconstruct)]);
+  else if (guarantees.scope.diffusion && !guarantees.exact)
+    text += fmt::format(" --cells {} {}{}", chosen.cells,
+                        chosen.time_step > 0 ? "--time-step " + number_text(chosen.time_step)
+                                             : "--tolerance " + number_text(chosen.tolerance),
+                        chosen.monotone ? " --monotone" : "");
   else if (!guarantees.exact)
     text += fmt::format(" --cells {} --cfl {}", chosen.cells, number_text(chosen.cfl));
   if (method() == MusclSolver::kName)
     text += fmt::format(" --limiter {}", limiter_names()[static_cast<std::size_t>(chosen.limiter)]);
   if (method() == EngquistOsherSolver::kName && chosen.face_coefficient != FaceCoefficient::harmonic)
     text += " --face-coefficient value";
-  if (guarantees.order_phi > 0 && !guarantees.has_fronts)
+  if (guarantees.order_phi > 0 && !guarantees.has_fronts && !guarantees.scope.diffusion)
     text += fmt::format("{}{}", chosen.align_cells ? " --align-cells" : "",
                         chosen.local_steps ? " --local-steps" : "");
   if (chosen.layers > 0) text += fmt::format(" --layers {}", chosen.layers);

@@ -24,9 +24,10 @@ class MethodArguments {
   [[nodiscard]] bool has_layers() const { return !layers_.empty(); }
 
  private:
+  void add_diffusion_to(CLI::App& app);
   std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_,
-              limiter_, face_coefficient_;
-  bool align_cells_ = false, local_steps_ = false;
+              limiter_, face_coefficient_, time_step_, tolerance_;
+  bool align_cells_ = false, local_steps_ = false, monotone_ = false;
 };
 
 /// Says that --layers changes nothing where the shear rate is piecewise constant already.

@@ -32,9 +32,12 @@ struct Scope {
   FluxScope flux = FluxScope::any;
   bool several_fluxes = true;  ///< different ones in different layers
   bool open_ends = true;       ///< open or periodic ends
+  bool diffusion = false;      ///< beds with diffusion, and no others
 
   /// Whether the scene is one of them. Cost: O(knots).
   [[nodiscard]] bool covers(const Scene<double>& scene) const {
+    if (scene.has_diffusion() != diffusion) return false;
+    if (diffusion) return covers_diffusion(scene);
     if (!several_fluxes && scene.fluxes().size() > 1) return false;
     if (!open_ends && !scene.has_walls()) return false;
     const bool uniform = is_uniform(scene);
@@ -42,8 +45,16 @@ struct Scope {
       return std::visit([&](const auto& model) { return covers_flux(model, uniform); }, f);
     });
   }
+  /// One flux of any kind, or phi (phi - 1) and phi (1 - phi) in different layers; c = 1; walls, Neumann or
+  /// periodic ends.
+  [[nodiscard]] static Scope with_diffusion() {
+    Scope scope;
+    scope.diffusion = true;
+    return scope;
+  }
   /// "fluxes with one extremum, open ends".
   [[nodiscard]] std::string text() const {
+    if (diffusion) return "beds with diffusion";
     constexpr std::array<std::string_view, 4> kFluxes{"parabolas", "convex or concave fluxes",
                                                       "fluxes with one extremum",
                                                       "any flux in a uniform bed, else with one extremum"};
@@ -52,6 +63,21 @@ struct Scope {
   }
 
  private:
+  [[nodiscard]] static bool covers_diffusion(const Scene<double>& scene) {
+    const bool is_one = scene.fluxes().size() == 1;
+    const bool are_parabolas =
+        std::all_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<double>& f) {
+          return std::visit(
+              [](const auto& m) {
+                const double at_extremum = m.kIsParabola ? m.value(0.5) : 0;
+                return m.range().lowest == 0 && m.range().highest == 1 &&
+                       (at_extremum == 0.25 || at_extremum == -0.25);
+              },
+              f);
+        });
+    return (is_one || are_parabolas) && !scene.spec().packing && !scene.spec().outside_bottom &&
+           !scene.spec().outside_top;
+  }
   template <class Model>
   [[nodiscard]] bool covers_flux(const Model& model, bool uniform) const {
     const bool has_one = model.extrema().size() == 1;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/diffusion/setup.hpp"
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solution/share_integral.hpp"
+
+namespace shearfront {
+namespace {
+
+constexpr std::size_t kMostCells = 10'000'000;
+
+std::string refusal(const Scene<double>& scene, const SolverOptions& options) {
+  if (std::string why = diffusion::refusal(scene); !why.empty()) return why;
+  if (options.cells < 2 || options.cells > kMostCells)
+    return "cells = " + std::to_string(options.cells) + "; must be >= 2 and <= " + std::to_string(kMostCells);
+  if (!(options.time_step >= 0 && std::isfinite(options.time_step)))
+    return "time_step = " + number_text(options.time_step) + "; must be >= 0";
+  if (!(options.tolerance > 0 && options.tolerance <= 1))
+    return "tolerance = " + number_text(options.tolerance) + "; must be > 0 and <= 1";
+  return "";
+}
+
+diffusion::Options options_of(const SolverOptions& options) {
+  diffusion::Options own;
+  own.dt = options.time_step;
+  own.tolerance = options.tolerance;
+  own.scheme = options.monotone ? diffusion::Scheme::fitted : diffusion::Scheme::central;
+  // A uniform bed does not satisfy the conditions at the walls: without this the scheme rings.
+  own.smoothed_steps = options.time_step > 0 ? 2 : 0;
+  own.progress = options.progress;
+  return own;
+}
+
+/// On to time t, or until the bed is at rest.
+Status march(diffusion::CrankNicolson& engine, double t) {
+  if (std::isfinite(t)) return engine.advance_to(t);
+  constexpr double kLongest = 1e150;
+  for (double next = std::max(engine.time(), 1.0); next < kLongest; next *= 4) {
+    const Status status = engine.advance_to(next);
+    if (status != Status::ok) return status;
+    if (engine.is_steady()) return Status::steady;
+  }
+  return Status::not_converged;
+}
+
+}  // namespace
+
+SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const SolverRequest& request,
+                                        const SolverOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  SolverResult result;
+  Summary& summary = result.summary;
+  if (summary.message = refusal(scene, options); !summary.message.empty()) {
+    summary.status = Status::unsupported;
+    return result;
+  }
+  const diffusion::Problem problem = diffusion::problem_of(scene, options.cells);
+  diffusion::CrankNicolson engine(problem, options_of(options));
+  const std::size_t n = request.depths.size();
+  std::vector<std::size_t> order(request.times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
+  result.samples.resize(request.times.size() * n);
+  if (request.profiles) result.profiles.resize(request.times.size());
+  if (request.integrand) result.integrals.resize(request.times.size());
+  Status status = Status::ok;
+  const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
+  for (const std::size_t i : order) {
+    status = march(engine, request.times[i]);
+    if (!is_usable()) break;
+    Profile<double> profile = diffusion::profile_of(problem, engine.states());
+    const auto values = profile.at(request.depths);
+    for (std::size_t j = 0; j < n; ++j) result.samples[i * n + j] = {values[j].phi, values[j].M};
+    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
+    if (request.profiles) result.profiles[i] = std::move(profile);
+  }
+  if (!is_usable()) result.samples.clear(), result.profiles.clear(), result.integrals.clear();
+  summary.status = status;
+  summary.message = !is_usable()         ? engine.message()
+                    : engine.is_steady() ? "steady state reached"
+                                         : "reached the last time";
+  summary.message += ", " + std::to_string(engine.n_steps()) + " steps";
+  summary.cell_updates = engine.n_iterations() * problem.n_cells;
+  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace shearfront

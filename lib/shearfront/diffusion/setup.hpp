@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shearfront/diffusion/problem.hpp"
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/profile.hpp"
+
+namespace shearfront::diffusion {
+
+/// Why a scene is no Problem; empty if it is one. Scenes need D > 0; one flux of any kind, or parabolas on
+/// [0, 1] of either sign in different layers; c = 1; walls, Neumann or periodic ends.
+[[nodiscard]] std::string refusal(const Scene<double>& scene);
+
+/// The scene on n_cells >= 2 equal cells. r and D of a face stand for the height of a cell around it: the
+/// mean of s a sqrt(T), the harmonic mean of D, each at the middle of every piece between knots. So both
+/// depend continuously on the heights of interfaces. Precondition: refusal(scene) is empty.
+/// Cost: O(n_cells + knots).
+[[nodiscard]] Problem problem_of(const Scene<double>& scene, std::size_t n_cells);
+
+/// phi from the means of the cells: linear in each, with the slope of the parabola through it and its
+/// neighbours, reduced where it would leave the range of the flux. Second order; keeps the means.
+[[nodiscard]] Profile<double> profile_of(const Problem& problem, std::span<const double> states);
+
+}  // namespace shearfront::diffusion
