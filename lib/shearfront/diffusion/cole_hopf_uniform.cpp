@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shearfront/diffusion/cole_hopf_steady.hpp"
 #include "shearfront/numeric/scaled_erfc.hpp"
 #include "shearfront/numeric/scaled_sum.hpp"
 
@@ -161,6 +162,16 @@ typename UniformStart<Scalar>::Sums UniformStart<Scalar>::series(const Scalar& x
   }
 }
 
+/// Whether the sine series needs few terms and its first one is not much larger than the tails of the steady
+/// state, which it would drown in rounding.
+template <Real Scalar>
+bool UniformStart<Scalar>::series_is_safe(const Scalar& t) const {
+  const Scalar pi = boost::math::constants::pi<Scalar>(), tilt = u0_ < 0 ? Scalar(-u0_) : u0_;
+  const Scalar first =
+      (Scalar(1) + tilt) / (Scalar(2) * d_) - t * (Scalar(1) / (Scalar(4) * d_) + d_ * pi * pi);
+  return d_ * t > Scalar(0.05) && first < Scalar(1);
+}
+
 template <Real Scalar>
 ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t) const {
   using std::exp, std::log;
@@ -168,8 +179,9 @@ ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t)
   const Scalar low = (z - bottom_) / height_, high = (top_ - z) / height_;
   const Scalar x = is_up ? low : high, y = is_up ? high : low;
   const Scalar time = t * (is_up ? rate_ : Scalar(-rate_)) / height_;
-  if (time == 0) return {initial_, Scalar(1) - initial_, initial_ * (z - bottom_), Scalar(0)};
-  const Sums s = d_ * time < Scalar(0.3) ? images(x, y, time) : series(x, y, time);
+  if (time == 0 || spread_ == 0) return {initial_, Scalar(1) - initial_, initial_ * (z - bottom_), Scalar(0)};
+  if (!is_finite(time)) return SteadyState<Scalar>(bottom_, top_, rate_, diffusivity_, initial_).at(z);
+  const Sums s = series_is_safe(time) ? series(x, y, time) : images(x, y, time);
   ColeHopfPoint<Scalar> point;
   const Scalar odds = s.q.over(s.p);
   point.phi = Scalar(1) / (Scalar(1) + odds);

@@ -17,6 +17,7 @@ class UniformStart {
   struct Image;
   [[nodiscard]] Sums images(const Scalar& x, const Scalar& y, const Scalar& t) const;
   [[nodiscard]] Sums series(const Scalar& x, const Scalar& y, const Scalar& t) const;
+  [[nodiscard]] bool series_is_safe(const Scalar& t) const;
   void add_free(Sums& sums, const Scalar& x, const Scalar& y, const Scalar& t) const;
   bool add_image(Sums& sums, const Image& image, const Scalar& t) const;
   /// How far below the largest exponent a term is dropped: e^-30 roundoffs.
