@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "shearfront/diffusion/cole_hopf_solver.hpp"
 #include "shearfront/diffusion/crank_nicolson_solver.hpp"
 #include "shearfront/fv/classical_godunov_solver.hpp"
 #include "shearfront/fv/engquist_osher_solver.hpp"
@@ -16,6 +17,6 @@ namespace shearfront {
 /// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
 /// list.
 using SolverList = TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver,
-                            ClassicalGodunovSolver, UpwindSolver, CrankNicolsonSolver>;
+                            ClassicalGodunovSolver, UpwindSolver, CrankNicolsonSolver, ColeHopfSolver>;
 
 }  // namespace shearfront

@@ -33,6 +33,7 @@ struct Scope {
   bool several_fluxes = true;  ///< different ones in different layers
   bool open_ends = true;       ///< open or periodic ends
   bool diffusion = false;      ///< beds with diffusion, and no others
+  bool closed_form = false;    ///< of those, the ones ColeHopfSolver lists; covers() does not tell them apart
 
   /// Whether the scene is one of them. Cost: O(knots).
   [[nodiscard]] bool covers(const Scene<double>& scene) const {
@@ -52,9 +53,16 @@ struct Scope {
     scope.diffusion = true;
     return scope;
   }
+  [[nodiscard]] static Scope with_closed_form_of_diffusion() {
+    Scope scope = with_diffusion();
+    scope.closed_form = true;
+    return scope;
+  }
   /// "fluxes with one extremum, open ends".
   [[nodiscard]] std::string text() const {
-    if (diffusion) return "beds with diffusion";
+    if (diffusion)
+      return closed_form ? "uniform starts, kinks and periodic Burgers with diffusion"
+                         : "beds with diffusion";
     constexpr std::array<std::string_view, 4> kFluxes{"parabolas", "convex or concave fluxes",
                                                       "fluxes with one extremum",
                                                       "any flux in a uniform bed, else with one extremum"};

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront::diffusion {
+
+/// phi and M = int_bottom^z phi of a closed form.
+struct ClosedFormValue {
+  double phi = 0, M = 0;
+};
+using ClosedForm = std::function<ClosedFormValue(double z, double t)>;
+
+/// The closed form of a scene with diffusion, or why it has none; see ColeHopfSolver for those known.
+[[nodiscard]] std::variant<ClosedForm, std::string> closed_form(const Scene<double>& scene);
+
+}  // namespace shearfront::diffusion

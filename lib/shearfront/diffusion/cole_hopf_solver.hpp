@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "shearfront/solver/solver.hpp"
+
+namespace shearfront {
+
+/// Beds with diffusion that have a closed form (Cole-Hopf transformation), all with constant s a sqrt(T) and
+/// D and one flux:
+///   - a uniform start between walls, flux phi (phi - 1) or phi (1 - phi) (diffusion::UniformStart);
+///   - the travelling kink, initial.model = "kink" with above = 0 and width = D / (s a below), Neumann ends
+///     (diffusion::Kink): exact as long as its slope at the ends is below rounding;
+///   - Burgers' flux from a sine in a periodic domain of whole wavelengths (diffusion::PeriodicBurgers).
+/// Others: Status::unsupported with a message that names crank-nicolson. No options. Guarantees: those of
+/// the classes. Cost: 0.1 to 10 us a point.
+struct ColeHopfSolver {
+  static constexpr std::string_view kName = "cole-hopf";
+  static constexpr std::string_view kDescription = "beds with diffusion that have a closed form: exact";
+  static Guarantees guarantees() {
+    Guarantees g;
+    g.exact = g.conservative = g.bounded = true;
+    g.scope = Scope::with_closed_form_of_diffusion();
+    return g;
+  }
+  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
+                            const SolverOptions& options);
+};
+static_assert(Solver<ColeHopfSolver>);
+
+}  // namespace shearfront
