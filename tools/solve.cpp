@@ -23,7 +23,7 @@ constexpr std::size_t kDefaultDepths = 101;
 constexpr double kMostSamples = 1e8;  // times x depths
 
 struct SolveArguments {
-  std::string scene, times, depths, quantity, output, fronts, plot;
+  std::string scene, times, depths, quantity, output, fronts, plot, map;
   bool json = false;
   MethodArguments method;
 };
@@ -57,12 +57,22 @@ void check_arguments(const SolveArguments& arguments) {
     refuse("--fronts", arguments.fronts,
            fmt::format("needs --method {}; {} has no fronts", fmt::join(methods_with_fronts(), "|"), method));
   check_picture_name("--plot", arguments.plot);
+  check_picture_name("--map", arguments.map);
   // Without -o the samples go to standard output.
   const bool to_stdout = arguments.output.empty();
   check_outputs(arguments.scene,
                 {{to_stdout ? "" : "-o", to_stdout ? "-" : std::string_view(arguments.output)},
                  {"--fronts", arguments.fronts},
-                 {"--plot", arguments.plot}});
+                 {"--plot", arguments.plot},
+                 {"--map", arguments.map}});
+}
+
+/// The last of the times that are printed.
+double last_time(const std::vector<double>& times) {
+  double last = 0;
+  for (const double t : times)
+    if (std::isfinite(t)) last = std::max(last, t);
+  return last;
 }
 
 int draw(const SolveArguments& arguments, const Scene<double>& scene, const SolverRequest& request,
@@ -84,6 +94,8 @@ SolvedQuantity quantity_of(const SolveArguments& arguments) {
 int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
   if (!arguments.depths.empty())
     refuse("--depths", arguments.depths, "must not be given: " + arguments.quantity + " has no depth");
+  if (!arguments.map.empty())
+    refuse("--map", arguments.map, "must not be given with --quantity " + arguments.quantity);
   if (!arguments.fronts.empty())
     refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
   SolverOptions options = arguments.method.options();
@@ -125,10 +137,13 @@ int solve(const SolveArguments& arguments) {
   SolverOptions options = arguments.method.options();
   const auto scene = read_scene<double>(arguments.scene);
   const SolverRequest request = request_of(arguments, scene);
+  if (!arguments.map.empty() && !(last_time(request.times) > 0))
+    refuse("--map", arguments.map, "needs a time > 0 to draw up to among --times");
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   std::optional<OutputFile> fronts;
   if (request.fronts) fronts.emplace(arguments.fronts);
   check_picture_target(arguments.plot);
+  check_picture_target(arguments.map);
   note_unused_layers(arguments.method, scene);
 
   ProgressLine progress;
@@ -147,7 +162,9 @@ int solve(const SolveArguments& arguments) {
   if (fronts) write_fronts_csv(*fronts, result.fronts);
   if (fronts) fronts->commit();
   output.commit();
-  return draw(arguments, scene, request, result, times, options);
+  const int drawn = draw(arguments, scene, request, result, times, options);
+  if (arguments.map.empty() || drawn != kDone) return drawn;
+  return draw_map(arguments.map, scene, arguments.method.method(), last_time(times), options);
 }
 
 }  // namespace
@@ -171,6 +188,9 @@ Command add_solve(CLI::App& program) {
   app->add_option("--fronts", arguments->fronts, "fronts as CSV (front tracking)")->type_name("FILE");
   app->add_option("--plot", arguments->plot,
                   "picture of the profiles, with --fronts of the (t, z) plane: FILE.svg, .png or .pdf")
+      ->type_name("FILE");
+  app->add_option("--map", arguments->map,
+                  "picture of phi over time and height, up to the last time: FILE.svg, .png or .pdf")
       ->type_name("FILE");
   app->add_flag("--json", arguments->json, "write JSON instead of CSV");
   return {app, "SCENE", [arguments] { return solve(*arguments); }};

@@ -88,7 +88,7 @@ void MethodArguments::add_diffusion_to(CLI::App& app) {
   app.add_option("--time-step", time_step_, "crank-nicolson: fixed time step; default chosen by --tolerance")
       ->type_name("DT");
   app.add_option("--tolerance", tolerance_,
-                 "crank-nicolson: aim for the error that time steps make in phi; > 0 and <= 1, default 1e-5")
+                 "crank-nicolson: aim for the error that time steps make in phi; > 0 and <= 1, default 1e-4")
       ->type_name("E");
   app.add_flag(
       "--monotone", monotone_,

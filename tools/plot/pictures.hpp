@@ -27,6 +27,10 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
                   const std::vector<double>& times, const SolverOptions& options);
 
+/// phi over t (from 0) and z, in colours with 20 contours, by a method.
+int draw_map(const std::string& path, const Scene<double>& scene, std::string_view method, double t_end,
+             const SolverOptions& options);
+
 /// Mixing or bed height against time: the curve up to the last time, the times asked for as points, the
 /// lowest bed marked.
 int draw_bed_course(const std::string& path, const Scene<double>& scene, std::string_view method,

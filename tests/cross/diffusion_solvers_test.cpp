@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solvers of beds with diffusion, through the interface of all solvers: crank-nicolson against the closed
+// forms of cole-hopf, its order, and its limit for D -> 0, front tracking.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "shearfront/diffusion/cole_hopf_solver.hpp"
+#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
+
+namespace shearfront {
+namespace {
+
+constexpr double kSteady = std::numeric_limits<double>::infinity();
+
+SceneSpec<double> uniform(double D, double phi = 0.55) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_values = {phi};
+  spec.diffusion = Diffusion<double>{D, {}, false};
+  return spec;
+}
+SceneSpec<double> kink() {
+  SceneSpec<double> spec = uniform(0.01);
+  spec.initial_values.clear();
+  spec.initial_profile = KinkInitial<double>{0.75, 0, 0.7, 0.01 / 0.75};
+  spec.is_neumann = true;
+  return spec;
+}
+SceneSpec<double> burgers(double mu) {
+  SceneSpec<double> spec = uniform(mu);
+  spec.fluxes = {Burgers<double>{-2, 2}};
+  spec.initial_values.clear();
+  spec.top = 2 * std::acos(-1.0);
+  spec.initial_profile = SineInitial<double>{0.5, 1, spec.top, 0.25};
+  spec.is_periodic = true;
+  return spec;
+}
+SceneSpec<double> may(double D) {
+  SceneSpec<double> spec = uniform(D);
+  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  return spec;
+}
+
+std::vector<double> depths(const Scene<double>& scene) {
+  std::vector<double> z;
+  for (int i = 0; i <= 40; ++i)
+    z.push_back(i == 40 ? scene.top() : scene.bottom() + (scene.top() - scene.bottom()) * i / 40);
+  return z;
+}
+
+/// Largest differences of phi and M between the two solvers.
+std::pair<double, double> distance(const Scene<double>& scene, const std::vector<double>& times,
+                                   const SolverOptions& options) {
+  const SolverRequest request{times, depths(scene), false, false, false};
+  const SolverResult grid = CrankNicolsonSolver::solve(scene, request, options);
+  const SolverResult exact = ColeHopfSolver::solve(scene, request, options);
+  EXPECT_TRUE(grid.summary.usable() && exact.summary.usable())
+      << grid.summary.message << exact.summary.message;
+  std::pair<double, double> most{0, 0};
+  for (std::size_t i = 0; i < std::min(grid.samples.size(), exact.samples.size()); ++i) {
+    most.first = std::max(most.first, std::abs(grid.samples[i].phi - exact.samples[i].phi));
+    most.second = std::max(most.second, std::abs(grid.samples[i].M - exact.samples[i].M));
+  }
+  return most;
+}
+
+TEST(DiffusionSolvers, AgreeOnEveryClosedForm) {
+  for (const SceneSpec<double>& spec :
+       {uniform(0.5), uniform(0.1), uniform(0.05, 0.2), kink(), burgers(0.2)}) {
+    const Scene<double> scene(spec);
+    double last_phi = 1;
+    for (const std::size_t cells : {100u, 200u, 400u}) {
+      SolverOptions options;
+      options.cells = cells;
+      options.tolerance = 1e-7;
+      const auto [phi, M] = distance(scene, {0.2, 0.7, 1.5}, options);
+      EXPECT_LT(M, 0.5 * phi + 1e-6);
+      if (cells > 100) {
+        EXPECT_LT(phi, last_phi / 3.3) << cells;  // second order
+      }
+      last_phi = phi;
+    }
+    EXPECT_LT(last_phi, 1e-3);
+  }
+}
+
+TEST(DiffusionSolvers, ReachTheSameSteadyState) {
+  for (const double D : {0.5, 0.1, 0.05}) {
+    SolverOptions options;
+    options.cells = 400;
+    options.tolerance = 1e-6;
+    const auto [phi, M] = distance(Scene<double>(uniform(D)), {kSteady}, options);
+    EXPECT_LT(phi, 1e-4) << D;
+    EXPECT_LT(M, 1e-5) << D;
+  }
+}
+
+TEST(DiffusionSolvers, IntegralsAgree) {
+  const Scene<double> scene(uniform(0.1));
+  SolverRequest request;
+  request.times = {0, 0.3, 1};
+  request.integrand = entropy_function();
+  SolverOptions options;
+  options.cells = 800;
+  const auto grid = CrankNicolsonSolver::solve(scene, request, options);
+  const auto exact = ColeHopfSolver::solve(scene, request, options);
+  ASSERT_EQ(grid.integrals.size(), 3u);
+  ASSERT_EQ(exact.integrals.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(grid.integrals[i], exact.integrals[i], 1e-4);
+}
+
+// A bed turned upside down with the flux of large grains.
+TEST(DiffusionSolvers, LargeGrainsRiseAsSmallOnesSink) {
+  SceneSpec<double> small = may(1e-2), large = may(1e-2);
+  large.fluxes = {Packed<double>{Grains::large}};
+  large.shear_rate = Piecewise<double>{{1 - 0.29}, {0.31, 2.4}};
+  large.initial_values = {1, 0};
+  const SolverRequest down{{0.5, 3}, {0.1, 0.3, 0.6, 0.9}, false, false, false};
+  const SolverRequest up{{0.5, 3}, {0.9, 0.7, 0.4, 0.1}, false, false, false};
+  SolverOptions options;
+  options.time_step = 2e-3;
+  const auto a = CrankNicolsonSolver::solve(Scene<double>(small), down, options);
+  const auto b = CrankNicolsonSolver::solve(Scene<double>(large), up, options);
+  ASSERT_EQ(a.samples.size(), 8u);
+  ASSERT_EQ(b.samples.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(a.samples[i].phi, b.samples[i].phi, 1e-7);
+}
+
+// Grains driven from the middle to both walls stay symmetric, between 0 and 1, and keep their mass.
+TEST(DiffusionSolvers, ChuteIsSymmetricAndBounded) {
+  SceneSpec<double> spec = uniform(5e-8, 0.5);
+  spec.fluxes = {Packed<double>{Grains::small}, Packed<double>{Grains::large}};
+  spec.flux_breaks = {0};
+  spec.bottom = -0.022, spec.top = 0.022;
+  spec.shear_rate = Chute<double>{2.2988e-7, 1 / 280.0, 0};
+  const Scene<double> scene(spec);
+  SolverRequest request{{1, 10, 100, 1000}, {}, false, false, true};
+  SolverOptions options;
+  options.cells = 1000;
+  const auto result = CrankNicolsonSolver::solve(scene, request, options);
+  ASSERT_EQ(result.profiles.size(), 4u) << result.summary.message;
+  for (const Profile<double>& p : result.profiles) {
+    EXPECT_NEAR(p.mass() / scene.mass(), 1, 1e-13);
+    const auto [lo, hi] = std::minmax_element(p.below().begin(), p.below().end());
+    EXPECT_GE(*lo, 0);
+    EXPECT_LE(*hi, 1);
+    for (std::size_t j = 0; j < p.n_cells(); ++j)
+      EXPECT_NEAR(p.below()[j], p.above()[p.n_cells() - 1 - j], 1e-9);
+  }
+}
+
+// As D -> 0 the diffusive bed tends to the one front tracking and the exact engine know. The distance falls
+// like D, times the number of fronts and a logarithm.
+TEST(DiffusionSolvers, TendToTheHyperbolicSolution) {
+  const Scene<double> limit([] {
+    SceneSpec<double> spec = may(1);
+    spec.diffusion.reset();
+    return spec;
+  }());
+  const ExactSolution<double> exact(limit);
+  double last = 1;
+  for (const double D : {1e-2, 1e-3, 1e-4}) {
+    SolverOptions options;
+    options.cells = D == 1e-4 ? 4000 : 1000;
+    options.tolerance = 1e-3;
+    const auto result =
+        CrankNicolsonSolver::solve(Scene<double>(may(D)), {{2}, {}, false, false, true}, options);
+    ASSERT_EQ(result.profiles.size(), 1u) << result.summary.message;
+    const double l1 = errors_against(exact, result.profiles[0], 2.0).l1;
+    EXPECT_LT(l1, last / 4) << D;
+    last = l1;
+  }
+}
+
+TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
+  SceneSpec<double> still = may(1);
+  still.diffusion.reset();
+  SceneSpec<double> packed = may(1e-2);
+  packed.packing = Piecewise<double>{{}, {0.6}};
+  for (const auto& [spec, has_diffusion] :
+       {std::pair{still, false}, {may(0), false}, {may(1e-2), true}, {packed, true}, {kink(), true}}) {
+    const Scene<double> scene(spec);
+    SolverList::for_each([&]<class S>() {
+      const SolverResult result = S::solve(scene, {{0.1}, {0.3}, false, false, false}, {});
+      const bool is_refused = result.summary.status == Status::unsupported;
+      if (S::guarantees().scope.diffusion != has_diffusion) {
+        EXPECT_TRUE(is_refused) << S::kName;
+        const std::string other = has_diffusion ? "crank-nicolson" : "front-tracking";
+        EXPECT_NE(result.summary.message.find(other), std::string::npos)
+            << S::kName << result.summary.message;
+      } else if (!S::guarantees().scope.closed_form) {
+        EXPECT_EQ(is_refused, !S::guarantees().scope.covers(scene)) << S::kName << result.summary.message;
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace shearfront

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Laws of smooth initial profiles, run for every model of initial/all.hpp and for its skeleton.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <string>
+
+#include "shearfront/initial/all.hpp"
+#include "shearfront/initial/skeleton.hpp"
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront {
+namespace {
+
+template <class Model>
+class InitialLaws : public testing::Test {};
+
+struct ModelName {
+  template <class Model>
+  static std::string GetName(int) {
+    return std::string(Model::kName);
+  }
+};
+
+template <class List>
+struct AsTestTypes;
+template <class... Model>
+struct AsTestTypes<TypeList<Model...>> {
+  using Type = testing::Types<Model..., SkeletonInitial<double>>;
+};
+TYPED_TEST_SUITE(InitialLaws, AsTestTypes<InitialProfileList<double>>::Type, ModelName);
+
+TYPED_TEST(InitialLaws, HasSamplesThatPassTheirOwnCheck) {
+  ASSERT_FALSE(TypeParam::samples().empty());
+  for (const auto& model : TypeParam::samples()) {
+    Problems problems;
+    model.fields(model, [&](const FieldInfo& info, const auto& x) {
+      check_number(std::string(info.key), info.range, x, problems);
+    });
+    model.check("initial.", 0.0, 1.0, problems);
+    EXPECT_TRUE(problems.empty());
+  }
+}
+
+TYPED_TEST(InitialLaws, StaysInItsRange) {
+  for (const auto& model : TypeParam::samples())
+    for (int i = 0; i <= 1000; ++i) {
+      EXPECT_GE(model.value(i / 1000.0), model.lowest() - 1e-15);
+      EXPECT_LE(model.value(i / 1000.0), model.highest() + 1e-15);
+    }
+}
+
+TYPED_TEST(InitialLaws, IntegralIsThatOfTheValues) {
+  for (const auto& model : TypeParam::samples())
+    for (const auto& [lo, hi] : {std::pair{0.0, 1.0}, {0.1, 0.4}, {0.25, 0.2500001}, {0.55, 0.93}}) {
+      const double by_quadrature = boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+          [&](double z) { return model.value(z); }, lo, hi, 15, 1e-13);
+      EXPECT_NEAR(model.integral(lo, hi), by_quadrature, 1e-12);
+    }
+}
+
+TYPED_TEST(InitialLaws, IntegralsAddUp) {
+  for (const auto& model : TypeParam::samples())
+    EXPECT_NEAR(model.integral(0.0, 0.3) + model.integral(0.3, 1.0), model.integral(0.0, 1.0), 1e-15);
+}
+
+SceneSpec<double> spec_with(InitialProfile<double> profile, double D) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.diffusion = Diffusion<double>{D, {}, false};
+  spec.initial_profile = std::move(profile);
+  return spec;
+}
+
+TEST(DiffusiveScenes, SmoothDataNeedDiffusionAndStatesOfTheFlux) {
+  const auto first = [](const SceneSpec<double>& spec) {
+    const Problems problems = find_problems(spec);
+    return problems.empty() ? std::string() : problems.front().text();
+  };
+  EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.01)), "");
+  EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0)),
+            "initial.model: must not be given for a bed without diffusion: its data are constant in pieces");
+  EXPECT_EQ(first(spec_with(SineInitial<double>{0.75, 0.5, 1, 0}, 0.01)),
+            "initial.model = sine; must stay between 0 and 1 (goes from 0.25 to 1.25)");
+  EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, -1)), "diffusion.D = -1; must be > 0");
+  SceneSpec<double> spec = spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.01);
+  spec.is_neumann = spec.is_periodic = true;
+  EXPECT_EQ(first(spec), "boundary.neumann = true; must not stand beside other ends");
+}
+
+TEST(DiffusiveScenes, AmountsAreIntegralsOfTheInitialData) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_breaks = {0.25, 0.5};
+  spec.initial_values = {0.5, 1, 0.25};
+  const Scene<double> steps(spec);
+  EXPECT_NEAR(steps.initial_amount(0.125, 0.75), 0.125 * 0.5 + 0.25 + 0.25 * 0.25, 1e-16);
+  EXPECT_NEAR(steps.initial_amount(0.25, 0.5), 0.25, 1e-16);
+  EXPECT_NEAR(steps.initial_amount(0, 1), steps.mass(), 1e-16);
+  const Scene<double> smooth(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.01));
+  EXPECT_EQ(smooth.mass(), smooth.initial_amount(0, 1));
+  EXPECT_NEAR(smooth.mass(), 0.375, 1e-15);  // odd about the middle
+  EXPECT_FALSE(smooth.is_plain());
+}
+
+TEST(DiffusiveScenes, DiffusivityFollowsWhatItIsToldTo) {
+  SceneSpec<double> spec = spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.5);
+  spec.shear_rate = Piecewise<double>{{0.5}, {3, 1}};
+  spec.scale = 7;
+  EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.1), 0.5);
+  spec.diffusion->follows_shear_rate = true;
+  EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.1), 1.5);
+  EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.9), 0.5);
+  spec.diffusion->follows_shear_rate = false;
+  spec.diffusion->profile = Table<double>{{0, 1}, {1, 2}};
+  EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.5), 0.75);
+}
+
+}  // namespace
+}  // namespace shearfront
