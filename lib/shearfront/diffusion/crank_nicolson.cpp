@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -57,6 +58,12 @@ CrankNicolson::CrankNicolson(const Problem& problem, Options options, std::vecto
   std::copy(problem.initial.begin(), problem.initial.end(), phi_.begin() + 1);
   set_ghosts(phi_);
   scale_ = largest_magnitude(phi_.data(), n_ + 2);
+  std::visit(
+      [&](const auto& flux) {
+        const auto [lowest, highest] = flux.range();
+        limit_ = 10 * std::max({scale_, std::abs(lowest), std::abs(highest)});
+      },
+      problem.flux);
   for (const Tangent& parameter : parameters_) {
     tangents_.push_back(parameter.initial);
     tangents_.back().resize(n_);
@@ -75,17 +82,19 @@ Status CrankNicolson::repeat(std::span<const TimeStep> steps) {
   for (const TimeStep& step : steps) {
     if (!attempt(step).converged) return Status::not_converged;
     commit(step);
+    time_ += step.length;
   }
   return Status::ok;
 }
 
 Status CrankNicolson::march_fixed(double t) {
+  if (n_steps() == 0) start_fixed();
   const double n_wanted = std::ceil((t - time_) / options_.dt * (1 - 1e-12));
   const auto n = static_cast<std::uint64_t>(std::max(n_wanted, 0.0));
   const double length = n > 0 ? (t - time_) / static_cast<double>(n) : 0;
   const double begin = time_;
   for (std::uint64_t i = 1; i <= n && !is_steady_; ++i) {
-    const bool smoothed = n_steps() < 2 * options_.smoothed_steps;
+    const bool smoothed = n_steps() < 2 * n_smoothed_;
     const bool done =
         smoothed ? take(0.5 * length, 1) && take(0.5 * length, 1) : take(length, theta_of(length));
     if (!done) return Status::not_converged;
@@ -108,6 +117,13 @@ Status CrankNicolson::stop_reason() {
   return Status::ok;
 }
 
+Status CrankNicolson::give_up(double length) {
+  message_ = "the iteration does not converge at t = " + number_text(time_) + ", not even for steps of " +
+             number_text(length);
+  if (options_.scheme == Scheme::central) message_ += "; take more cells or the fitted scheme";
+  return Status::not_converged;
+}
+
 double CrankNicolson::theta_of(double length) const {
   return std::max(0.5, 1 - 1 / (length * rule_->explicit_rate()));
 }
@@ -125,8 +141,7 @@ bool CrankNicolson::take(double length, double theta) {
     flux_times_.n = 0;
     part /= 2;
     if (++halvings > kMaxHalvings) {
-      message_ = "the iteration does not converge at t = " + number_text(time_) + ", not even for steps of " +
-                 number_text(part);
+      give_up(part);
       return false;
     }
   }
@@ -152,9 +167,7 @@ Status CrankNicolson::march_adaptive(double t) {
       control_.shorten(0.5 * length);
       flux_times_.n = 0;
       if (++failures <= kMaxHalvings) continue;
-      message_ = "the iteration does not converge at t = " + number_text(time_) + ", not even for steps of " +
-                 number_text(length);
-      return Status::not_converged;
+      return give_up(length);
     }
     failures = 0;
     if (!has_estimate) {
@@ -171,10 +184,30 @@ Status CrankNicolson::march_adaptive(double t) {
   return is_steady_ ? Status::steady : Status::ok;
 }
 
+void CrankNicolson::start_fixed() {
+  n_smoothed_ = options_.smoothed_steps.value_or(0);
+  const double largest_d = largest_magnitude(problem_.diffusivity.data(), n_ + 1);
+  if (options_.smoothed_steps || !(options_.dt * largest_d > width_ * width_)) return;
+  const std::vector<double> rates = initial_rates();
+  double bend = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double below = i > 0 ? rates[i - 1] : rates[i], above = i + 1 < n_ ? rates[i + 1] : rates[i];
+    bend = std::max(bend, std::abs(below - 2 * rates[i] + above));
+  }
+  if (bend > 0.5 * largest_magnitude(rates.data(), n_)) n_smoothed_ = 2;
+}
+
 void CrankNicolson::start_adaptive(double t) {
+  const double rate = largest_magnitude(initial_rates().data(), n_);
+  is_steady_ = rate == 0;
+  control_.start(rate / scale_, t - time_);
+}
+
+std::vector<double> CrankNicolson::initial_rates() {
   rule_->evaluate(phi_.data(), fluxes_);
-  for (std::size_t i = 0; i < n_; ++i) correction_[i] = fluxes_.value[i + 1] - fluxes_.value[i];
-  control_.start(largest_magnitude(correction_.data(), n_) / scale_, t - time_);
+  std::vector<double> rates(n_);
+  for (std::size_t i = 0; i < n_; ++i) rates[i] = fluxes_.value[i] - fluxes_.value[i + 1];
+  return rates;
 }
 
 void CrankNicolson::try_rest() {
@@ -219,12 +252,11 @@ void CrankNicolson::place_inner(double tau) {
 }
 
 bool CrankNicolson::iterate(double tau, double theta) {
-  // A fitted step must end in its bounds and tangents need a root: to rounding, which Newton's iteration has
-  // reached once a change was below the root of it.
+  // A fitted step must end in its bounds and tangents need a root: to rounding, which is reached when the
+  // next change, this one times the rate of convergence, would be rounding.
   const bool is_newton = options_.iteration == Iteration::newton;
   const bool to_rounding = options_.scheme == Scheme::fitted || !parameters_.empty();
-  double enough = options_.iteration_tolerance * scale_ * theta;
-  if (to_rounding) enough = std::min(enough, (is_newton ? 0x1p-27 : 0x1p-50) * scale_);
+  const double wanted = options_.iteration_tolerance * scale_ * theta;
   double last_change = 0;
   for (int k = 0; k < kMaxIterations; ++k) {
     if (is_newton) {
@@ -236,7 +268,9 @@ bool CrankNicolson::iterate(double tau, double theta) {
     const bool same_matrix = is_newton && !to_rounding && k > 0 && last_change < kSmallChange * scale_;
     const double change = correct(tau, same_matrix);
     if (!std::isfinite(change)) return false;
-    if (change <= enough) return true;
+    const double rate = k > 0 ? std::min(1.0, change / last_change) : 1;
+    if (change <= wanted && (!to_rounding || !(rate * change > 0x1p-50 * scale_)))
+      return largest_magnitude(inner_.data(), n_ + 2) <= limit_;
     last_change = same_matrix ? scale_ : change;
   }
   return false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,10 @@ struct Options {
   Scheme scheme = Scheme::central;
   Iteration iteration = Iteration::newton;
   double iteration_tolerance = 1e-8;  ///< largest change of a state in the last iteration, over max |phi|
-  std::size_t smoothed_steps = 0;     ///< fixed steps: so many first steps are two backward Euler halves each
+  /// Fixed steps: so many first steps are two halves of backward Euler each. Unset: two if the step is long
+  /// for the grid (D dt > dz^2) and the rate of change at t = 0 is rough (its second difference exceeds half
+  /// of it somewhere, as where data do not satisfy the condition at a wall), else none.
+  std::optional<std::size_t> smoothed_steps;
   std::uint64_t max_steps = 1'000'000'000;
   /// Called after every step with (t, steps so far); return false to stop with Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
@@ -66,7 +70,9 @@ class CrankNicolson {
   CrankNicolson(const Problem& problem, Options options, std::vector<Tangent> tangents = {});
 
   /// Goes on to time t >= time(), exactly. Status::ok; steady: at rest; budget_reached, interrupted; not_
-  /// converged: the iteration failed even for steps 2^20 times shorter than wanted. See message().
+  /// converged: the iteration failed even for steps 2^20 times shorter than wanted, or led to states ten
+  /// times as large as any of the beginning and of the range of the flux, as Scheme::central may where the
+  /// cell Peclet number |r| W dz / D is far above 2. See message().
   Status advance_to(double t);
   /// Makes the given steps (of another run), the tangents along with them.
   Status repeat(std::span<const TimeStep> steps);
@@ -108,8 +114,12 @@ class CrankNicolson {
   bool take(double length, double theta);
   [[nodiscard]] double theta_of(double length) const;
   void start_adaptive(double t);
+  void start_fixed();
+  /// phi_t at the beginning, of the cells.
+  [[nodiscard]] std::vector<double> initial_rates();
   void try_rest();
   [[nodiscard]] Status stop_reason();
+  Status give_up(double length);
 
   Problem problem_;
   Options options_;
@@ -124,9 +134,11 @@ class CrankNicolson {
   std::vector<std::vector<double>> tangents_;
   FluxTimes flux_times_;
   StepControl control_;
-  double scale_ = 0, largest_change_ = 0, time_ = 0;
+  double scale_ = 0;  ///< max |phi|
+  double limit_ = 0;  ///< of |v|: beyond it the scheme has become unstable
+  double largest_change_ = 0, time_ = 0;
   std::vector<TimeStep> steps_;
-  std::uint64_t n_iterations_ = 0, n_rest_checked_ = 0;
+  std::uint64_t n_iterations_ = 0, n_rest_checked_ = 0, n_smoothed_ = 0;
   bool is_steady_ = false;
   std::string message_;
 };

@@ -2,15 +2,16 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <type_traits>
 
 #include "shearfront/flux/all.hpp"
 
 namespace shearfront::diffusion {
 
 /// A flux for all real states: outside its range f goes on along the tangents at the ends, as iterates of an
-/// implicit step may stray there. Polynomials of degree two need no such care.
-template <class Model>
+/// implicit step may stray there. So |f'| <= fastest() for all states.
+/// may_leave_tangents: polynomials of degree two go on along themselves instead, which is cheaper.
+template <class Model, bool may_leave_tangents>
 class ExtendedFlux {
  public:
   explicit ExtendedFlux(const Model& flux) : flux_(flux), range_(flux.range()) {}
@@ -46,7 +47,8 @@ class ExtendedFlux {
   }
 
  private:
-  static constexpr bool kIsEntire = Model::kIsParabola || std::is_same_v<Model, Burgers<double>>;
+  static constexpr bool kIsEntire =
+      may_leave_tangents && (Model::kIsParabola || std::is_same_v<Model, Burgers<double>>);
 
   [[nodiscard]] double clamp(double phi) const { return std::clamp(phi, range_.lowest, range_.highest); }
 

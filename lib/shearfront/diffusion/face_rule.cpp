@@ -15,6 +15,8 @@ namespace {
 struct FittedDiffusivity {
   double value, by_rate, by_diffusivity;
 
+  /// Not fitted.
+  explicit FittedDiffusivity(double diffusivity) : value(diffusivity), by_rate(0), by_diffusivity(1) {}
   FittedDiffusivity(double rate, double diffusivity, double fastest, double width) {
     const double upwind = 0.5 * fastest * width;
     const double p = std::abs(rate) * upwind / diffusivity;
@@ -37,100 +39,40 @@ struct FittedDiffusivity {
   }
 };
 
-/// What is common to all fluxes.
-class FaceRuleBase : public FaceRule {
+template <class Model, Scheme scheme>
+class MeanRule final : public FaceRule {
  public:
-  explicit FaceRuleBase(const Problem& problem) : n_(problem.n_cells), ends_(problem.ends) {}
-
- protected:
-  void set_ends(FaceFluxes& out) const {
-    if (ends_ == Ends::periodic) return;
-    for (const std::size_t i : {std::size_t{0}, n_})
-      if (ends_ == Ends::no_flux) out.value[i] = out.by_below[i] = out.by_above[i] = 0;
-    if (ends_ == Ends::no_flux) return;
-    out.by_above[0] += out.by_below[0];
-    out.by_below[n_] += out.by_above[n_];
-    out.by_below[0] = out.by_above[n_] = 0;
-  }
-
-  std::size_t n_;
-  Ends ends_;
-};
-
-template <class Model>
-class CentralRule final : public FaceRuleBase {
- public:
-  CentralRule(const Problem& problem, const Model& flux)
-      : FaceRuleBase(problem), flux_(flux), width_(problem.width()) {
+  MeanRule(const Problem& problem, const Model& flux)
+      : flux_(flux), ends_(problem.ends), n_(problem.n_cells), values_(n_ + 2), slopes_(n_ + 2) {
+    const double width = problem.width(), fastest = flux_.fastest();
     for (std::size_t i = 0; i <= n_; ++i) {
-      rates_.push_back(problem.rate[i] / width_);
-      diffusions_.push_back(problem.diffusivity[i] / (width_ * width_));
+      FittedDiffusivity d(problem.rate[i], problem.diffusivity[i], fastest, width);
+      if (scheme == Scheme::central) d = FittedDiffusivity(problem.diffusivity[i]);
+      half_rates_.push_back(0.5 * problem.rate[i] / width);
+      diffusions_.push_back(d.value / (width * width));
+      by_rate_.push_back(d.by_rate / (width * width));
+      by_diffusivity_.push_back(d.by_diffusivity / (width * width));
     }
-  }
-
-  void evaluate(const double* v, FaceFluxes& out) override {
-    fill(v, out, [&](std::size_t, double mean) { return flux_.derivative(mean); });
-  }
-  void evaluate_lagged(const double* v, const double* w, FaceFluxes& out) override {
-    fill(v, out, [&](std::size_t i, double mean) { return flux_.secant(0.5 * (w[i] + w[i + 1]), mean); });
-  }
-  void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) override {
-    for (std::size_t i = 0; i <= n_; ++i) {
-      out[i] = 0;
-      if (!tangent.rate.empty()) out[i] += tangent.rate[i] / width_ * flux_.value(0.5 * (v[i] + v[i + 1]));
-      if (!tangent.diffusivity.empty())
-        out[i] -= tangent.diffusivity[i] / (width_ * width_) * (v[i + 1] - v[i]);
-    }
-    if (ends_ == Ends::no_flux) out[0] = out[n_] = 0;
-  }
-  [[nodiscard]] double explicit_rate() const override { return 0; }
-
- private:
-  template <class Slope>
-  void fill(const double* __restrict v, FaceFluxes& out, const Slope& slope) const {
-    double* __restrict const value = out.value.data();
-    double* __restrict const by_below = out.by_below.data();
-    double* __restrict const by_above = out.by_above.data();
-    const double* __restrict const rates = rates_.data();
-    const double* __restrict const diffusions = diffusions_.data();
-    for (std::size_t i = 0; i <= n_; ++i) {
-      const double mean = 0.5 * (v[i] + v[i + 1]);
-      const double half = 0.5 * rates[i] * slope(i, mean);
-      value[i] = rates[i] * flux_.value(mean) - diffusions[i] * (v[i + 1] - v[i]);
-      by_below[i] = half + diffusions[i];
-      by_above[i] = half - diffusions[i];
-    }
-    set_ends(out);
-  }
-
-  ExtendedFlux<Model> flux_;
-  double width_;
-  std::vector<double> rates_, diffusions_;  ///< r / dz and D / dz^2
-};
-
-template <class Model>
-class FittedRule final : public FaceRuleBase {
- public:
-  FittedRule(const Problem& problem, const Model& flux)
-      : FaceRuleBase(problem), flux_(flux), width_(problem.width()), values_(n_ + 2), slopes_(n_ + 2) {
-    const double fastest = flux_.fastest();
-    for (std::size_t i = 0; i <= n_; ++i) {
-      const FittedDiffusivity d(problem.rate[i], problem.diffusivity[i], fastest, width_);
-      half_rates_.push_back(0.5 * problem.rate[i] / width_);
-      diffusions_.push_back(d.value / (width_ * width_));
-      by_rate_.push_back(d.by_rate / (width_ * width_));
-      by_diffusivity_.push_back(d.by_diffusivity / (width_ * width_));
-    }
+    half_per_width_ = 0.5 / width;
+    if (scheme == Scheme::central) return;
     for (std::size_t i = 0; i < n_; ++i)
       explicit_rate_ = std::max(explicit_rate_, std::abs(half_rates_[i + 1] - half_rates_[i]) * fastest +
                                                     diffusions_[i] + diffusions_[i + 1]);
   }
 
   void evaluate(const double* v, FaceFluxes& out) override {
-    fill(v, out, [&](std::size_t j) { return flux_.derivative(v[j]); });
+    for (std::size_t j = 0; j < n_ + 2; ++j) {
+      values_[j] = flux_.value(v[j]);
+      slopes_[j] = flux_.derivative(v[j]);
+    }
+    fill(v, out);
   }
   void evaluate_lagged(const double* v, const double* w, FaceFluxes& out) override {
-    fill(v, out, [&](std::size_t j) { return flux_.secant(w[j], v[j]); });
+    for (std::size_t j = 0; j < n_ + 2; ++j) {
+      values_[j] = flux_.value(v[j]);
+      slopes_[j] = flux_.secant(w[j], v[j]);
+    }
+    fill(v, out);
   }
   void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) override {
     for (std::size_t i = 0; i <= n_; ++i) {
@@ -138,7 +80,7 @@ class FittedRule final : public FaceRuleBase {
       out[i] = 0;
       if (!tangent.rate.empty())
         out[i] += tangent.rate[i] *
-                  (0.5 / width_ * (flux_.value(v[i]) + flux_.value(v[i + 1])) - by_rate_[i] * rise);
+                  (half_per_width_ * (flux_.value(v[i]) + flux_.value(v[i + 1])) - by_rate_[i] * rise);
       if (!tangent.diffusivity.empty()) out[i] -= tangent.diffusivity[i] * by_diffusivity_[i] * rise;
     }
     if (ends_ == Ends::no_flux) out[0] = out[n_] = 0;
@@ -146,23 +88,33 @@ class FittedRule final : public FaceRuleBase {
   [[nodiscard]] double explicit_rate() const override { return explicit_rate_; }
 
  private:
-  template <class Slope>
-  void fill(const double* v, FaceFluxes& out, const Slope& slope) {
-    for (std::size_t j = 0; j < n_ + 2; ++j) {
-      values_[j] = flux_.value(v[j]);
-      slopes_[j] = slope(j);
-    }
+  /// From the fluxes and slopes of the cells.
+  void fill(const double* __restrict v, FaceFluxes& out) const {
+    double* __restrict const value = out.value.data();
+    double* __restrict const by_below = out.by_below.data();
+    double* __restrict const by_above = out.by_above.data();
     for (std::size_t i = 0; i <= n_; ++i) {
       const double half = half_rates_[i], d = diffusions_[i];
-      out.value[i] = half * (values_[i] + values_[i + 1]) - d * (v[i + 1] - v[i]);
-      out.by_below[i] = half * slopes_[i] + d;
-      out.by_above[i] = half * slopes_[i + 1] - d;
+      value[i] = half * (values_[i] + values_[i + 1]) - d * (v[i + 1] - v[i]);
+      by_below[i] = half * slopes_[i] + d;
+      by_above[i] = half * slopes_[i + 1] - d;
     }
     set_ends(out);
   }
+  void set_ends(FaceFluxes& out) const {
+    if (ends_ == Ends::no_flux)
+      for (const std::size_t i : {std::size_t{0}, n_}) out.value[i] = out.by_below[i] = out.by_above[i] = 0;
+    if (ends_ != Ends::neumann) return;
+    // The states beyond the ends are those of the end cells.
+    out.by_above[0] += out.by_below[0];
+    out.by_below[n_] += out.by_above[n_];
+    out.by_below[0] = out.by_above[n_] = 0;
+  }
 
-  ExtendedFlux<Model> flux_;
-  double width_, explicit_rate_ = 0;
+  ExtendedFlux<Model, scheme == Scheme::central> flux_;
+  Ends ends_;
+  std::size_t n_;
+  double half_per_width_ = 0, explicit_rate_ = 0;
   std::vector<double> half_rates_, diffusions_;   ///< r / (2 dz) and fitted D / dz^2
   std::vector<double> by_rate_, by_diffusivity_;  ///< derivatives of the latter
   std::vector<double> values_, slopes_;           ///< of the cells
@@ -173,8 +125,9 @@ class FittedRule final : public FaceRuleBase {
 std::unique_ptr<FaceRule> FaceRule::make(const Problem& problem, Scheme scheme) {
   return std::visit(
       [&]<class Model>(const Model& flux) -> std::unique_ptr<FaceRule> {
-        if (scheme == Scheme::central) return std::make_unique<CentralRule<Model>>(problem, flux);
-        return std::make_unique<FittedRule<Model>>(problem, flux);
+        if (scheme == Scheme::central)
+          return std::make_unique<MeanRule<Model, Scheme::central>>(problem, flux);
+        return std::make_unique<MeanRule<Model, Scheme::fitted>>(problem, flux);
       },
       problem.flux);
 }

@@ -42,7 +42,7 @@ class StepControl {
   void shorten(double length) { length_ = length; }
 
  private:
-  static constexpr double kLocalShare = 0.1;
+  static constexpr double kLocalShare = 2;
   static constexpr double kRetryBelow = 0.5;
   static constexpr double kSafety = 0.9, kMostShrink = 0.2, kMostGrowth = 1.6;
 
