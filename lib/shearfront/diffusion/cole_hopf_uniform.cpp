@@ -11,14 +11,14 @@
 
 namespace shearfront::diffusion {
 
-/// P = phi w, Q = (1 - phi) w and V = -w_t / (phi0 (1 - phi0) / D), up to a common factor.
+/// P = phi w, Q = (1 - phi) w and V of the header.
 template <Real Scalar>
 struct UniformStart<Scalar>::Sums {
   ScaledSum<Scalar> p, q, v;
 };
 
 template <Real Scalar>
-struct UniformStart<Scalar>::Image {
+struct UniformStart<Scalar>::Image {  // T(distance) or U(distance) times sign * exp(exponent)
   Scalar distance, exponent;
   Wall wall;
   int sign;
@@ -39,13 +39,13 @@ UniformStart<Scalar>::UniformStart(Scalar bottom, Scalar top, Scalar rate, Scala
       height_(top_ - bottom_),
       rate_(std::move(rate)),
       diffusivity_(std::move(diffusivity)),
-      initial_(std::move(initial)),
-      d_(diffusivity_ / ((rate_ < 0 ? -rate_ : rate_) * height_)),
-      phi0_(initial_),
+      d_(diffusivity_ / ((rate_ < 0 ? Scalar(-rate_) : rate_) * height_)),
+      phi0_(std::move(initial)),
       u0_(Scalar(2) * phi0_ - Scalar(1)),
       spread_(phi0_ * (Scalar(1) - phi0_)) {}
 
-/// The start phi0 carried by diffusion on the whole line.
+/// The first term of P, Q and V with its images of the same exponent: what of the start is carried to x
+/// without having met a wall.
 template <Real Scalar>
 void UniformStart<Scalar>::add_free(Sums& s, const Scalar& x, const Scalar& y, const Scalar& t) const {
   using std::sqrt;
@@ -179,8 +179,8 @@ ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t)
   const Scalar low = (z - bottom_) / height_, high = (top_ - z) / height_;
   const Scalar x = is_up ? low : high, y = is_up ? high : low;
   const Scalar time = t * (is_up ? rate_ : Scalar(-rate_)) / height_;
-  if (time == 0 || spread_ == 0) return {initial_, Scalar(1) - initial_, initial_ * (z - bottom_), Scalar(0)};
-  if (!is_finite(time)) return SteadyState<Scalar>(bottom_, top_, rate_, diffusivity_, initial_).at(z);
+  if (time == 0 || spread_ == 0) return {phi0_, Scalar(1) - phi0_, phi0_ * (z - bottom_), Scalar(0)};
+  if (!is_finite(time)) return SteadyState<Scalar>(bottom_, top_, rate_, diffusivity_, phi0_).at(z);
   const Sums s = series_is_safe(time) ? series(x, y, time) : images(x, y, time);
   ColeHopfPoint<Scalar> point;
   const Scalar odds = s.q.over(s.p);
@@ -189,7 +189,7 @@ ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t)
   ScaledSum<Scalar> w = s.p;
   w.add(s.q.mantissa(), s.q.exponent());
   const Scalar m = x / 2 - d_ * (log(w.mantissa()) + w.exponent());
-  point.cumulative = height_ * (is_up ? m : Scalar(initial_ - m));
+  point.cumulative = height_ * (is_up ? m : Scalar(phi0_ - m));
   point.gradient = (spread_ * s.v.over(w) - point.phi * point.complement) / (d_ * height_);
   if (!is_up) point.gradient = -point.gradient;
   return point;
