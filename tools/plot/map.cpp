@@ -38,8 +38,9 @@ int draw_map(const std::string& path, const Scene<double>& scene, std::string_vi
   Gnuplot plot(path, 560, 440);
   plot.add_data("map", rows);
   // Contours first, into a block of their own: they are drawn on top of the colours.
-  plot.add(fmt::format("set contour base\nset cntrparam levels incremental {0:.9g},{1:.9g},{2:.9g}",
-                       states.lowest, (states.highest - states.lowest) / (kContours - 1), states.highest));
+  const double step = (states.highest - states.lowest) / (kContours - 1);  // those of both ends are noise
+  plot.add(fmt::format("set contour base\nset cntrparam levels incremental {:.9g},{:.9g},{:.9g}",
+                       states.lowest + step, step, states.highest - step / 2));
   plot.add(
       "unset surface\nset table $contours\nsplot $map using 1:2:3\nunset table\nunset contour\nset surface");
   plot.add("set title " + Gnuplot::text(scene.name()) + " noenhanced offset 0,0.2");
