@@ -118,23 +118,31 @@ typename PeriodicBurgers<Scalar>::Means PeriodicBurgers<Scalar>::integral(const 
   const Scalar peak = place.is_shock ? Scalar(pi - x) : x;
   const Scalar deficit = std::min(Scalar(-start(half_x)), Scalar(peak * peak / (Scalar(2) * variance)));
   const Scalar reach = sqrt(Scalar(Scalar(2) * variance * (digits + deficit)));
+  // Nodes on both sides of Y = 0 mirror each other, which keeps u relatively exact beside X = 0; far from
+  // there the mirror drowns, and nodes about X are exact for the shortest times.
+  const bool is_far = x > reach;
+  const Scalar origin = is_far ? x : Scalar(0), last = is_far ? reach : Scalar(x + reach);
   struct Node {
-    Scalar weight, mirror, sine;  ///< mirror: the weight of -Y over that of Y
+    Scalar y, exponent, weight, mirror, sine;  ///< mirror: the weight of -Y over that of Y
   };
   std::vector<Node> nodes;
+  Scalar largest = -deficit;
+  for (Scalar j = is_far ? Scalar(-ceil(Scalar(reach / h))) : Scalar(0); j * h <= last; j += 1) {
+    const Scalar y = origin + j * h, gap = is_far ? Scalar(-j * h) : Scalar(x - y);
+    const Scalar exponent = start(Scalar(y / 2)) - gap * gap / (Scalar(2) * variance);
+    if (exponent < largest - digits) continue;
+    largest = std::max(largest, exponent);
+    nodes.push_back({y, exponent, Scalar(is_far || j != 0 ? 1 : 0.5), Scalar(0), Scalar(0)});
+  }
   Scalar w(0), odd(0), even(0);
-  const Scalar first = x > reach ? Scalar(ceil(Scalar((x - reach) / h))) : Scalar(0);
-  for (Scalar j = first; j * h <= x + reach; j += 1) {
-    const Scalar y = j * h, gap = x - y;
-    const Scalar exponent = start(Scalar(y / 2)) - gap * gap / (Scalar(2) * variance) + deficit;
-    if (exponent < -digits) continue;
-    const Scalar less = -expm1(Scalar(-Scalar(2) * x * y / variance)), sine = sin(y);
-    Scalar weight = exp(exponent);
-    if (j == 0) weight = weight / 2;
-    w += weight * (Scalar(2) - less);
-    odd += weight * less * sine;
-    even += weight * (Scalar(2) - less) * cos(y);
-    nodes.push_back({weight, Scalar(1) - less, sine});
+  for (Node& e : nodes) {
+    const Scalar less = -expm1(Scalar(-Scalar(2) * x * e.y / variance));
+    e.sine = sin(e.y);
+    e.mirror = Scalar(1) - less;
+    e.weight *= exp(Scalar(e.exponent - largest));
+    w += e.weight * (Scalar(2) - less);
+    odd += e.weight * less * e.sine;
+    even += e.weight * (Scalar(2) - less) * cos(e.y);
   }
   const Scalar mean = odd / w;
   Scalar spread(0);
@@ -142,7 +150,7 @@ typename PeriodicBurgers<Scalar>::Means PeriodicBurgers<Scalar>::integral(const 
     spread += e.weight * ((e.sine - mean) * (e.sine - mean) + e.mirror * (e.sine + mean) * (e.sine + mean));
   const Scalar cosine = even / w;
   return {place.is_shock ? Scalar(-mean) : mean,
-          (place.is_shock ? Scalar(-cosine) : cosine) - k_ * spread / w, log(w) - deficit};
+          (place.is_shock ? Scalar(-cosine) : cosine) - k_ * spread / w, log(w) + largest};
 }
 
 template <Real Scalar>

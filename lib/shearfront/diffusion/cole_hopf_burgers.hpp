@@ -27,7 +27,11 @@ struct BurgersPoint {
 /// the complex plane and is kept below the rounding. The ratios I_n / I_0 come from Miller's backward
 /// recurrence.
 ///
-/// Domain: A != 0, q > 0, mu > 0, t >= 0. Guarantees in double: see at(). Errors: none.
+/// Units: x in length, u and A in length/time, mu in length^2/time. Domain: A != 0, q > 0, mu > 0, t >= 0.
+/// Guarantees in double for m >= 1e-3 (tested for q = |A| = 1): u relatively to 1e-12, beside its nodes too
+/// (measured 1e-15, 2e-15, 1e-14, 6e-14 for m = 1, 0.1, 0.01, 0.001); u_x to 1e-12 (1 + |u_x|); the integral
+/// to 1e-13. For smaller m the errors grow like 1 / m, the steepness of the shock. Errors: none.
+/// Cost in double: 0.2 us by the series, 1 to 6 us by the integral.
 /// Source: Cole (1951), Hopf (1950); Benton & Platzman (1972); Trefethen & Weideman (2014) for the rule.
 template <Real Scalar>
 class PeriodicBurgers {

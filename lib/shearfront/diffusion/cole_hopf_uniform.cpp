@@ -3,6 +3,7 @@
 
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "shearfront/diffusion/cole_hopf_steady.hpp"
@@ -162,30 +163,34 @@ typename UniformStart<Scalar>::Sums UniformStart<Scalar>::series(const Scalar& x
   }
 }
 
-/// Whether the sine series needs few terms and its first one is not much larger than the tails of the steady
-/// state, which it would drown in rounding.
+/// Logarithm of the first term of the sine series over the smallest tail of the steady state: where it is
+/// positive the series drowns that tail in rounding, where it is far below 0 only the steady state is left.
 template <Real Scalar>
-bool UniformStart<Scalar>::series_is_safe(const Scalar& t) const {
+Scalar UniformStart<Scalar>::departure(const Scalar& t) const {
   const Scalar pi = boost::math::constants::pi<Scalar>(), tilt = u0_ < 0 ? Scalar(-u0_) : u0_;
-  const Scalar first =
-      (Scalar(1) + tilt) / (Scalar(2) * d_) - t * (Scalar(1) / (Scalar(4) * d_) + d_ * pi * pi);
-  return d_ * t > Scalar(0.05) && first < Scalar(1);
+  return (Scalar(1) + tilt) / (Scalar(2) * d_) - t * (Scalar(1) / (Scalar(4) * d_) + d_ * pi * pi);
 }
 
 template <Real Scalar>
 ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t) const {
-  using std::exp, std::log;
+  using std::log;
   const bool is_up = rate_ > 0;
   const Scalar low = (z - bottom_) / height_, high = (top_ - z) / height_;
   const Scalar x = is_up ? low : high, y = is_up ? high : low;
   const Scalar time = t * (is_up ? rate_ : Scalar(-rate_)) / height_;
-  if (time == 0 || spread_ == 0) return {phi0_, Scalar(1) - phi0_, phi0_ * (z - bottom_), Scalar(0)};
-  if (!is_finite(time)) return SteadyState<Scalar>(bottom_, top_, rate_, diffusivity_, phi0_).at(z);
-  const Sums s = series_is_safe(time) ? series(x, y, time) : images(x, y, time);
+  if (d_ * time < std::numeric_limits<Scalar>::min() || spread_ == 0)
+    return {phi0_, Scalar(1) - phi0_, phi0_ * (z - bottom_), Scalar(0)};
+  const Scalar left = departure(time);
+  if (left < -depth()) return SteadyState<Scalar>(bottom_, top_, rate_, diffusivity_, phi0_).at(z);
+  const bool has_few_terms = d_ * time > Scalar(0.05);
+  const Sums s = has_few_terms && left < Scalar(1) ? series(x, y, time) : images(x, y, time);
   ColeHopfPoint<Scalar> point;
-  const Scalar odds = s.q.over(s.p);
-  point.phi = Scalar(1) / (Scalar(1) + odds);
-  point.complement = Scalar(1) / (Scalar(1) + s.p.over(s.q));
+  // Beyond the guarantees rounding may leave a share below 0.
+  const auto share = [](const Scalar& odds) {
+    return odds > 0 ? Scalar(Scalar(1) / (Scalar(1) + odds)) : Scalar(1);
+  };
+  point.phi = share(s.q.over(s.p));
+  point.complement = share(s.p.over(s.q));
   ScaledSum<Scalar> w = s.p;
   w.add(s.q.mantissa(), s.q.exponent());
   const Scalar m = x / 2 - d_ * (log(w.mantissa()) + w.exponent());

@@ -32,16 +32,17 @@ namespace shearfront::diffusion {
 /// over- or underflows before phi or 1 - phi itself does.
 ///
 /// Units: heights, times, r in height/time, D in height^2/time. Domain: bottom < z < top or at a wall, r !=
-/// 0, D > 0, 0 <= phi0 <= 1, t >= 0, infinity allowed (SteadyState). Guarantees, u the unit roundoff, for t
-/// |r| / h = 0 or >= 1e-6 and phi, 1 - phi > 1e-290:
+/// 0, D > 0, 1e-12 <= d <= 1e12, 0 <= phi0 <= 1, t >= 0, infinity allowed (SteadyState). Guarantees, u the
+/// unit roundoff, for t |r| / h = 0 or >= 1e-6 and phi, 1 - phi > 1e-290:
 ///   (1) phi and 1 - phi: relative error <= u (4 + 2 / d) / (phi0 (1 - phi0)). Double, phi0 = 0.55: below
 ///   5e-13
-///       for d >= 0.002, in every tail; measured 1e-13, 6e-15, 2e-15, 1e-15 for d = 0.002, 0.02, 0.1, 0.5.
+///       for d >= 0.002, in every tail; measured 1.2e-13, 1e-14, 2e-15, 1e-15 for d = 0.002, 0.02, 0.1, 0.5.
 ///       1 / d is the condition of the tails exp(-(x - x_c) / d).
 ///   (2) M: absolute error <= u (4 + 4 d) h, M(bottom) = 0 and M(top) = phi0 h likewise, at every time
 ///   (3) phi_z: absolute error <= u (4 + 2 / d) / (d h)
-/// Errors: none. Cost: 0.15 to 0.4 us for d = 0.002, at most 2.5 us (d = 0.1) in double; 0.2 to 10 ms with 50
-/// digits. Source: Cole (1951), Hopf (1950); Gray & Chugunov (2006) for walls; Carslaw & Jaeger (1959) 14.
+/// Errors: none. Cost: 0.1 to 0.5 us for d = 0.002, at most 2 us (d = 0.1, t = 1) in double; 0.05 to 7 ms
+/// with 50 digits. Source: Cole (1951), Hopf (1950); Gray & Chugunov (2006) for walls; Carslaw & Jaeger
+/// (1959) 14.
 template <Real Scalar>
 class UniformStart {
  public:
@@ -55,7 +56,7 @@ class UniformStart {
   struct Image;
   [[nodiscard]] Sums images(const Scalar& x, const Scalar& y, const Scalar& t) const;
   [[nodiscard]] Sums series(const Scalar& x, const Scalar& y, const Scalar& t) const;
-  [[nodiscard]] bool series_is_safe(const Scalar& t) const;
+  [[nodiscard]] Scalar departure(const Scalar& t) const;
   void add_free(Sums& sums, const Scalar& x, const Scalar& y, const Scalar& t) const;
   bool add_image(Sums& sums, const Image& image, const Scalar& t) const;
   /// How far below the largest exponent a term is dropped: e^-30 roundoffs.

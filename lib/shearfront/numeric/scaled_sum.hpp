@@ -28,9 +28,9 @@ class ScaledSum {
   }
   [[nodiscard]] const S& mantissa() const { return mantissa_; }
   [[nodiscard]] const S& exponent() const { return exponent_; }
-  /// Whether a term with this exponent is `depth` below the largest one.
+  /// Whether a term with this exponent is `depth` below the largest one; true for NaN, so that sums end.
   [[nodiscard]] bool drowns(const S& exponent, const S& depth) const {
-    return !is_empty_ && exponent < exponent_ - depth;
+    return !is_empty_ && !(exponent >= exponent_ - depth);
   }
   /// (this sum) / other; 0 where it underflows.
   [[nodiscard]] S over(const ScaledSum& other) const {
