@@ -10,7 +10,6 @@
 
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
 #include "shearfront/diffusion/cole_hopf_kink.hpp"
-#include "shearfront/diffusion/cole_hopf_refusal.hpp"
 #include "shearfront/diffusion/cole_hopf_steady.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "support/closeness.hpp"
@@ -251,20 +250,6 @@ TEST(PeriodicBurgers, SatisfiesTheEquationForEveryAmplitudeAndWaveNumber) {
         EXPECT_LT(distance(in_x.along, exact.at(x, t).gradient), 1e-20);
         EXPECT_LT(distance(amount.along, in_x.value), 1e-20);
       }
-}
-
-TEST(ColeHopfRefusal, NamesWhatStandsInTheWay) {
-  ColeHopfFacts facts{ColeHopfStart::uniform, true, false, false, true, false, true, true};
-  EXPECT_EQ(cole_hopf_refusal(facts), "");
-  facts.is_one_rate = false;
-  EXPECT_EQ(
-      cole_hopf_refusal(facts),
-      "a shear rate that varies or is 0 has no exact solution with diffusion: only crank-nicolson applies");
-  const ColeHopfFacts sine{ColeHopfStart::sine, false, false, true, false, true, true, true};
-  EXPECT_EQ(cole_hopf_refusal(sine), "");
-  EXPECT_NE(cole_hopf_refusal({ColeHopfStart::sine, false, false, true, true, false, true, true}), "");
-  EXPECT_NE(cole_hopf_refusal({ColeHopfStart::kink, true, false, false, true, false, true, true}), "");
-  EXPECT_NE(cole_hopf_refusal({ColeHopfStart::other, true, false, false, true, false, true, true}), "");
 }
 
 }  // namespace
