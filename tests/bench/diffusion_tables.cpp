@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/multigrid_cycle.hpp"
+#include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "shearfront/diffusion/tridiagonal.hpp"
 #include "shearfront/numeric/sum.hpp"
 #include "support/diffusion_problems.hpp"
@@ -131,6 +132,22 @@ void print_runs(const Problem& problem, double dt, const Numbers& tolerances, co
   }
 }
 
+void print_uniform() {
+  std::printf("\nUniform start 0.55 between walls, largest error of cell means, dt = 0.2 / cells\n");
+  for (const double d : {0.5, 0.1, 0.02, 0.002}) {
+    std::printf(
+        "\nD = %g\n\n| cells | steps by | t = 0.1 | 0.5 | 1 | 2 | mass | beyond [0, 1] | steps | systems a "
+        "step |"
+        " ms |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        d);
+    for (std::size_t n = 500; n <= (d < 0.01 ? 4000 : 500); n *= 2) {
+      const Problem problem = support::uniform_problem(1, n, 1, d, 0.55);
+      print_runs(problem, 0.2 / static_cast<double>(n), {1e-2, 1e-3, 1e-4, 1e-5}, {0.1, 0.5, 1, 2},
+                 [&](double t) { return support::uniform_start_means(problem, t); });
+    }
+  }
+}
+
 Problem chute(std::size_t n) {
   Problem p = support::uniform_problem(0.044, n, 0, 5e-8, 0.5);
   for (std::size_t i = 0; i <= n; ++i) {
@@ -234,6 +251,7 @@ int main(int argc, char** argv) {
   using namespace shearfront::diffusion;
   const auto wanted = [&](const char* name) { return argc < 2 || std::strcmp(argv[1], name) == 0; };
   if (wanted("kink")) print_kink();
+  if (wanted("uniform")) print_uniform();
   if (wanted("burgers")) print_burgers();
   if (wanted("chute")) print_chute();
   if (wanted("cells")) print_cells();

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "shearfront/diffusion/crank_nicolson.hpp"
 
 /// Problems with diffusion whose solutions are known, and errors of computed ones.
@@ -38,6 +39,20 @@ inline Problem uniform_problem(double length, std::size_t n, double rate, double
   p.diffusivity.assign(n + 1, diffusivity);
   p.initial.assign(n, phi);
   return p;
+}
+
+/// Exact cell means for a problem of uniform_problem().
+inline std::vector<double> uniform_start_means(const Problem& p, double t) {
+  const UniformStart<double> exact(p.bottom, p.top, p.rate[0], p.diffusivity[0], p.initial[0]);
+  std::vector<double> all;
+  double below = 0;
+  for (std::size_t i = 1; i <= p.n_cells; ++i) {
+    const double z = i == p.n_cells ? p.top : p.bottom + static_cast<double>(i) * p.width();
+    const double cumulative = exact.at(z, t).cumulative;
+    all.push_back((cumulative - below) / p.width());
+    below = cumulative;
+  }
+  return all;
 }
 
 /// Differences of cell means in the max norm, L2 and H1.
@@ -85,7 +100,7 @@ inline Errors kink_errors(std::size_t n, double dt, double half = 0.5) {
 /// deviations, which converges geometrically.
 inline double burgers(double x, double t, double mu) {
   if (t == 0) return std::sin(x);
-  constexpr int kHalf = 300;
+  constexpr int kHalf = 200;
   const double deviation = std::sqrt(2 * mu * t);
   double w = 0, moment = 0, largest = -1e300;
   std::array<double, 2 * kHalf + 1> exponents;
