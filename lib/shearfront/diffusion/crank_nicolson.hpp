@@ -47,12 +47,11 @@ struct TimeStep {
 ///
 /// Unknowns of the nonlinear system are the fluxes, which makes the scheme conservative in every iterate.
 /// Guaranteed:
-///   (1) the mass sum phi_j dz is that of the beginning, to 1e-15 relative, after any number of steps,
-///   whether
-///       or not the iteration converged (walls, periodic; neumann: up to what passes the ends);
+///   (1) the mass sum phi_j dz is that of the beginning, to 1e-15 relative, after any number of steps and
+///       whether or not the iteration converged (walls, periodic; neumann: up to what passes the ends);
 ///   (2) second order in dt and dz for smooth data (central; fitted where the cell Peclet number is small);
 ///   (3) Scheme::fitted with walls or periodic ends: phi stays in [lo, hi] if f(lo) = f(hi) = 0, up to
-///       rounding, for all steps; if r is constant (any ends but walls) no new extrema appear. Proof:
+///       rounding, for all steps; if r is constant (neumann, periodic) no new extrema appear. Proof:
 ///       the flux is monotone, so the implicit part of a step obeys the comparison principle for any dt, and
 ///       the explicit part does if (1 - theta) dt L <= 1, L = explicit_rate(). Hence theta = max(1/2, 1 -
 ///       1 / (dt L)): second order in dt as long as dt L <= 2, of first order beyond. (No scheme of order two
@@ -69,10 +68,11 @@ class CrankNicolson {
  public:
   CrankNicolson(const Problem& problem, Options options, std::vector<Tangent> tangents = {});
 
-  /// Goes on to time t >= time(), exactly. Status::ok; steady: at rest; budget_reached, interrupted; not_
-  /// converged: the iteration failed even for steps 2^20 times shorter than wanted, or led to states ten
-  /// times as large as any of the beginning and of the range of the flux, as Scheme::central may where the
-  /// cell Peclet number |r| W dz / D is far above 2. See message().
+  /// Goes on to time t >= time(), exactly; +infinity asks for the steady state (adaptive steps). Status::ok;
+  /// steady: at rest; budget_reached, interrupted; not_converged: the iteration failed even for steps 2^20
+  /// times shorter than wanted, or led to states ten times as large as any of the beginning and of the range
+  /// of the flux, as Scheme::central may where the cell Peclet number |r| W dz / D is far above 2; the states
+  /// are then those before the failure. See message().
   Status advance_to(double t);
   /// Makes the given steps (of another run), the tangents along with them.
   Status repeat(std::span<const TimeStep> steps);
