@@ -146,6 +146,11 @@ class FitReader {
     options.local_steps = table.boolean("local_steps", Need::optional).value_or(false);
     choose(table, "grid", kGridNames, options.grid);
     choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
+    table.number("time_step", Need::optional, options.time_step);
+    if (table.is_good("time_step") && !(options.time_step > 0 && std::isfinite(options.time_step)))
+      add({table.path("time_step"), "", "must be > 0"});
+    number_from_0_to_1(table, "tolerance", options.tolerance);
+    options.monotone = table.boolean("monotone", Need::optional).value_or(false);
     table.finish();
   }
 

@@ -2,8 +2,10 @@
 #include "shearfront/fit/forward.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
+#include "shearfront/fit/diffusion_forward.hpp"
 #include "shearfront/hopf_lax/refusal.hpp"
 #include "shearfront/hopf_lax/sensitivities.hpp"
 #include "shearfront/io/text.hpp"
@@ -223,6 +225,8 @@ std::unique_ptr<Forward> make_forward(const Parameters& parameters, const Forwar
       model = std::make_unique<BedHeightForward>(parameters, forward, &S::solve, kIsExact, std::move(points));
     else if constexpr (kIsExact)
       model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));
+    else if constexpr (std::is_same_v<S, CrankNicolsonSolver>)
+      model = std::make_unique<DiffusionForward>(parameters, forward, field, std::move(points));
     else
       model = std::make_unique<SolverForward>(parameters, forward, &S::solve, field, std::move(points));
   });

@@ -41,8 +41,9 @@ class Forward {
 };
 
 /// The forward model for these points. The exact solver gives derivatives if every parameter is one of
-/// shear_rate.values, .breaks, .amplitude, .decay, .scale, initial.breaks, initial.values; other solvers and
-/// parameters are differentiated numerically by the caller (numeric_step.hpp).
+/// shear_rate.values, .breaks, .amplitude, .decay, .scale, initial.breaks, initial.values; crank-nicolson for
+/// those of DiffusionForward; other solvers and parameters are differentiated numerically by the caller
+/// (numeric_step.hpp).
 /// Errors: InputError if there is no solver of this name. Cost of predict(): one run of the solver.
 [[nodiscard]] std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward,
                                                     Field field, std::vector<Point> points);

@@ -62,6 +62,8 @@ void Parameters::resolve(const UnknownSpec& unknown, Problems& problems) {
       twice = twice || !taken.insert(k).second;
       places_.push_back(k);
       parameters_.push_back({all[k]});
+      // A scene may say D = 0; what is to be found is a D > 0, by its logarithm.
+      if (all[k].field == "diffusion.D") parameters_.back().entry.range = Range::positive;
     }
     const std::string key = element("unknown.parameters", i);
     if (twice) problems.push_back({key, quoted_text(name), "must not name an entry twice"});

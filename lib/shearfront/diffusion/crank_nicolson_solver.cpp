@@ -7,18 +7,15 @@
 #include <numeric>
 #include <utility>
 
-#include "shearfront/diffusion/crank_nicolson.hpp"
 #include "shearfront/diffusion/setup.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/share_integral.hpp"
 
 namespace shearfront {
-namespace {
 
-constexpr std::size_t kMostCells = 10'000'000;
-
-std::string refusal(const Scene<double>& scene, const SolverOptions& options) {
-  if (std::string why = diffusion::refusal(scene); !why.empty()) return why;
+std::string diffusion::refusal(const Scene<double>& scene, const SolverOptions& options) {
+  constexpr std::size_t kMostCells = 10'000'000;
+  if (std::string why = refusal(scene); !why.empty()) return why;
   if (options.cells < 2 || options.cells > kMostCells)
     return "cells = " + std::to_string(options.cells) + "; must be >= 2 and <= " + std::to_string(kMostCells);
   if (!(options.time_step >= 0 && std::isfinite(options.time_step)))
@@ -28,16 +25,16 @@ std::string refusal(const Scene<double>& scene, const SolverOptions& options) {
   return "";
 }
 
-diffusion::Options options_of(const SolverOptions& options) {
-  diffusion::Options own;
+diffusion::Options diffusion::options_of(const SolverOptions& options) {
+  Options own;
   own.dt = options.time_step;
   own.tolerance = options.tolerance;
-  own.scheme = options.monotone ? diffusion::Scheme::fitted : diffusion::Scheme::central;
-  // A uniform bed does not satisfy the conditions at the walls: without this the scheme rings.
-  own.smoothed_steps = options.time_step > 0 ? 2 : 0;
+  own.scheme = options.monotone ? Scheme::fitted : Scheme::central;
   own.progress = options.progress;
   return own;
 }
+
+namespace {
 
 /// On to time t, or until the bed is at rest.
 Status march(diffusion::CrankNicolson& engine, double t) {
@@ -58,12 +55,12 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
   const auto begin = std::chrono::steady_clock::now();
   SolverResult result;
   Summary& summary = result.summary;
-  if (summary.message = refusal(scene, options); !summary.message.empty()) {
+  if (summary.message = diffusion::refusal(scene, options); !summary.message.empty()) {
     summary.status = Status::unsupported;
     return result;
   }
   const diffusion::Problem problem = diffusion::problem_of(scene, options.cells);
-  diffusion::CrankNicolson engine(problem, options_of(options));
+  diffusion::CrankNicolson engine(problem, diffusion::options_of(options));
   const std::size_t n = request.depths.size();
   std::vector<std::size_t> order(request.times.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
+
+#include "shearfront/diffusion/crank_nicolson.hpp"
 #include "shearfront/solver/solver.hpp"
 
 namespace shearfront {
@@ -24,5 +27,14 @@ struct CrankNicolsonSolver {
                             const SolverOptions& options);
 };
 static_assert(Solver<CrankNicolsonSolver>);
+
+namespace diffusion {
+
+/// Why the solver cannot compute a scene with these settings; empty if it can.
+[[nodiscard]] std::string refusal(const Scene<double>& scene, const SolverOptions& options);
+/// The settings of the engine that follow from those of the solver.
+[[nodiscard]] Options options_of(const SolverOptions& options);
+
+}  // namespace diffusion
 
 }  // namespace shearfront

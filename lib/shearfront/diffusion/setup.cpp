@@ -42,6 +42,34 @@ class Coefficients {
   std::vector<int> signs_;
 };
 
+StateRange<double> range_of(const Problem& problem) {
+  return std::visit([](const auto& flux) { return flux.range(); }, problem.flux);
+}
+
+/// By how much the parabola through the means of cell j and its neighbours rises over half the cell.
+double rise(const Problem& problem, std::span<const double> means, std::size_t j) {
+  const std::size_t n = problem.n_cells;
+  if (problem.ends == Ends::periodic) return (means[(j + 1) % n] - means[(j + n - 1) % n]) / 4;
+  if (n < 3) return 0.0;
+  if (j == 0) return (4 * means[1] - 3 * means[0] - means[2]) / 4;
+  if (j == n - 1) return (3 * means[j] - 4 * means[j - 1] + means[j - 2]) / 4;
+  return (means[j + 1] - means[j - 1]) / 4;
+}
+
+/// Lines through the middles of the cells.
+Profile<double> lines(const Problem& problem, std::span<const double> means,
+                      std::span<const double> half_rises) {
+  const std::size_t n = problem.n_cells;
+  std::vector<double> z(n + 1), below(n), above(n);
+  for (std::size_t j = 0; j <= n; ++j)
+    z[j] = j == n ? problem.top : problem.bottom + problem.width() * static_cast<double>(j);
+  for (std::size_t j = 0; j < n; ++j) {
+    below[j] = means[j] - half_rises[j];
+    above[j] = means[j] + half_rises[j];
+  }
+  return {std::move(z), std::move(below), std::move(above)};
+}
+
 }  // namespace
 
 std::string refusal(const Scene<double>& scene) {
@@ -106,25 +134,26 @@ Problem problem_of(const Scene<double>& scene, std::size_t n_cells) {
 }
 
 Profile<double> profile_of(const Problem& problem, std::span<const double> states) {
-  const std::size_t n = problem.n_cells;
-  const StateRange<double> range = std::visit([](const auto& f) { return f.range(); }, problem.flux);
-  const auto rise = [&](std::size_t j) {  // over half a cell
-    if (problem.ends == Ends::periodic) return (states[(j + 1) % n] - states[(j + n - 1) % n]) / 4;
-    if (n < 3) return 0.0;
-    if (j == 0) return (4 * states[1] - 3 * states[0] - states[2]) / 4;
-    if (j == n - 1) return (3 * states[j] - 4 * states[j - 1] + states[j - 2]) / 4;
-    return (states[j + 1] - states[j - 1]) / 4;
-  };
-  std::vector<double> z(n + 1), below(n), above(n);
-  for (std::size_t j = 0; j <= n; ++j)
-    z[j] = j == n ? problem.top : problem.bottom + problem.width() * static_cast<double>(j);
-  for (std::size_t j = 0; j < n; ++j) {
+  const StateRange<double> range = range_of(problem);
+  std::vector<double> half(problem.n_cells);
+  for (std::size_t j = 0; j < half.size(); ++j) {
     const double room = std::max(0.0, std::min(states[j] - range.lowest, range.highest - states[j]));
-    const double half = std::clamp(rise(j), -room, room);
-    below[j] = states[j] - half;
-    above[j] = states[j] + half;
+    half[j] = std::clamp(rise(problem, states, j), -room, room);
   }
-  return {std::move(z), std::move(below), std::move(above)};
+  return lines(problem, states, half);
+}
+
+Profile<double> profile_tangent(const Problem& problem, std::span<const double> states,
+                                std::span<const double> tangent) {
+  const StateRange<double> range = range_of(problem);
+  std::vector<double> half(problem.n_cells);
+  for (std::size_t j = 0; j < half.size(); ++j) {
+    const double below = states[j] - range.lowest, above = range.highest - states[j];
+    const double room = std::max(0.0, std::min(below, above)), wanted = rise(problem, states, j);
+    const double room_grows = room == 0 ? 0 : below < above ? tangent[j] : -tangent[j];
+    half[j] = std::abs(wanted) <= room ? rise(problem, tangent, j) : wanted > 0 ? room_grows : -room_grows;
+  }
+  return lines(problem, tangent, half);
 }
 
 }  // namespace shearfront::diffusion

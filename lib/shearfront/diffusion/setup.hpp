@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,10 @@ namespace shearfront::diffusion {
 /// phi from the means of the cells: linear in each, with the slope of the parabola through it and its
 /// neighbours, reduced where it would leave the range of the flux. Second order; keeps the means.
 [[nodiscard]] Profile<double> profile_of(const Problem& problem, std::span<const double> states);
+
+/// Derivative of profile_of if the states change by `tangent`: lines with the same z, whose phi and M are the
+/// derivatives of phi and M. Where a slope is reduced, along the bound that reduces it.
+[[nodiscard]] Profile<double> profile_tangent(const Problem& problem, std::span<const double> states,
+                                              std::span<const double> tangent);
 
 }  // namespace shearfront::diffusion

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fits of beds with diffusion: derivatives of the forward model against differences of it, and parameters
+// found again from what the same scheme computes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/diffusion/setup.hpp"
+#include "shearfront/fit/diffusion_forward.hpp"
+#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit/problem_tangents.hpp"
+#include "shearfront/solution/observe.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+SceneSpec<double> may_bed(double D) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{0.2913}, {2.4, 0.31}};
+  spec.initial_breaks = {0.4968};
+  spec.initial_values = {0.1, 0.9};
+  spec.diffusion = Diffusion<double>{D, {}, false};
+  return spec;
+}
+
+ForwardSpec crank_nicolson(std::size_t cells, double time_step) {
+  ForwardSpec forward;
+  forward.method = CrankNicolsonSolver::kName;
+  forward.options.cells = cells;
+  forward.options.time_step = time_step;
+  return forward;
+}
+
+Parameters parameters_of(const SceneSpec<double>& spec, const std::vector<std::string>& names) {
+  return {Scene<double>(spec), {names, {}, {}, {}, Shape::none}};
+}
+
+/// Fourth-order difference of column j.
+VectorXd difference(const Forward& forward, const VectorXd& at, Index j, double h) {
+  const auto values = [&](double by) {
+    VectorXd moved = at;
+    moved[j] += by;
+    const Prediction there = forward.predict(moved, true);  // iterates to rounding
+    EXPECT_TRUE(there.is_valid()) << there.failure;
+    return there.values;
+  };
+  return (8 * (values(h) - values(-h)) - (values(2 * h) - values(-2 * h))) / (12 * h);
+}
+
+/// max |derivative - difference| of a column over its largest entry.
+double disagreement(const Parameters& parameters, const ForwardSpec& forward, Field field, Index j,
+                    double h) {
+  std::vector<Point> points;
+  for (const double t : {0.03, 0.3, 1.7})
+    for (int i = 0; i <= 20; ++i) points.push_back({t, i / 20.0});
+  const DiffusionForward model(parameters, forward, field, points);
+  const VectorXd at = parameters.start();
+  const Prediction here = model.predict(at, true);
+  EXPECT_TRUE(here.is_valid()) << here.failure;
+  const VectorXd numeric = difference(model, at, j, h);
+  return (here.derivatives.col(j) - numeric).cwiseAbs().maxCoeff() / numeric.cwiseAbs().maxCoeff();
+}
+
+void expect_derivatives(const SceneSpec<double>& spec, const std::vector<std::string>& names,
+                        const ForwardSpec& forward) {
+  const Parameters parameters = parameters_of(spec, names);
+  const double cell = 1.0 / static_cast<double>(forward.options.cells);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const bool is_height = parameters[k].entry.field.ends_with("breaks");
+    const double h = is_height ? 3e-3 * cell : 1e-4 * parameters[k].start;
+    for (const Field field : {Field::phi, Field::M})
+      EXPECT_LT(disagreement(parameters, forward, field, static_cast<Index>(k), h), 1e-7)
+          << parameters[k].name() << (field == Field::phi ? " phi" : " M");
+  }
+}
+
+TEST(DiffusionFit, DerivativesAreThoseOfTheScheme) {
+  const std::vector<std::string> names{"shear_rate.values", "shear_rate.breaks", "shear_rate.scale",
+                                       "diffusion.D",       "initial.values",    "initial.breaks"};
+  expect_derivatives(may_bed(1e-2), names, crank_nicolson(100, 0.01));
+  SceneSpec<double> with_a = may_bed(0);
+  with_a.diffusion = Diffusion<double>{5e-3, {}, true};
+  expect_derivatives(with_a, names, crank_nicolson(100, 0.01));
+  ForwardSpec monotone = crank_nicolson(100, 0.01);
+  monotone.options.monotone = true;
+  expect_derivatives(may_bed(1e-2), names, monotone);
+}
+
+TEST(DiffusionFit, DerivativesOfAnExponentialShearRate) {
+  SceneSpec<double> spec = may_bed(1e-2);
+  spec.shear_rate = Exponential<double>{4.2, 0.205};
+  expect_derivatives(spec, {"shear_rate.amplitude", "shear_rate.decay", "diffusion.D"},
+                     crank_nicolson(100, 0.01));
+}
+
+/// Chosen steps are repeated, so the solution is as smooth as with fixed ones.
+TEST(DiffusionFit, DerivativesHoldForChosenSteps) {
+  ForwardSpec forward = crank_nicolson(100, 0);
+  forward.options.tolerance = 1e-4;
+  expect_derivatives(may_bed(1e-2), {"shear_rate.values", "shear_rate.scale", "diffusion.D"}, forward);
+}
+
+/// r and D of a layered bed in closed form: for faces inside a layer a cell away from the break.
+TEST(DiffusionFit, TangentsOfTheCoefficients) {
+  SceneSpec<double> spec = may_bed(0);
+  spec.shear_rate = Exponential<double>{4.2, 0.205};
+  spec.diffusion = Diffusion<double>{5e-3, {}, true};
+  spec.scale = 1.3;
+  constexpr std::size_t kCells = 50;
+  const Parameters parameters =
+      parameters_of(spec, {"shear_rate.amplitude", "shear_rate.decay", "shear_rate.scale", "diffusion.D"});
+  const auto tangents = problem_tangents(parameters, parameters.start(), kCells);
+  for (std::size_t i = 0; i <= kCells; ++i) {
+    const double z = static_cast<double>(i) / kCells, e = std::exp(-z / 0.205), a = 4.2 * e;
+    const double by_decay = a * z / (0.205 * 0.205);
+    EXPECT_NEAR(tangents[0].rate[i], 1.3 * e, 1e-9 * 1.3);
+    EXPECT_NEAR(tangents[0].diffusivity[i], 5e-3 * e, 1e-9 * 5e-3);
+    EXPECT_NEAR(tangents[1].rate[i], 1.3 * by_decay, 1e-9 * 1.3 * 8);
+    EXPECT_NEAR(tangents[1].diffusivity[i], 5e-3 * by_decay, 1e-9 * 5e-3 * 8);
+    EXPECT_NEAR(tangents[2].rate[i], a, 1e-9 * 4.2);
+    EXPECT_NEAR(tangents[2].diffusivity[i], 0, 1e-9 * 5e-3);  // the scale moves the flux only
+    EXPECT_NEAR(tangents[3].rate[i], 0, 1e-9);
+    EXPECT_NEAR(tangents[3].diffusivity[i], a, 1e-9 * 4.2);
+  }
+}
+
+/// The lines through the cells and their derivative, at slopes that are reduced and others.
+TEST(DiffusionFit, TangentsOfTheLinesThroughTheCells) {
+  diffusion::Problem problem;
+  problem.n_cells = 6;
+  const std::vector<double> states{0, 0.02, 0.4, 0.9, 0.99, 0.7}, direction{0, 0.3, -0.2, 0.5, 0.7, -0.1};
+  std::vector<double> above = states, below = states;
+  constexpr double kStep = 1e-6;
+  for (std::size_t i = 0; i < 6; ++i) above[i] += kStep * direction[i], below[i] -= kStep * direction[i];
+  const Profile<double> tangent = diffusion::profile_tangent(problem, states, direction);
+  const Profile<double> up = diffusion::profile_of(problem, above),
+                        down = diffusion::profile_of(problem, below);
+  for (int i = 0; i <= 60; ++i) {
+    const double z = (i + 0.5) / 61;
+    EXPECT_NEAR(tangent.at(z).phi, (up.at(z).phi - down.at(z).phi) / (2 * kStep), 1e-9) << z;
+    EXPECT_NEAR(tangent.at(z).M, (up.at(z).M - down.at(z).M) / (2 * kStep), 1e-9) << z;
+  }
+}
+
+/// Bins of May's bed as the scheme with these settings computes them.
+FitSpec bins(double D, const ForwardSpec& forward) {
+  SceneSpec<double> spec = may_bed(D);
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  const Scene<double> scene(spec);
+  ObservationPlan plan{{0.25, 0.5, 1, 1.5, 2, 3, 4, 6}, {}, Quantity::bin, 0.05};
+  for (int i = 0; i < 20; ++i) plan.depths.push_back(0.025 + 0.05 * i);
+  FitSpec fit{
+      "",
+      scene,
+      observe(plan, scene, CrankNicolsonSolver::solve(scene, request_of(plan, scene), forward.options)),
+      {{"diffusion.D", "shear_rate.values"}, {3 * D, 1.5, 0.5}, {}, {}, Shape::none},
+      forward,
+      {},
+      {},
+      {}};
+  return fit;
+}
+
+TEST(DiffusionFit, FindsDAndTwoValuesOfAFromBins) {
+  for (const double D : {1e-2, 1e-3}) {
+    const Estimate estimate = fit(bins(D, crank_nicolson(200, 0.02)));
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    const double truth[] = {D, 2.4, 0.31};
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(estimate.parameters[i].estimate / truth[i], 1, 1e-6) << estimate.parameters[i].name;
+  }
+}
+
+TEST(DiffusionFit, RefusesWhatTheSchemeDoesNotCover) {
+  const Parameters parameters = parameters_of(may_bed(1e-2), {"diffusion.D", "domain.top"});
+  EXPECT_FALSE(DiffusionForward(parameters, crank_nicolson(50, 0), Field::phi, {}).has_derivatives());
+  SceneSpec<double> without = may_bed(0);
+  without.diffusion.reset();
+  const Parameters hyperbolic = parameters_of(without, {"shear_rate.values"});
+  EXPECT_THROW((void)make_forward(hyperbolic, crank_nicolson(50, 0), Field::phi, {}), InputError);
+}
+
+}  // namespace
+}  // namespace shearfront::fit
