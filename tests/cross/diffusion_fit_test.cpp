@@ -76,7 +76,9 @@ void expect_derivatives(const SceneSpec<double>& spec, const std::vector<std::st
     const bool is_height = parameters[k].entry.field.ends_with("breaks");
     const double h = is_height ? 3e-3 * cell : 1e-4 * parameters[k].start;
     for (const Field field : {Field::phi, Field::M})
-      EXPECT_LT(disagreement(parameters, forward, field, static_cast<Index>(k), h), 1e-7)
+      // phi has kinks where the lines in the cells begin to be cut at 0 or 1, which differences pass.
+      EXPECT_LT(disagreement(parameters, forward, field, static_cast<Index>(k), h),
+                field == Field::phi ? 1e-6 : 1e-7)
           << parameters[k].name() << (field == Field::phi ? " phi" : " M");
   }
 }

@@ -46,6 +46,7 @@ SolverRequest request_for(const Scene<double>& scene) {
 
 TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
   const Guarantees promised = TypeParam::guarantees();
+  if (promised.scope.diffusion) return;  // see diffusion_solvers_test.cpp
   for (std::uint64_t number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     support::SceneMaker maker(support::seed_of(3000 + number));
@@ -88,6 +89,7 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
 }
 
 TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
+  if (TypeParam::guarantees().scope.diffusion) return;
   ShearRateList<double>::for_each([]<class Model>() {
     for (const Model& model : Model::samples()) {
       SceneSpec<double> spec;

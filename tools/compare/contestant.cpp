@@ -71,7 +71,7 @@ const std::vector<Contestant>& all_contestants() {
     std::vector<Contestant> all;
     SolverList::for_each([&]<class S>() {
       const Guarantees g = S::guarantees();
-      if (!g.exact && !g.has_profiles) return;
+      if ((!g.exact && !g.has_profiles) || g.scope.diffusion) return;  // errors are those against exact
       all.push_back({std::string(S::kName), S::kName, kind_of(g), nullptr, false});
       for (const Variant& v : kVariants)
         if (v.solver == S::kName)
