@@ -61,7 +61,9 @@ TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
   EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real110>>());
 }
 
-TEST(Lists, NamesJoinsInOrder) { EXPECT_EQ(ShearRateList<double>::names(), "piecewise, exponential, table, chute"); }
+TEST(Lists, NamesJoinsInOrder) {
+  EXPECT_EQ(ShearRateList<double>::names(), "piecewise, exponential, table, chute");
+}
 
 TEST(Lists, EveryListedTypeHasSamples) {
   FluxList<double>::for_each([]<class F>() { EXPECT_FALSE(F::samples().empty()) << F::kName; });
