@@ -188,9 +188,9 @@ TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
   still.diffusion.reset();
   SceneSpec<double> packed = may(1e-2);
   packed.packing = Piecewise<double>{{}, {0.6}};
-  for (const auto& [spec, has_diffusion] :
-       {std::pair{still, false}, {may(0), false}, {may(1e-2), true}, {packed, true}, {kink(), true}}) {
+  for (const SceneSpec<double>& spec : {still, may(0), may(1e-2), packed, kink()}) {
     const Scene<double> scene(spec);
+    const bool has_diffusion = scene.has_diffusion();
     SolverList::for_each([&]<class S>() {
       const SolverResult result = S::solve(scene, {{0.1}, {0.3}, false, false, false}, {});
       const bool is_refused = result.summary.status == Status::unsupported;
