@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "shearfront/diffusion/crank_nicolson_solver.hpp"
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
@@ -30,6 +31,7 @@ struct Example {
   SceneSpec<double> truth;
   std::vector<std::string> parameters;
   std::vector<double> start, times, depths;
+  fit::ForwardSpec forward{};
 };
 
 std::vector<double> grid(double first, double step, int n) {
@@ -47,6 +49,12 @@ std::vector<Example> examples() {
     s.shear_rate = rate;
     return s;
   };
+  SceneSpec<double> diffusing = with(Piecewise<double>{{0.29}, {2.4, 0.31}});
+  diffusing.diffusion = Diffusion<double>{1e-2, {}, false};
+  fit::ForwardSpec crank_nicolson;
+  crank_nicolson.method = CrankNicolsonSolver::kName;
+  crank_nicolson.options.cells = 100;
+  crank_nicolson.options.time_step = 0.02;
   const std::vector<double> fine_t = grid(0.5, 0.5, 20), fine_z = grid(0.01, 0.01, 99);
   return {
       {"3", with(Piecewise<double>{{0.29}, {3.15, 0.5}}), {"shear_rate.values"}, {2.5, 0.7}, fine_t, fine_z},
@@ -61,14 +69,22 @@ std::vector<Example> examples() {
        {"shear_rate.amplitude", "shear_rate.decay"},
        {5, 0.2},
        grid(1, 1, 10),
-       grid(0.05, 0.05, 19)}};
+       grid(0.05, 0.05, 19)},
+      {"diffusion",
+       diffusing,
+       {"diffusion.D", "shear_rate.values"},
+       {0.03, 1.5, 0.5},
+       {0.25, 0.5, 1, 1.5, 2, 3, 4, 6},
+       grid(0.025, 0.05, 20),
+       crank_nicolson}};
 }
 
 Observations without_noise(const Example& example, Quantity quantity) {
   ObservationPlan plan{example.times, example.depths, quantity, 0};
   if (quantity == Quantity::bin) plan.width = example.depths[1] - example.depths[0];
   const Scene<double> scene(example.truth);
-  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
+  const auto solve = scene.has_diffusion() ? &CrankNicolsonSolver::solve : &ExactSolver::solve;
+  return observe(plan, scene, solve(scene, request_of(plan, scene), example.forward.options));
 }
 
 /// Standard deviations of the logarithms of the parameters by the Cramer-Rao bound, for sigma = 1: from the
@@ -83,7 +99,8 @@ VectorXd cramer_rao(const Example& example, const Observations& observations) {
     if (name_of(observations.quantity) == M::kName) rows = M::rows(observations, scene.bottom(), scene.top());
   });
   fit::RunControl control(1);
-  const fit::Objective objective(parameters, coordinates, {}, rows, fit::find_loss("squared", 0), control);
+  const fit::Objective objective(parameters, coordinates, example.forward, rows, fit::find_loss("squared", 0),
+                                 control);
   const MatrixXd j = objective.inspect(coordinates.coordinates(parameters.start()), true).jacobian;
   const MatrixXd information = j.transpose() * j;
   return information.ldlt().solve(MatrixXd::Identity(j.cols(), j.cols())).diagonal().cwiseSqrt();
@@ -193,7 +210,7 @@ int main(int argc, char** argv) {
                         Scene<double>(example.truth),
                         without_noise(example, quantity),
                         {example.parameters, {}, {}, {}, fit::Shape::none},
-                        {},
+                        example.forward,
                         {},
                         {},
                         {}};

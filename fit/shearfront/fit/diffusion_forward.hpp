@@ -14,9 +14,9 @@ namespace shearfront::fit {
 ///
 /// Adaptive steps are chosen once and then repeated, so that the solution is a smooth function of the
 /// parameters and not one with noise of the size of the tolerance. They are chosen anew when a parameter has
-/// moved by more than kReach of its value since. So the steps belong to parameters within kReach, the error
-/// of time stepping is that of the tolerance within a factor of two, and what renewing changes (no more than
-/// that error) happens only far from the minimum a search ends in.
+/// moved by more than kReach of its value since: so they always belong to parameters that near, and what
+/// renewing changes (a part of the error of time stepping, which is below the tolerance) happens only while
+/// a search still makes longer steps.
 /// Derivatives: relative error 1e-8 (from those of the coefficients, problem_tangents.hpp), for entries of
 /// shear_rate, temperature, diffusion, initial and heights of layers with another flux; none if an unknown is
 /// another (domain, flux). The solution has kinks where an unknown break passes the middle or the edge of a
@@ -25,7 +25,7 @@ namespace shearfront::fit {
 /// the start values. Not for use by several threads at once. Cost: (1 + parameters / 2) runs of the scheme.
 class DiffusionForward final : public Forward {
  public:
-  static constexpr double kReach = 0.1;
+  static constexpr double kReach = 0.01;
 
   /// phi or M at the points.
   DiffusionForward(const Parameters& parameters, const ForwardSpec& forward, Field field,
