@@ -129,12 +129,12 @@ class Run {
   }
 
   void find_from(const VectorXd& start) {
-    u_ = start;
+    start_ = u_ = start;
     has_searched_ = false;
     noise_ = 0;
     n_scales_ = 0;
     if (has_stages_) approach();
-    settle(rows_of(quantity_, spec_), has_stages_ && quantity_ == PointMisfit::kName);
+    settle(rows_of(quantity_, spec_), has_stages_ && has_jumps());
   }
 
   /// Every start goes through all stages: what is best in an early one need not be in the last.
@@ -157,10 +157,17 @@ class Run {
     u_ = best;
     noise_ = 0;  // of the last start, not of the best
     n_scales_ = 0;
-    settle(rows_of(quantity_, spec_), quantity_ == PointMisfit::kName);
+    settle(rows_of(quantity_, spec_), has_jumps());
     result_.message = "best of " + std::to_string(n) + " starts (number " + std::to_string(best_start) +
                       "): " + result_.message;
   }
+
+  [[nodiscard]] bool has_diffusion() const {
+    const SceneSpec<double> start = parameters_.scene_with(parameters_.start());
+    return start.diffusion && start.diffusion->D > 0;
+  }
+  /// Whether a jump of phi can be near an observation: with diffusion phi is continuous.
+  [[nodiscard]] bool has_jumps() const { return quantity_ == PointMisfit::kName && !has_diffusion(); }
 
   /// Compares estimates whose last stages left out other rows or took another noise: all rows, with a loss of
   /// fixed scale.
@@ -240,6 +247,11 @@ class Run {
   void settle(const ResidualRows& rows, bool leaves_out_jumps) {
     std::vector<bool> keep(leaves_out_jumps ? 0 : rows.rows.size(), true);
     if (!leaves_out_jumps) objective_ = make_objective(rows, loss_);
+    // Noise of sums may lead the stages to rates that no grid resolves; with diffusion there is often but one
+    // valley, and the start in it.
+    if (has_stages_ && has_diffusion() &&
+        objective_->inspect(start_, false).misfit < objective_->evaluate(u_, false).misfit)
+      u_ = start_;
     for (int round = 0; round <= kMostRenewals; ++round) {
       bool is_settled = !(leaves_out_jumps && renew_rows(rows, keep));
       is_settled = !renew_scale() && is_settled;
@@ -289,7 +301,7 @@ class Run {
   Loss loss_;
   Progress progress_;
   std::unique_ptr<Objective> objective_;
-  Eigen::VectorXd u_;
+  Eigen::VectorXd u_, start_;
   SearchResult result_;
   bool has_stages_ = false, has_searched_ = false;
   std::size_t share_ = std::numeric_limits<std::size_t>::max();  ///< of the evaluations left, for one start
