@@ -46,12 +46,9 @@ bool DiffusionForward::can_repeat(const VectorXd& values) const {
 
 Prediction DiffusionForward::predict(const VectorXd& values, bool with_derivatives) const {
   Prediction prediction;
-  SceneSpec<double> spec = parameters_.scene_with(values);
-  if (const Problems problems = find_problems(spec); !problems.empty()) {
-    prediction.failure = problems.front().text();
-    return prediction;
-  }
-  const Scene<double> scene(std::move(spec));
+  const auto found = parameters_.scene_at(values, prediction.failure);
+  if (!found) return prediction;
+  const Scene<double>& scene = *found;
   if (prediction.failure = diffusion::refusal(scene, options_); !prediction.is_valid()) return prediction;
   const diffusion::Problem problem = diffusion::problem_of(scene, options_.cells);
   std::vector<diffusion::Tangent> tangents;

@@ -64,12 +64,9 @@ class ExactForward final : public ForwardModel {
 
   [[nodiscard]] Prediction predict(const VectorXd& values, bool with_derivatives) const override {
     Prediction prediction;
-    SceneSpec<double> spec = parameters_.scene_with(values);
-    if (const Problems problems = find_problems(spec); !problems.empty()) {
-      prediction.failure = problems.front().text();
-      return prediction;
-    }
-    const Scene<double> scene(std::move(spec));
+    const auto found = parameters_.scene_at(values, prediction.failure);
+    if (!found) return prediction;
+    const Scene<double>& scene = *found;
     if (std::string reason = hopf_lax::refusal(scene); !reason.empty()) {
       prediction.failure = std::move(reason);
       return prediction;
@@ -128,12 +125,9 @@ class BedHeightForward final : public ForwardModel {
 
   [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
     Prediction prediction;
-    SceneSpec<double> spec = parameters_.scene_with(values);
-    if (const Problems problems = find_problems(spec); !problems.empty()) {
-      prediction.failure = problems.front().text();
-      return prediction;
-    }
-    const Scene<double> scene(std::move(spec));
+    const auto found = parameters_.scene_at(values, prediction.failure);
+    if (!found) return prediction;
+    const Scene<double>& scene = *found;
     const BedHeight bed(scene);
     SolverRequest request;
     request.times = times_;
@@ -181,12 +175,9 @@ class SolverForward final : public ForwardModel {
 
   [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
     Prediction prediction;
-    SceneSpec<double> spec = parameters_.scene_with(values);
-    if (const Problems problems = find_problems(spec); !problems.empty()) {
-      prediction.failure = problems.front().text();
-      return prediction;
-    }
-    const SolverResult result = solve_(Scene<double>(std::move(spec)), request_, options_);
+    const auto scene = parameters_.scene_at(values, prediction.failure);
+    if (!scene) return prediction;
+    const SolverResult result = solve_(*scene, request_, options_);
     if (!result.summary.usable()) {
       prediction.failure = result.summary.message;
       return prediction;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "shearfront/io/text.hpp"
 
@@ -179,6 +180,15 @@ SceneSpec<double> Parameters::scene_with(const Eigen::VectorXd& values) const {
   const std::vector<double*> places = entry_places(spec);
   for (std::size_t i = 0; i < size(); ++i) *places[places_[i]] = values[static_cast<Eigen::Index>(i)];
   return spec;
+}
+
+std::optional<Scene<double>> Parameters::scene_at(const Eigen::VectorXd& values, std::string& failure) const {
+  SceneSpec<double> spec = scene_with(values);
+  if (const Problems problems = find_problems(spec); !problems.empty()) {
+    failure = problems.front().text();
+    return std::nullopt;
+  }
+  return Scene<double>(std::move(spec));
 }
 
 }  // namespace shearfront::fit

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ class Parameters {
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
   /// The scene with these values in place of its own; it may be invalid (breaks out of order).
   [[nodiscard]] SceneSpec<double> scene_with(const Eigen::VectorXd& values) const;
+  /// The same as a scene; none, and the first problem as the failure, if it is invalid.
+  [[nodiscard]] std::optional<Scene<double>> scene_at(const Eigen::VectorXd& values,
+                                                      std::string& failure) const;
 
  private:
   void resolve(const UnknownSpec& unknown, Problems& problems);
