@@ -9,6 +9,7 @@
 #include "shearfront/close_packing/all.hpp"
 #include "shearfront/close_packing/skeleton.hpp"
 #include "shearfront/solution/bed_height.hpp"
+#include "support/model_types.hpp"
 
 namespace shearfront {
 namespace {
@@ -16,20 +17,9 @@ namespace {
 template <class Law>
 class ClosePackingLaws : public testing::Test {};
 
-struct LawName {
-  template <class Law>
-  static std::string GetName(int) {
-    return std::string(Law::kName);
-  }
-};
-
-template <class List>
-struct AsTestTypes;
-template <class... Law>
-struct AsTestTypes<TypeList<Law...>> {
-  using Type = testing::Types<Law..., SkeletonClosePacking<double>>;
-};
-TYPED_TEST_SUITE(ClosePackingLaws, AsTestTypes<ClosePackingList<double>>::Type, LawName);
+using ClosePackingLawsTypes =
+    support::ModelTypes<ClosePackingList<double>, SkeletonClosePacking<double>>::Type;
+TYPED_TEST_SUITE(ClosePackingLaws, ClosePackingLawsTypes, support::ModelName);
 
 TYPED_TEST(ClosePackingLaws, HasSamplesThatPassTheirOwnCheck) {
   static_assert(ClosePackingLaw<TypeParam, double>);

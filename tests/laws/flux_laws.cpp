@@ -11,6 +11,7 @@
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "support/model_types.hpp"
 
 namespace shearfront {
 namespace {
@@ -18,22 +19,8 @@ namespace {
 template <class Model>
 class FluxLaws : public testing::Test {};
 
-struct ModelName {
-  template <class Model>
-  static std::string GetName(int) {
-    std::string name(Model::kName);
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  }
-};
-
-template <class List>
-struct AsTestTypes;
-template <class... Model>
-struct AsTestTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model..., SkeletonFlux<double>>;
-};
-TYPED_TEST_SUITE(FluxLaws, AsTestTypes<FluxList<double>>::Type, ModelName);
+using FluxLawsTypes = support::ModelTypes<FluxList<double>, SkeletonFlux<double>>::Type;
+TYPED_TEST_SUITE(FluxLaws, FluxLawsTypes, support::ModelName);
 
 /// Calls visit(flux, lowest, highest, largest |f'|) for every sample.
 template <class Model, class Visit>

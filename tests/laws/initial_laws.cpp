@@ -9,6 +9,7 @@
 #include "shearfront/initial/all.hpp"
 #include "shearfront/initial/skeleton.hpp"
 #include "shearfront/scene/scene.hpp"
+#include "support/model_types.hpp"
 
 namespace shearfront {
 namespace {
@@ -16,20 +17,8 @@ namespace {
 template <class Model>
 class InitialLaws : public testing::Test {};
 
-struct ModelName {
-  template <class Model>
-  static std::string GetName(int) {
-    return std::string(Model::kName);
-  }
-};
-
-template <class List>
-struct AsTestTypes;
-template <class... Model>
-struct AsTestTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model..., SkeletonInitial<double>>;
-};
-TYPED_TEST_SUITE(InitialLaws, AsTestTypes<InitialProfileList<double>>::Type, ModelName);
+using InitialLawsTypes = support::ModelTypes<InitialProfileList<double>, SkeletonInitial<double>>::Type;
+TYPED_TEST_SUITE(InitialLaws, InitialLawsTypes, support::ModelName);
 
 TYPED_TEST(InitialLaws, HasSamplesThatPassTheirOwnCheck) {
   ASSERT_FALSE(TypeParam::samples().empty());

@@ -10,6 +10,7 @@
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/shear_rate/all.hpp"
 #include "shearfront/shear_rate/skeleton.hpp"
+#include "support/model_types.hpp"
 
 namespace shearfront {
 namespace {
@@ -17,20 +18,8 @@ namespace {
 template <class Model>
 class ShearRateLaws : public testing::Test {};
 
-struct ModelName {
-  template <class Model>
-  static std::string GetName(int) {
-    return std::string(Model::kName);
-  }
-};
-
-template <class List>
-struct AsTestTypes;
-template <class... Model>
-struct AsTestTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model..., SkeletonShearRate<double>>;
-};
-TYPED_TEST_SUITE(ShearRateLaws, AsTestTypes<ShearRateList<double>>::Type, ModelName);
+using ShearRateLawsTypes = support::ModelTypes<ShearRateList<double>, SkeletonShearRate<double>>::Type;
+TYPED_TEST_SUITE(ShearRateLaws, ShearRateLawsTypes, support::ModelName);
 
 /// [0, 1] cut at the knots.
 template <class Model>

@@ -99,9 +99,10 @@ SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& 
     if (status != Status::ok) break;
     const auto samples = output.samples(cells, request.depths);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
-    if (request.integrand)
-      result.integrals[i] = share_integral(scene, output.profile(cells), request.integrand);
-    if (request.profiles) result.profiles[i] = output.profile(cells);
+    if (!request.integrand && !request.profiles) continue;
+    Profile<double> profile = output.profile(cells);
+    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
+    if (request.profiles) result.profiles[i] = std::move(profile);
   }
   if (status == Status::ok && run.is_at_rest()) status = Status::steady;
   if (status != Status::ok && status != Status::steady) {
