@@ -3,33 +3,45 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
 
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/solver/all.hpp"
+#include "support/model_types.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
 namespace {
 
+/// The solvers of beds without diffusion; the others have diffusion_solvers_test.cpp.
+template <class S>
+constexpr bool kKnowsDiffusion = std::is_same_v<S, CrankNicolsonSolver> || std::is_same_v<S, ColeHopfSolver>;
+
+template <class Kept, class... Left>
+struct WithoutDiffusion {
+  using Types = Kept;
+};
+template <class... Kept, class S, class... Left>
+struct WithoutDiffusion<testing::Types<Kept...>, S, Left...> {
+  using More = std::conditional_t<kKnowsDiffusion<S>, testing::Types<Kept...>, testing::Types<Kept..., S>>;
+  using Types = typename WithoutDiffusion<More, Left...>::Types;
+};
 template <class List>
 struct AsTypes;
 template <class... S>
 struct AsTypes<TypeList<S...>> {
-  using Types = testing::Types<S...>;
+  using Types = typename WithoutDiffusion<testing::Types<>, S...>::Types;
 };
 
 template <class S>
 class EverySolver : public testing::Test {};
 
-struct SolverName {
-  template <class S>
-  static std::string GetName(int) {
-    std::string name(S::kName);
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  }
-};
-TYPED_TEST_SUITE(EverySolver, typename AsTypes<SolverList>::Types, SolverName);
+TYPED_TEST_SUITE(EverySolver, typename AsTypes<SolverList>::Types, support::ModelName);
+
+TEST(Solvers, ThoseLeftOutHereAreThoseOfDiffusion) {
+  SolverList::for_each(
+      []<class S>() { EXPECT_EQ(S::guarantees().scope.diffusion, kKnowsDiffusion<S>) << S::kName; });
+}
 
 constexpr double kResolution = 0.02;
 constexpr std::size_t kCells = 100;
@@ -46,7 +58,6 @@ SolverRequest request_for(const Scene<double>& scene) {
 
 TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
   const Guarantees promised = TypeParam::guarantees();
-  if (promised.scope.diffusion) return;  // see diffusion_solvers_test.cpp
   for (std::uint64_t number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     support::SceneMaker maker(support::seed_of(3000 + number));
@@ -89,7 +100,6 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
 }
 
 TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
-  if (TypeParam::guarantees().scope.diffusion) return;
   ShearRateList<double>::for_each([]<class Model>() {
     for (const Model& model : Model::samples()) {
       SceneSpec<double> spec;
