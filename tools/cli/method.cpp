@@ -88,7 +88,12 @@ void MethodArguments::add_diffusion_to(CLI::App& app) {
   app.add_option("--time-step", time_step_, "crank-nicolson: fixed time step; default chosen by --tolerance")
       ->type_name("DT");
   app.add_option("--tolerance", tolerance_,
-                 "crank-nicolson: aim for the error that time steps make in phi; > 0 and <= 1, default 1e-4")
+                 "crank-nicolson: aim for the error that time steps make in phi; > 0 and <= 1, default 1e-5")
+      ->type_name("E");
+  app.add_option(
+         "--cell-tolerance", cell_tolerance_,
+         "crank-nicolson: halve cells, beginning with --cells, where phi bends by more than this from "
+         "one to the next; >= 1e-6 and <= 0.1, default equal cells")
       ->type_name("E");
   app.add_flag(
       "--monotone", monotone_,
@@ -128,6 +133,9 @@ SolverOptions MethodArguments::options() const {
         number_option("--time-step", time_step_, {0, std::numeric_limits<double>::max(), true}, "> 0");
   if (!tolerance_.empty())
     options.tolerance = number_option("--tolerance", tolerance_, {0, 1, true}, "> 0 and <= 1");
+  if (!cell_tolerance_.empty())
+    options.cell_tolerance =
+        number_option("--cell-tolerance", cell_tolerance_, {1e-6, 0.1}, ">= 1e-6 and <= 0.1");
   options.monotone = monotone_;
   options.align_cells = align_cells_;
   options.local_steps = local_steps_;
@@ -143,10 +151,12 @@ std::string MethodArguments::settings() const {
                         grid_names()[static_cast<std::size_t>(chosen.grid)],
                         reconstruction_names()[static_cast<std::size_t>(chosen.reconstruct)]);
   else if (guarantees.scope.diffusion && !guarantees.exact)
-    text += fmt::format(" --cells {} {}{}", chosen.cells,
-                        chosen.time_step > 0 ? "--time-step " + number_text(chosen.time_step)
-                                             : "--tolerance " + number_text(chosen.tolerance),
-                        chosen.monotone ? " --monotone" : "");
+    text += fmt::format(
+        " --cells {} {}{}{}", chosen.cells,
+        chosen.time_step > 0 ? "--time-step " + number_text(chosen.time_step)
+                             : "--tolerance " + number_text(chosen.tolerance),
+        chosen.cell_tolerance > 0 ? " --cell-tolerance " + number_text(chosen.cell_tolerance) : "",
+        chosen.monotone ? " --monotone" : "");
   else if (!guarantees.exact)
     text += fmt::format(" --cells {} --cfl {}", chosen.cells, number_text(chosen.cfl));
   if (method() == MusclSolver::kName)

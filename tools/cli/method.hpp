@@ -26,7 +26,7 @@ class MethodArguments {
  private:
   void add_diffusion_to(CLI::App& app);
   std::string method_ = "exact", resolution_, grid_, reconstruct_, layers_, max_collisions_, cells_, cfl_,
-              limiter_, face_coefficient_, time_step_, tolerance_;
+              limiter_, face_coefficient_, time_step_, tolerance_, cell_tolerance_;
   bool align_cells_ = false, local_steps_ = false, monotone_ = false;
 };
 

@@ -1,37 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/diffusion/crank_nicolson.hpp"
-
+// One step: see crank_nicolson_march.cpp for how they follow each other.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
 
+#include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/diffusion/largest_magnitude.hpp"
 #include "shearfront/numeric/contract.hpp"
-#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::diffusion {
 namespace {
 
 constexpr int kMaxIterations = 30;
-constexpr int kMaxHalvings = 20;
 /// Change of a state, over max |phi|, below which a matrix is kept for one more iteration.
 constexpr double kSmallChange = 1e-3;
-
-/// max |x_i|, written so that compilers without -ffast-math use vectors.
-double largest_magnitude(const double* x, std::size_t n) {
-  constexpr std::size_t kLanes = 8;
-  double lanes[kLanes] = {};
-  std::size_t i = 0;
-  for (; i + kLanes <= n; i += kLanes)
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const double y = std::abs(x[i + k]);
-      lanes[k] = lanes[k] > y ? lanes[k] : y;
-    }
-  double largest = 0;
-  for (; i < n; ++i) largest = std::max(largest, std::abs(x[i]));
-  for (const double lane : lanes) largest = std::max(largest, lane);
-  return largest;
-}
 
 }  // namespace
 
@@ -40,20 +23,17 @@ CrankNicolson::CrankNicolson(const Problem& problem, Options options, std::vecto
       options_(std::move(options)),
       parameters_(std::move(tangents)),
       n_(problem.n_cells),
-      width_(problem.width()),
-      rule_(FaceRule::make(problem, options_.scheme)),
-      matrix_(problem.ends == Ends::periodic ? n_ : n_ + 1, problem.ends == Ends::periodic),
-      fluxes_(n_ + 1),
+      matrix_(2, false),
+      fluxes_(0),
       phi_(n_ + 2),
       rest_(n_ + 2),
-      inner_(n_ + 2),
-      q_(n_ + 1),
-      q_predicted_(n_ + 1),
       q_last_(n_ + 1),
       q_before_(n_ + 1),
-      correction_(n_ + 1),
       control_(options_.tolerance) {
   SHEARFRONT_EXPECTS(n_ >= 2, "at least two cells");
+  SHEARFRONT_EXPECTS(parameters_.empty() || (problem.has_equal_cells() && !options_.regrid),
+                     "derivatives on a grid of equal cells");
+  set_grid();
   SHEARFRONT_EXPECTS(options_.dt > 0 || options_.tolerance > 0, "fixed steps or a tolerance");
   std::copy(problem.initial.begin(), problem.initial.end(), phi_.begin() + 1);
   set_ghosts(phi_);
@@ -70,160 +50,45 @@ CrankNicolson::CrankNicolson(const Problem& problem, Options options, std::vecto
   }
 }
 
-Status CrankNicolson::advance_to(double t) {
-  SHEARFRONT_EXPECTS(t >= time_, "forward in time");
-  message_.clear();
-  const Status status = options_.dt > 0 ? march_fixed(t) : march_adaptive(t);
-  if (status == Status::ok || status == Status::steady) time_ = t;
-  return status;
-}
-
-Status CrankNicolson::repeat(std::span<const TimeStep> steps) {
-  for (const TimeStep& step : steps) {
-    if (!attempt(step).converged) return Status::not_converged;
-    commit(step);
-    time_ += step.length;
+void CrankNicolson::set_grid() {
+  n_ = problem_.n_cells;
+  const bool is_periodic = problem_.ends == Ends::periodic;
+  rule_ = FaceRule::make(problem_, options_.scheme);
+  matrix_ = Tridiagonal(is_periodic ? n_ : n_ + 1, is_periodic);
+  fluxes_ = FaceFluxes(n_ + 1);
+  inner_.resize(n_ + 2);
+  for (auto* faces : {&q_, &q_predicted_, &correction_}) faces->resize(n_ + 1);
+  narrowest_ = problem_.width(0);
+  per_width_.clear();
+  if (problem_.has_equal_cells()) return;
+  per_width_.reserve(n_);
+  for (std::size_t j = 0; j < n_; ++j) {
+    narrowest_ = std::min(narrowest_, problem_.width(j));
+    per_width_.push_back(1 / problem_.width(j));
   }
-  return Status::ok;
 }
 
-Status CrankNicolson::march_fixed(double t) {
-  if (n_steps() == 0) start_fixed();
-  const double n_wanted = std::ceil((t - time_) / options_.dt * (1 - 1e-12));
-  const auto n = static_cast<std::uint64_t>(std::max(n_wanted, 0.0));
-  const double length = n > 0 ? (t - time_) / static_cast<double>(n) : 0;
-  const double begin = time_;
-  for (std::uint64_t i = 1; i <= n && !is_steady_; ++i) {
-    const bool smoothed = n_steps() < 2 * n_smoothed_;
-    const bool done =
-        smoothed ? take(0.5 * length, 1) && take(0.5 * length, 1) : take(length, theta_of(length));
-    if (!done) return Status::not_converged;
-    time_ = begin + static_cast<double>(i) * length;
-    is_steady_ = largest_change_ <= 0x1p-52 * scale_;
-    if (const Status status = stop_reason(); status != Status::ok) return status;
-  }
-  return is_steady_ ? Status::steady : Status::ok;
-}
-
-Status CrankNicolson::stop_reason() {
-  if (options_.progress && !options_.progress(time_, n_steps())) {
-    message_ = "stopped by the caller at t = " + number_text(time_);
-    return Status::interrupted;
-  }
-  if (n_steps() >= options_.max_steps) {
-    message_ = "stopped after " + std::to_string(n_steps()) + " steps at t = " + number_text(time_);
-    return Status::budget_reached;
-  }
-  return Status::ok;
-}
-
-Status CrankNicolson::give_up(double length) {
-  message_ = "the iteration does not converge at t = " + number_text(time_) + ", not even for steps of " +
-             number_text(length);
-  if (options_.scheme == Scheme::central) message_ += "; take more cells or the fitted scheme";
-  return Status::not_converged;
-}
-
-double CrankNicolson::theta_of(double length) const {
-  return std::max(0.5, 1 - 1 / (length * rule_->explicit_rate()));
-}
-
-bool CrankNicolson::take(double length, double theta) {
-  double left = length, part = length;
-  for (int halvings = 0; left > 0;) {
-    part = std::min(part, left);
-    const TimeStep step{part, theta == 1 ? 1 : theta_of(part)};
-    if (attempt(step).converged) {
-      commit(step);
-      left = part < left ? left - part : 0;
-      continue;
-    }
-    flux_times_.n = 0;
-    part /= 2;
-    if (++halvings > kMaxHalvings) {
-      give_up(part);
-      return false;
-    }
-  }
-  return true;
-}
-
-Status CrankNicolson::march_adaptive(double t) {
-  if (control_.length() == 0 && t > time_) start_adaptive(t);
-  int failures = 0;
-  while (time_ < t && !is_steady_) {
-    const double left = t - time_;
-    double length = control_.length();
-    if (length >= left) {
-      length = left;
-    } else if (2 * length > left) {
-      length = 0.5 * left;
-    }
-    const bool has_estimate = n_steps() >= 3;
-    const TimeStep step{length, has_estimate ? theta_of(length) : 1};
-    const double share = flux_times_.local_error_share(length);
-    const Attempt result = attempt(step);
-    if (!result.converged) {
-      control_.shorten(0.5 * length);
-      flux_times_.n = 0;
-      if (++failures <= kMaxHalvings) continue;
-      return give_up(length);
-    }
-    failures = 0;
-    if (!has_estimate) {
-      control_.grow(length);
-    } else if (!control_.accept(length, result.surprise * share / scale_)) {
-      continue;
-    }
-    const double now = length == left ? t : time_ + length;
-    commit(step);
-    time_ = now;
-    try_rest();
-    if (const Status status = stop_reason(); status != Status::ok) return status;
-  }
-  return is_steady_ ? Status::steady : Status::ok;
-}
-
-void CrankNicolson::start_fixed() {
-  n_smoothed_ = options_.smoothed_steps.value_or(0);
-  const double largest_d = largest_magnitude(problem_.diffusivity.data(), n_ + 1);
-  if (options_.smoothed_steps || !(options_.dt * largest_d > width_ * width_)) return;
-  const std::vector<double> rates = initial_rates();
-  double bend = 0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const double below = i > 0 ? rates[i - 1] : rates[i], above = i + 1 < n_ ? rates[i + 1] : rates[i];
-    bend = std::max(bend, std::abs(below - 2 * rates[i] + above));
-  }
-  if (bend > 0.5 * largest_magnitude(rates.data(), n_)) n_smoothed_ = 2;
-}
-
-void CrankNicolson::start_adaptive(double t) {
-  const double rate = largest_magnitude(initial_rates().data(), n_);
-  is_steady_ = rate == 0;
-  control_.start(rate / scale_, t - time_);
+void CrankNicolson::move_to(Regrid next) {
+  const std::span<const double> means = states();
+  const std::vector<double> phi = transfer_means(problem_, means, next.changes);
+  std::vector<double> rest = transfer_constants({rest_.data() + 1, n_}, next.changes);
+  rest.insert(rest.begin(), 0);
+  rest.push_back(0);
+  q_last_ = transfer_fluxes(problem_, q_last_, next.changes);
+  q_before_ = transfer_fluxes(problem_, q_before_, next.changes);
+  problem_ = std::move(next.problem);
+  set_grid();
+  phi_.resize(n_ + 2);
+  std::copy(phi.begin(), phi.end(), phi_.begin() + 1);
+  set_ghosts(phi_);
+  rest_ = std::move(rest);
 }
 
 std::vector<double> CrankNicolson::initial_rates() {
   rule_->evaluate(phi_.data(), fluxes_);
   std::vector<double> rates(n_);
-  for (std::size_t i = 0; i < n_; ++i) rates[i] = fluxes_.value[i] - fluxes_.value[i + 1];
+  for_each_divergence(fluxes_.value, [&](std::size_t j, double d) { rates[j] = -d; });
   return rates;
-}
-
-void CrankNicolson::try_rest() {
-  if (n_steps() < n_rest_checked_ + 10 || largest_change_ > options_.tolerance * scale_) return;
-  n_rest_checked_ = n_steps();
-  const FluxTimes times = std::exchange(flux_times_, FluxTimes{});
-  const TimeStep step{1e4 * time_, 1};
-  if (attempt(step).converged) {
-    for (std::size_t i = 0; i < n_; ++i) correction_[i] = step.length * (q_[i + 1] - q_[i]);
-    if (largest_magnitude(correction_.data(), n_) <= 0.1 * options_.tolerance * scale_) {
-      commit(step);
-      is_steady_ = true;
-      return;
-    }
-  }
-  flux_times_ = times;
 }
 
 CrankNicolson::Attempt CrankNicolson::attempt(const TimeStep& step) {
@@ -234,7 +99,7 @@ CrankNicolson::Attempt CrankNicolson::attempt(const TimeStep& step) {
   result.converged = iterate(tau, step.theta);
   if (result.converged && flux_times_.n == 2) {
     for (std::size_t i = 0; i <= n_; ++i) correction_[i] = q_[i] - q_predicted_[i];
-    for (std::size_t i = 0; i < n_; ++i) correction_[i] = step.length * (correction_[i + 1] - correction_[i]);
+    for_each_divergence(correction_, [&](std::size_t j, double d) { correction_[j] = step.length * d; });
     result.surprise = largest_magnitude(correction_.data(), n_);
   }
   return result;
@@ -247,7 +112,7 @@ void CrankNicolson::predict(const TimeStep& step) {
 }
 
 void CrankNicolson::place_inner(double tau) {
-  for (std::size_t i = 0; i < n_; ++i) inner_[i + 1] = phi_[i + 1] - tau * (q_[i + 1] - q_[i]);
+  for_each_divergence(q_, [&](std::size_t j, double d) { inner_[j + 1] = phi_[j + 1] - tau * d; });
   set_ghosts(inner_);
 }
 
@@ -286,9 +151,10 @@ double CrankNicolson::correct(double tau, bool same_matrix) {
     matrix_.solve(tau, {fluxes_.by_below.data(), n}, {fluxes_.by_above.data(), n}, {correction_.data(), n});
   }
   ++n_iterations_;
+  n_cell_updates_ += n_;
   if (is_periodic) correction_[n_] = correction_[0];
   for (std::size_t i = 0; i <= n_; ++i) q_[i] += correction_[i];
-  for (std::size_t i = 0; i < n_; ++i) correction_[i] = tau * (correction_[i + 1] - correction_[i]);
+  for_each_divergence(correction_, [&](std::size_t j, double d) { correction_[j] = tau * d; });
   for (std::size_t i = 0; i < n_; ++i) inner_[i + 1] -= correction_[i];
   set_ghosts(inner_);
   // A pivot that vanished leaves no x finite.
@@ -297,7 +163,7 @@ double CrankNicolson::correct(double tau, bool same_matrix) {
 
 void CrankNicolson::commit(const TimeStep& step) {
   if (!parameters_.empty()) commit_tangents(step);
-  for (std::size_t i = 0; i < n_; ++i) correction_[i] = step.length * (q_[i + 1] - q_[i]);
+  for_each_divergence(q_, [&](std::size_t j, double d) { correction_[j] = step.length * d; });
   largest_change_ = largest_magnitude(correction_.data(), n_);
   for (std::size_t i = 1; i <= n_; ++i) {
     const double change = rest_[i] - correction_[i - 1];
@@ -311,6 +177,12 @@ void CrankNicolson::commit(const TimeStep& step) {
   std::swap(q_before_, q_last_);
   std::swap(q_last_, q_);
   steps_.push_back(step);
+  if (!options_.regrid) return;
+  for (int i = 0; i < RefinedCells::kMostHalvings; ++i) {
+    std::optional<Regrid> next = options_.regrid(problem_, states());
+    if (!next) break;
+    move_to(std::move(*next));
+  }
 }
 
 // With x = dq of the step: x_i = by_below dv_below + by_above dv_above + dF_i/dp, dv = dphi - tau diff x.
@@ -334,6 +206,7 @@ void CrankNicolson::commit_tangents(const TimeStep& step) {
       matrix_.solve_again({change.data(), n});
     }
     ++n_iterations_;
+    n_cell_updates_ += n_;
     if (is_periodic) change[n_] = change[0];
     for (std::size_t i = 0; i < n_; ++i) dphi[i] -= step.length * (change[i + 1] - change[i]);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shearfront/diffusion/face_rule.hpp"
+#include "shearfront/diffusion/grid_transfer.hpp"
 #include "shearfront/diffusion/problem.hpp"
 #include "shearfront/diffusion/step_control.hpp"
 #include "shearfront/diffusion/tridiagonal.hpp"
@@ -32,6 +33,8 @@ struct Options {
   std::uint64_t max_steps = 1'000'000'000;
   /// Called after every step with (t, steps so far); return false to stop with Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
+  /// Called after every step with the present problem and states; may return another grid for the next one.
+  std::function<std::optional<Regrid>(const Problem&, std::span<const double>)> regrid;
 };
 
 /// One step of the scheme below.
@@ -56,14 +59,17 @@ struct TimeStep {
 ///       the explicit part does if (1 - theta) dt L <= 1, L = explicit_rate(). Hence theta = max(1/2, 1 -
 ///       1 / (dt L)): second order in dt as long as dt L <= 2, of first order beyond. (No scheme of order two
 ///       has such bounds for all steps: Bolley & Crouzeix 1978, RAIRO Anal. Numer. 12, 237-245.)
-///   (4) tangents are the derivatives of the computed states for the same steps, to rounding.
-/// Adaptive steps: the local error is estimated from the distance to a quadratic extrapolation in time and
-/// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. They start with
-/// short steps of backward Euler, which also damp what data that do not satisfy the conditions at the walls
-/// excite. They grow without bound; at rest they end, see is_steady().
-/// Cost: O(N) a step and iteration; usually one iteration a step. Each tangent costs one further right-hand
-/// side. Source: Christov (2018), Materials Physics and Mechanics 35, 21-27; Gresho, Lee & Sani (1980) for
-/// the control of steps; Rannacher (1984), Numer. Math. 43, 309-327 for the smoothing.
+///   (4) tangents are the derivatives of the computed states for the same steps, to rounding (equal cells
+///   only).
+/// On another grid (Options::regrid) the states and the fluxes of the last two steps go on, see
+/// grid_transfer.hpp; (1) holds across it, and so do the bounds of (3). Adaptive steps: the local error is
+/// estimated from the distance to a quadratic extrapolation in time and kept at c tolerance^(3/2), so that
+/// the error of a run is proportional to the tolerance. They start with short steps of backward Euler, which
+/// also damp what data that do not satisfy the conditions at the walls excite. They grow without bound; at
+/// rest they end, see is_steady(). Cost: O(N) a step and iteration; usually one iteration a step. Each
+/// tangent costs one further right-hand side. Source: Christov (2018), Materials Physics and Mechanics 35,
+/// 21-27; Gresho, Lee & Sani (1980) for the control of steps; Rannacher (1984), Numer. Math. 43, 309-327 for
+/// the smoothing.
 class CrankNicolson {
  public:
   CrankNicolson(const Problem& problem, Options options, std::vector<Tangent> tangents = {});
@@ -78,6 +84,8 @@ class CrankNicolson {
   Status repeat(std::span<const TimeStep> steps);
 
   [[nodiscard]] std::span<const double> states() const { return {phi_.data() + 1, n_}; }
+  /// With the grid of states().
+  [[nodiscard]] const Problem& problem() const { return problem_; }
   /// Derivatives of states() with respect to parameter k.
   [[nodiscard]] std::span<const double> tangent(std::size_t k) const { return tangents_[k]; }
   [[nodiscard]] double time() const { return time_; }
@@ -87,6 +95,8 @@ class CrankNicolson {
   [[nodiscard]] std::uint64_t n_steps() const { return steps_.size(); }
   /// Linear systems solved, those of tangents and rejected steps included.
   [[nodiscard]] std::uint64_t n_iterations() const { return n_iterations_; }
+  /// Sum of their cells.
+  [[nodiscard]] std::uint64_t n_cell_updates() const { return n_cell_updates_; }
   /// Fixed steps: the last step changed no state by more than its rounding. Adaptive steps: a last step of
   /// backward Euler of 10^4 times the time elapsed moved no state by more than a tenth of the tolerance, and
   /// the states are those after it. advance_to() then only sets the time.
@@ -105,8 +115,19 @@ class CrankNicolson {
   void place_inner(double tau);
   double correct(double tau, bool same_matrix);
   void commit(const TimeStep& step);
+  void move_to(Regrid next);
+  void set_grid();
   void commit_tangents(const TimeStep& step);
   void set_ghosts(std::vector<double>& v) const;
+  /// put(j, (F_{j+1} - F_j) / dz_j) for all cells, from q = F / u.
+  template <class Put>
+  void for_each_divergence(const std::vector<double>& q, const Put& put) const {
+    if (per_width_.empty()) {
+      for (std::size_t j = 0; j < n_; ++j) put(j, q[j + 1] - q[j]);
+    } else {
+      for (std::size_t j = 0; j < n_; ++j) put(j, (q[j + 1] - q[j]) * per_width_[j]);
+    }
+  }
 
   Status march_fixed(double t);
   Status march_adaptive(double t);
@@ -125,12 +146,13 @@ class CrankNicolson {
   Options options_;
   std::vector<Tangent> parameters_;
   std::size_t n_;
-  double width_;
+  double narrowest_;               ///< dz
+  std::vector<double> per_width_;  ///< u / dz of the cells (see FaceFluxes); empty: 1
   std::unique_ptr<FaceRule> rule_;
   Tridiagonal matrix_;
   FaceFluxes fluxes_;
   std::vector<double> phi_, rest_, inner_;  ///< with a cell beyond each end; rest_: what rounding left over
-  std::vector<double> q_, q_predicted_, q_last_, q_before_, correction_;  ///< F / dz
+  std::vector<double> q_, q_predicted_, q_last_, q_before_, correction_;  ///< F / u
   std::vector<std::vector<double>> tangents_;
   FluxTimes flux_times_;
   StepControl control_;
@@ -138,7 +160,7 @@ class CrankNicolson {
   double limit_ = 0;  ///< of |v|: beyond it the scheme has become unstable
   double largest_change_ = 0, time_ = 0;
   std::vector<TimeStep> steps_;
-  std::uint64_t n_iterations_ = 0, n_rest_checked_ = 0, n_smoothed_ = 0;
+  std::uint64_t n_iterations_ = 0, n_cell_updates_ = 0, n_rest_checked_ = 0, n_smoothed_ = 0;
   bool is_steady_ = false;
   std::string message_;
 };

@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "shearfront/diffusion/refinement.hpp"
 #include "shearfront/diffusion/setup.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/share_integral.hpp"
@@ -22,6 +25,8 @@ std::string diffusion::refusal(const Scene<double>& scene, const SolverOptions& 
     return "time_step = " + number_text(options.time_step) + "; must be >= 0";
   if (!(options.tolerance > 0 && options.tolerance <= 1))
     return "tolerance = " + number_text(options.tolerance) + "; must be > 0 and <= 1";
+  if (options.cell_tolerance != 0 && !(options.cell_tolerance >= 1e-6 && options.cell_tolerance <= 0.1))
+    return "cell_tolerance = " + number_text(options.cell_tolerance) + "; must be >= 1e-6 and <= 0.1, or 0";
   return "";
 }
 
@@ -48,6 +53,16 @@ Status march(diffusion::CrankNicolson& engine, double t) {
   return Status::not_converged;
 }
 
+/// Lets the engine change its grid, and stop where that fails.
+void follow(diffusion::Refinement& refinement, diffusion::Options& options) {
+  options.regrid = [&](const diffusion::Problem& present, std::span<const double> states) {
+    return refinement.next(present, states);
+  };
+  options.progress = [&refinement, ask = options.progress](double t, std::uint64_t n_steps) {
+    return !refinement.is_exhausted() && (!ask || ask(t, n_steps));
+  };
+}
+
 }  // namespace
 
 SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const SolverRequest& request,
@@ -59,8 +74,12 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
     summary.status = Status::unsupported;
     return result;
   }
-  const diffusion::Problem problem = diffusion::problem_of(scene, options.cells);
-  diffusion::CrankNicolson engine(problem, diffusion::options_of(options));
+  diffusion::Options own = diffusion::options_of(options);
+  std::optional<diffusion::Refinement> refinement;
+  if (options.cell_tolerance > 0)
+    follow(refinement.emplace(scene, options.cells, options.cell_tolerance), own);
+  diffusion::CrankNicolson engine(
+      refinement ? refinement->start() : diffusion::problem_of(scene, options.cells), own);
   const std::size_t n = request.depths.size();
   std::vector<std::size_t> order(request.times.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -74,19 +93,24 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
   for (const std::size_t i : order) {
     status = march(engine, request.times[i]);
     if (!is_usable()) break;
-    Profile<double> profile = diffusion::profile_of(problem, engine.states());
+    Profile<double> profile = diffusion::profile_of(engine.problem(), engine.states());
     const auto values = profile.at(request.depths);
     for (std::size_t j = 0; j < n; ++j) result.samples[i * n + j] = {values[j].phi, values[j].M};
     if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
     if (request.profiles) result.profiles[i] = std::move(profile);
   }
+  if (refinement && refinement->is_exhausted()) status = Status::budget_reached;
   if (!is_usable()) result.samples.clear(), result.profiles.clear(), result.integrals.clear();
   summary.status = status;
-  summary.message = !is_usable()         ? engine.message()
+  summary.message = refinement && refinement->is_exhausted()
+                        ? "more than " + std::to_string(diffusion::Refinement::kMostCells) +
+                              " cells wanted at t = " + number_text(engine.time()) +
+                              "; take a larger cell_tolerance"
+                    : !is_usable()       ? engine.message()
                     : engine.is_steady() ? "steady state reached"
                                          : "reached the last time";
   summary.message += ", " + std::to_string(engine.n_steps()) + " steps";
-  summary.cell_updates = engine.n_iterations() * problem.n_cells;
+  summary.cell_updates = engine.n_cell_updates();
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -10,9 +10,10 @@ namespace shearfront {
 /// Beds with diffusion by diffusion::CrankNicolson: second order in space and time, conservative, with
 /// adaptive steps unless SolverOptions::time_step is given.
 ///
-/// Reads cells, time_step, tolerance, monotone. Domain: scenes with an empty diffusion::refusal(). Steady
-/// state: march until the bed is at rest. Errors: Summary with Status::unsupported, not_converged,
-/// budget_reached, interrupted. Cost: O(cells) a step.
+/// Reads cells, time_step, tolerance, cell_tolerance, monotone. Domain: scenes with an empty
+/// diffusion::refusal(). Steady state: march until the bed is at rest. Errors: Summary with
+/// Status::unsupported, not_converged, budget_reached, interrupted. Cost: O(cells) a step. Small D: with
+/// cell_tolerance the cost of a step hardly depends on D, where equal cells take 1 / D of them.
 struct CrankNicolsonSolver {
   static constexpr std::string_view kName = "crank-nicolson";
   static constexpr std::string_view kDescription = "beds with diffusion: conservative Crank-Nicolson scheme";

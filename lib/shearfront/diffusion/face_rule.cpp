@@ -44,6 +44,10 @@ class MeanRule final : public FaceRule {
  public:
   MeanRule(const Problem& problem, const Model& flux)
       : flux_(flux), ends_(problem.ends), n_(problem.n_cells), values_(n_ + 2), slopes_(n_ + 2) {
+    if (!problem.has_equal_cells()) {
+      set_unequal(problem);
+      return;
+    }
     const double width = problem.width(), fastest = flux_.fastest();
     for (std::size_t i = 0; i <= n_; ++i) {
       FittedDiffusivity d(problem.rate[i], problem.diffusivity[i], fastest, width);
@@ -88,8 +92,41 @@ class MeanRule final : public FaceRule {
   [[nodiscard]] double explicit_rate() const override { return explicit_rate_; }
 
  private:
+  void set_unequal(const Problem& problem) {
+    const double fastest = flux_.fastest();
+    const bool is_periodic = ends_ == Ends::periodic;
+    for (auto* faces : {&rates_below_, &rates_above_, &diffusions_, &per_below_, &per_above_})
+      faces->reserve(n_ + 1);
+    for (std::size_t i = 0; i <= n_; ++i) {
+      const double below = problem.width(i > 0 ? i - 1 : is_periodic ? n_ - 1 : 0);
+      const double above = problem.width(i < n_ ? i : is_periodic ? 0 : n_ - 1);
+      const double distance = 0.5 * (below + above), rate = problem.rate[i];
+      const double share = scheme == Scheme::central ? above / (below + above) : 0.5;
+      const double d = scheme == Scheme::central
+                           ? problem.diffusivity[i]
+                           : FittedDiffusivity(rate, problem.diffusivity[i], fastest, distance).value;
+      rates_below_.push_back(share * rate);
+      rates_above_.push_back((1 - share) * rate);
+      diffusions_.push_back(d / distance);
+      per_below_.push_back(1 / below);
+      per_above_.push_back(1 / above);
+    }
+    if (scheme == Scheme::central) return;
+    for (std::size_t i = 0; i < n_; ++i)
+      explicit_rate_ = std::max(explicit_rate_, (std::abs(rates_below_[i + 1] - rates_above_[i]) * fastest +
+                                                 diffusions_[i] + diffusions_[i + 1]) *
+                                                    per_above_[i]);
+  }
   /// From the fluxes and slopes of the cells.
   void fill(const double* __restrict v, FaceFluxes& out) const {
+    if (per_below_.empty()) {
+      fill_equal(v, out);
+    } else {
+      fill_unequal(v, out);
+    }
+    set_ends(out);
+  }
+  void fill_equal(const double* __restrict v, FaceFluxes& out) const {
     double* __restrict const value = out.value.data();
     double* __restrict const by_below = out.by_below.data();
     double* __restrict const by_above = out.by_above.data();
@@ -99,7 +136,17 @@ class MeanRule final : public FaceRule {
       by_below[i] = half * slopes_[i] + d;
       by_above[i] = half * slopes_[i + 1] - d;
     }
-    set_ends(out);
+  }
+  void fill_unequal(const double* __restrict v, FaceFluxes& out) const {
+    double* __restrict const value = out.value.data();
+    double* __restrict const by_below = out.by_below.data();
+    double* __restrict const by_above = out.by_above.data();
+    for (std::size_t i = 0; i <= n_; ++i) {
+      const double below = rates_below_[i], above = rates_above_[i], d = diffusions_[i];
+      value[i] = below * values_[i] + above * values_[i + 1] - d * (v[i + 1] - v[i]);
+      by_below[i] = (below * slopes_[i] + d) * per_below_[i];
+      by_above[i] = (above * slopes_[i + 1] - d) * per_above_[i];
+    }
   }
   void set_ends(FaceFluxes& out) const {
     if (ends_ == Ends::no_flux)
@@ -115,9 +162,11 @@ class MeanRule final : public FaceRule {
   Ends ends_;
   std::size_t n_;
   double half_per_width_ = 0, explicit_rate_ = 0;
-  std::vector<double> half_rates_, diffusions_;   ///< r / (2 dz) and fitted D / dz^2
+  std::vector<double> half_rates_, diffusions_;   ///< r / (2 dz) and fitted D / dz^2; unequal: D / dz
   std::vector<double> by_rate_, by_diffusivity_;  ///< derivatives of the latter
-  std::vector<double> values_, slopes_;           ///< of the cells
+  /// Unequal cells: r times the weights of f(l) and f(u), 1 / dz of the cells.
+  std::vector<double> rates_below_, rates_above_, per_below_, per_above_;
+  std::vector<double> values_, slopes_;  ///< of the cells
 };
 
 }  // namespace

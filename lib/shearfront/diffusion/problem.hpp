@@ -13,23 +13,36 @@ namespace shearfront::diffusion {
 ///   periodic  the top continues at the bottom
 enum class Ends { no_flux, neumann, periodic };
 
-/// Segregation with diffusion in one bed, on a grid of equal cells:
+/// Segregation with diffusion in one bed, on a grid of cells:
 ///
 ///   phi_t + (r(z) f(phi))_z = (D(z) phi_z)_z,   bottom < z < top
 ///
-/// Any consistent units. Coefficients belong to the faces z_i = bottom + i (top - bottom) / n_cells.
-/// Where r jumps at a face, the mean of both sides keeps the scheme second order (phi and the flux are
-/// continuous there if D is); where D jumps, the harmonic mean of both sides does.
+/// Any consistent units. Cells are equal, with faces z_i = bottom + i (top - bottom) / n_cells, unless
+/// `faces` is given. Coefficients belong to the faces. Where r jumps at a face, the mean of both sides keeps
+/// the scheme second order (phi and the flux are continuous there if D is); where D jumps, the harmonic mean
+/// of both sides does.
 struct Problem {
   double bottom = 0, top = 1;
   std::size_t n_cells = 0;          ///< at least 2
+  std::vector<double> faces;        ///< ascending from bottom to top, n_cells + 1 of them; empty: equal cells
   std::vector<double> rate;         ///< r at the n_cells + 1 faces, any sign; the ends equal if periodic
   std::vector<double> diffusivity;  ///< D >= 0 at the faces; the ends equal if periodic
   Ends ends = Ends::no_flux;
   Flux<double> flux = Quadratic<double>{};
   std::vector<double> initial;  ///< means of phi over the cells
 
+  [[nodiscard]] bool has_equal_cells() const { return faces.empty(); }
+  /// dz of equal cells.
   [[nodiscard]] double width() const { return (top - bottom) / static_cast<double>(n_cells); }
+  /// dz_j of any cell, j < n_cells.
+  [[nodiscard]] double width(std::size_t j) const {
+    return has_equal_cells() ? width() : faces[j + 1] - faces[j];
+  }
+  /// z_i, i <= n_cells.
+  [[nodiscard]] double face(std::size_t i) const {
+    if (!has_equal_cells()) return faces[i];
+    return i == n_cells ? top : bottom + width() * static_cast<double>(i);
+  }
 };
 
 /// Derivatives of the data of a Problem with respect to one parameter. An empty vector stands for zeros.

@@ -15,11 +15,15 @@ namespace shearfront::diffusion {
 /// [0, 1] of either sign in different layers; c = 1; walls, Neumann or periodic ends.
 [[nodiscard]] std::string refusal(const Scene<double>& scene);
 
-/// The scene on n_cells >= 2 equal cells. r and D of a face stand for the height of a cell around it: the
+/// The scene on n_cells >= 2 equal cells. r and D of a face stand for the halves of the cells beside it: the
 /// mean of s a sqrt(T), the harmonic mean of D, each at the middle of every piece between knots. So both
 /// depend continuously on the heights of interfaces. Precondition: refusal(scene) is empty.
 /// Cost: O(n_cells + knots).
 [[nodiscard]] Problem problem_of(const Scene<double>& scene, std::size_t n_cells);
+/// The same on cells between the given faces, at least three heights that ascend from bottom to top.
+[[nodiscard]] Problem problem_of(const Scene<double>& scene, std::vector<double> faces);
+/// The same with `initial` left empty, for states that come from elsewhere.
+[[nodiscard]] Problem problem_without_initial(const Scene<double>& scene, std::vector<double> faces);
 
 /// phi from the means of the cells: linear in each, with the slope of the parabola through it and its
 /// neighbours, reduced where it would leave the range of the flux. Second order; keeps the means.

@@ -50,7 +50,9 @@ struct SolverOptions {
   bool local_steps = false;  ///< finite volumes: slow parts of the bed take longer steps
   double time_step = 0;      ///< crank-nicolson: fixed time step; 0: chosen by the tolerance
   double tolerance = 1e-5;   ///< crank-nicolson: aim for the error that time steps make in phi
-  bool monotone = false;     ///< crank-nicolson: no wiggles where cells are coarse, of first order
+  /// crank-nicolson: cells are halved where phi bends by more than this from one to the next; 0: equal cells
+  double cell_tolerance = 0;
+  bool monotone = false;  ///< crank-nicolson: no wiggles where cells are coarse, of first order
   /// Called now and then with (t, collisions or cell updates so far); return false to stop with
   /// Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;

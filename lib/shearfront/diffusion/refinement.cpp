@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/diffusion/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "shearfront/diffusion/extended_flux.hpp"
+#include "shearfront/diffusion/setup.hpp"
+
+namespace shearfront::diffusion {
+namespace {
+
+constexpr double kGrading = 0.0625;
+constexpr double kQuietShare = 0.01;
+/// max |phi''| of the logistic front 1 / (1 + exp(x)): 1 / (6 sqrt(3)).
+constexpr double kFrontBend = 0.09622504486493763;
+constexpr int kCallsBetweenCleanings = 32;
+
+/// phi_z at the end of a bed without flux there; `inner`: what the states beside it say.
+double slope_at_end(const Problem& problem, std::size_t face, double state, double inner) {
+  if (problem.ends == Ends::neumann) return 0;
+  const double f = std::visit([&](const auto& flux) { return flux.value(state); }, problem.flux);
+  return problem.diffusivity[face] > 0 ? problem.rate[face] * f / problem.diffusivity[face] : inner;
+}
+
+/// Slopes at the faces.
+std::vector<double> slopes(const Problem& problem, std::span<const double> states) {
+  const std::size_t n = problem.n_cells;
+  std::vector<double> all(n + 1);
+  double below = problem.width(0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double above = problem.width(i);
+    all[i] = (states[i] - states[i - 1]) / (0.5 * (below + above));
+    below = above;
+  }
+  if (problem.ends == Ends::periodic) {
+    all[0] = all[n] = (states[0] - states[n - 1]) / (0.5 * (problem.width(0) + problem.width(n - 1)));
+  } else {
+    all[0] = slope_at_end(problem, 0, states[0], all[1]);
+    all[n] = slope_at_end(problem, n, states[n - 1], all[n - 1]);
+  }
+  return all;
+}
+
+/// Smallest widths at the faces.
+std::vector<double> front_widths(const Problem& problem, double bend) {
+  const double fastest = std::visit(
+      [](const auto& flux) { return ExtendedFlux<std::decay_t<decltype(flux)>, false>(flux).fastest(); },
+      problem.flux);
+  const double share = std::sqrt(bend / kFrontBend) / fastest, widest = problem.top - problem.bottom;
+  std::vector<double> widths(problem.n_cells + 1);
+  for (std::size_t i = 0; i < widths.size(); ++i)
+    widths[i] = std::min(widest, share * problem.diffusivity[i] / std::abs(problem.rate[i]));
+  return widths;
+}
+
+}  // namespace
+
+std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states, double bend) {
+  const std::vector<double> slope = slopes(problem, states), finest = front_widths(problem, bend);
+  const double widest = problem.top - problem.bottom;
+  std::vector<double> wanted(problem.n_cells);
+  for (std::size_t j = 0; j < wanted.size(); ++j) {
+    const double width = problem.width(j), found = std::abs(slope[j + 1] - slope[j]) * width;
+    const double smooth = width * std::sqrt(kQuietShare * bend / std::max(found, 1e-300));
+    wanted[j] = std::min(std::max(smooth, std::min(finest[j], finest[j + 1])), widest);
+  }
+  return wanted;
+}
+
+std::vector<double> graded(const Problem& problem, std::vector<double> widths) {
+  for (std::size_t j = 1; j < widths.size(); ++j)
+    widths[j] = std::min(widths[j], widths[j - 1] + kGrading * problem.width(j - 1));
+  for (std::size_t j = widths.size() - 1; j-- > 0;)
+    widths[j] = std::min(widths[j], widths[j + 1] + kGrading * problem.width(j + 1));
+  return widths;
+}
+
+Refinement::Refinement(const Scene<double>& scene, std::size_t n_cells, double bend)
+    : scene_(scene), cells_(scene.bottom(), scene.top(), n_cells), bend_(bend) {}
+
+bool Refinement::apply(std::span<const CellChange> changes) {
+  if (std::all_of(changes.begin(), changes.end(), [](CellChange c) { return c == CellChange::keep; }))
+    return false;
+  const auto n_split = std::count(changes.begin(), changes.end(), CellChange::split);
+  if (cells_.size() + static_cast<std::size_t>(n_split) > kMostCells) is_exhausted_ = true;
+  if (is_exhausted_) return false;
+  cells_.apply(changes);
+  return true;
+}
+
+Problem Refinement::start() {
+  Problem problem = problem_of(scene_, cells_.faces());
+  for (int i = 0; i < 2 * RefinedCells::kMostHalvings; ++i) {
+    const std::vector<double> widths = graded(problem, wanted_widths(problem, problem.initial, bend_));
+    if (!apply(cells_.changes_towards(widths))) break;
+    problem = problem_of(scene_, cells_.faces());
+  }
+  return problem;
+}
+
+std::optional<Regrid> Refinement::next(const Problem& present, std::span<const double> states) {
+  std::vector<double> widths = wanted_widths(present, states, bend_);
+  bool is_needed = ++n_calls_ % kCallsBetweenCleanings == 0;
+  for (std::size_t j = 0; j < present.n_cells && !is_needed; ++j) is_needed = present.width(j) > widths[j];
+  if (!is_needed) return {};
+  std::vector<CellChange> changes = cells_.changes_towards(graded(present, std::move(widths)));
+  if (!apply(changes)) return {};
+  return Regrid{problem_without_initial(scene_, cells_.faces()), std::move(changes)};
+}
+
+}  // namespace shearfront::diffusion

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "shearfront/diffusion/grid_transfer.hpp"
+#include "shearfront/diffusion/problem.hpp"
+#include "shearfront/diffusion/refined_cells.hpp"
+#include "shearfront/scene/scene.hpp"
+
+namespace shearfront::diffusion {
+
+/// Widths dz_j that cells of such states should have: 0.01 bend = dz^2 |phi_zz|, phi_z at walls being what
+/// the condition there says (so a layer at a wall is seen before it is resolved), but no smaller than fronts
+/// ask for: the width at which the steepest front there is, the logistic one of the width D / (|r| W), W =
+/// max |f'|, bends by `bend` from one cell to the next, sqrt(bend / 0.0962) D / (|r| W). So a front has cells
+/// that bend by up to `bend`, and cells change their widths where states bend by a hundredth of that: there
+/// the truncation error jumps, and a grid that moves on leaves the difference behind for the next steps.
+/// Cost: O(cells).
+[[nodiscard]] std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states,
+                                                double bend);
+
+/// Widths that grow by at most a sixteenth of the distance from where they are small: fronts may go some
+/// cells before they leave the small ones, and neighbours differ by a factor of two at most.
+[[nodiscard]] std::vector<double> graded(const Problem& problem, std::vector<double> widths);
+
+/// Grids for one scene that follow its fronts: n equal cells, halved where wanted_widths() asks for it and
+/// merged again when a front has passed. Each front takes about 8 / sqrt(bend) cells and 32 for every factor
+/// of two between the width of the others and its own.
+class Refinement {
+ public:
+  static constexpr std::size_t kMostCells = 1'000'000;
+
+  /// `scene` must outlive this. Preconditions: refusal(scene) is empty, 1e-6 <= bend <= 0.1 (below, the
+  /// rounding of the iteration asks for cells).
+  Refinement(const Scene<double>& scene, std::size_t n_cells, double bend);
+
+  /// The scene on the grid for its initial data.
+  [[nodiscard]] Problem start();
+  /// A better grid once the present one, that of the last call, does not do; every 32 calls also if it
+  /// need not be as fine. Cost: O(cells).
+  [[nodiscard]] std::optional<Regrid> next(const Problem& present, std::span<const double> states);
+  /// More than kMostCells cells were wanted; the grid then stays as it is.
+  [[nodiscard]] bool is_exhausted() const { return is_exhausted_; }
+
+ private:
+  /// Whether there was anything to change.
+  bool apply(std::span<const CellChange> changes);
+
+  const Scene<double>& scene_;
+  RefinedCells cells_;
+  double bend_;
+  int n_calls_ = 0;
+  bool is_exhausted_ = false;
+};
+
+}  // namespace shearfront::diffusion

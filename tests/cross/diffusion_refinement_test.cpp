@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Unequal cells, and cells that follow the fronts of a bed with diffusion: order, closed forms, mass, bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "shearfront/diffusion/cole_hopf_solver.hpp"
+#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/diffusion/refinement.hpp"
+#include "shearfront/numeric/sum.hpp"
+#include "support/diffusion_problems.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+using diffusion::CrankNicolson;
+using diffusion::Ends;
+using diffusion::Problem;
+using support::SceneMaker;
+using support::seed_of;
+
+/// The travelling kink at t = 2 on cells of the widths h, h / 2, h / 4, h / 2, ... in six parts of [-1, 1]:
+/// largest error of a mean.
+double kink_error_on_unequal_cells(std::size_t n) {
+  Problem p;
+  p.bottom = -1;
+  p.top = 1;
+  p.ends = Ends::neumann;
+  p.faces = {-1};
+  for (const auto& [end, parts] : {std::pair{-0.6, 1}, {-0.35, 2}, {-0.2, 4}, {0.1, 2}, {0.4, 4}, {1.0, 1}}) {
+    const double begin = p.faces.back();
+    const auto m = static_cast<std::size_t>(std::lround((end - begin) * static_cast<double>(n) * parts));
+    for (std::size_t i = 1; i <= m; ++i)
+      p.faces.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(m));
+  }
+  p.n_cells = p.faces.size() - 1;
+  p.rate.assign(p.n_cells + 1, 1);
+  p.diffusivity.assign(p.n_cells + 1, 0.01);
+  const auto means = [&](double t) {
+    std::vector<double> all;
+    for (std::size_t j = 0; j < p.n_cells; ++j)
+      all.push_back(diffusion::support::mean_over(p.face(j), p.face(j + 1),
+                                                  [&](double y) { return diffusion::support::kink(y, t); }));
+    return all;
+  };
+  p.initial = means(0);
+  diffusion::Options options;
+  options.dt = 0.5 / static_cast<double>(n);
+  CrankNicolson run(p, options);
+  EXPECT_EQ(run.advance_to(2), Status::ok) << run.message();
+  const std::vector<double> exact = means(2);
+  double largest = 0;
+  for (std::size_t j = 0; j < exact.size(); ++j)
+    largest = std::max(largest, std::abs(run.states()[j] - exact[j]));
+  return largest;
+}
+
+TEST(DiffusionRefinement, UnequalCellsAreOfSecondOrder) {
+  double last = kink_error_on_unequal_cells(200);
+  for (const std::size_t n : {400u, 800u, 1600u}) {
+    const double error = kink_error_on_unequal_cells(n);
+    EXPECT_NEAR(std::log2(last / error), 2, 0.06) << n;
+    last = error;
+  }
+}
+
+SceneSpec<double> uniform_start(double D) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_values = {0.55};
+  spec.diffusion = Diffusion<double>{D, {}, false};
+  return spec;
+}
+
+// The number of cells for an error does not depend on D: widths follow fronts.
+TEST(DiffusionRefinement, ErrorFollowsTheToleranceForEveryD) {
+  const std::vector<double> times{0.3, 1.2, 2.5};
+  for (const double D : {2e-2, 2e-3, 5e-4}) {
+    const Scene<double> scene(uniform_start(D));
+    double last = 0;
+    for (const double tolerance : {1e-2, 2.5e-3}) {
+      SolverOptions options;
+      options.cells = 100;
+      options.cell_tolerance = tolerance;
+      options.tolerance = 0.1 * tolerance;
+      const auto grid = CrankNicolsonSolver::solve(scene, {times, {}, false, false, true}, options);
+      ASSERT_EQ(grid.profiles.size(), times.size()) << grid.summary.message;
+      double error = 0;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const std::vector<double>& z = grid.profiles[i].z();
+        const auto exact = ColeHopfSolver::solve(scene, {{times[i]}, z, false, false, false}, options);
+        ASSERT_EQ(exact.samples.size(), z.size());
+        for (std::size_t j = 0; j + 1 < z.size(); ++j) {
+          const double amount = exact.samples[j + 1].M - exact.samples[j].M;
+          const double mean = (grid.profiles[i].below()[j] + grid.profiles[i].above()[j]) / 2;
+          // M of the closed form has 1e-13, which narrow cells magnify.
+          error = std::max(error, std::abs(mean - amount / (z[j + 1] - z[j])));
+        }
+        EXPECT_LE(z.size(), 1500u);
+        EXPECT_NEAR(grid.profiles[i].mass(), 0.55, 1e-13);
+      }
+      EXPECT_LE(error, tolerance) << D;
+      if (last > 0) {
+        EXPECT_GE(last / error, 2.5) << D;
+      }
+      last = error;
+    }
+  }
+}
+
+/// Layers between walls, steps of phi, D over three decades.
+SceneSpec<double> random_bed(SceneMaker& maker) {
+  SceneSpec<double> spec;
+  Piecewise<double> rate;
+  rate.values.push_back(maker.uniform(0.1, 3));
+  for (int i = maker.integer(0, 3); i > 0; --i) {
+    rate.breaks.push_back((rate.breaks.empty() ? 0 : rate.breaks.back()) + maker.uniform(0.05, 0.25));
+    rate.values.push_back(maker.uniform(0.1, 3));
+  }
+  spec.shear_rate = rate;
+  spec.initial_values.push_back(maker.integer(0, 1));
+  for (int i = maker.integer(0, 3); i > 0; --i) {
+    spec.initial_breaks.push_back((spec.initial_breaks.empty() ? 0 : spec.initial_breaks.back()) +
+                                  maker.uniform(0.05, 0.25));
+    spec.initial_values.push_back(maker.uniform(0, 1));
+  }
+  spec.diffusion = Diffusion<double>{std::pow(10, maker.uniform(-4, -1)), {}, false};
+  return spec;
+}
+
+TEST(DiffusionRefinement, KeepsMassAndBoundsAtEveryStep) {
+  std::size_t n_grids = 0;
+  for (std::uint64_t number = 0; number < 24; ++number) {
+    SceneMaker maker(seed_of(600 + number));
+    const Scene<double> scene(random_bed(maker));
+    const bool is_fitted = number % 2 == 0;
+    diffusion::Refinement refinement(scene, static_cast<std::size_t>(maker.integer(4, 100)),
+                                     std::pow(10, maker.uniform(-3, -1)));
+    diffusion::Options options;
+    options.tolerance = std::pow(10, maker.uniform(-3, -1));
+    options.scheme = is_fitted ? diffusion::Scheme::fitted : diffusion::Scheme::central;
+    options.regrid = [&](const Problem& present, std::span<const double> states) {
+      auto next = refinement.next(present, states);
+      n_grids += next ? 1 : 0;
+      return next;
+    };
+    const CrankNicolson* running = nullptr;
+    const double mass = scene.initial_amount(0, 1);
+    double drift = 0, beyond = 0;
+    options.progress = [&](double, std::uint64_t steps) {
+      CompensatedSum<double> sum;
+      for (std::size_t j = 0; j < running->states().size(); ++j) {
+        sum += running->states()[j] * running->problem().width(j);
+        beyond = std::max({beyond, -running->states()[j], running->states()[j] - 1});
+      }
+      drift = std::max(drift, std::abs(sum.value() - mass));
+      return steps < 400;
+    };
+    CrankNicolson run(refinement.start(), options);
+    running = &run;
+    run.advance_to(10);
+    EXPECT_LE(drift, 1e-13) << "seed " << seed_of(600 + number);
+    if (is_fitted) {
+      EXPECT_LE(beyond, 1e-14) << "seed " << seed_of(600 + number);
+    }
+  }
+  EXPECT_GT(n_grids, 500u);
+}
+
+TEST(DiffusionRefinement, AgreesWithEqualCells) {
+  for (std::uint64_t number = 0; number < 12; ++number) {
+    SceneMaker maker(seed_of(700 + number));
+    SceneSpec<double> spec = random_bed(maker);
+    spec.diffusion->D = std::pow(10, maker.uniform(-2.5, -1));
+    const Scene<double> scene(spec);
+    SolverOptions options;
+    options.tolerance = 1e-4;
+    options.cells = 4000;
+    const SolverRequest request{{0.1, 0.7, 4}, {0.1, 0.33, 0.5, 0.77, 0.9}, false, false, false};
+    const auto equal = CrankNicolsonSolver::solve(scene, request, options);
+    options.cells = 100;
+    options.cell_tolerance = 1e-3;
+    const auto refined = CrankNicolsonSolver::solve(scene, request, options);
+    ASSERT_TRUE(equal.summary.usable() && refined.summary.usable()) << refined.summary.message;
+    for (std::size_t i = 0; i < equal.samples.size(); ++i) {
+      EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 1e-3) << "seed " << seed_of(700 + number);
+      EXPECT_NEAR(refined.samples[i].M, equal.samples[i].M, 1e-4) << "seed " << seed_of(700 + number);
+    }
+  }
+}
+
+TEST(DiffusionRefinement, SaysWhenItWouldTakeTooManyCells) {
+  SolverOptions options;
+  options.cells = 999'999;
+  options.cell_tolerance = 1e-2;
+  SceneSpec<double> spec = uniform_start(1e-9);
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  const auto result =
+      CrankNicolsonSolver::solve(Scene<double>(spec), {{1}, {0.5}, false, false, false}, options);
+  EXPECT_EQ(result.summary.status, Status::budget_reached);
+  EXPECT_NE(result.summary.message.find("cell_tolerance"), std::string::npos) << result.summary.message;
+  EXPECT_TRUE(result.samples.empty());
+}
+
+}  // namespace
+}  // namespace shearfront
