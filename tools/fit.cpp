@@ -2,6 +2,7 @@
 #include "shearfront/fit/fit.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -24,12 +24,14 @@ file(WRITE ${work}/change.diff "${change}")
 run(${patch} --strip=0 --fuzz=0 --input=change.diff)
 
 set(compile ${compiler} -std=c++20 -O0 -ffp-contract=off -I${work}/lib -I${source}/tests)
-foreach(file ${source}/tests/docs/new_flux.cpp ${work}/lib/shearfront/track/unimodal_grid.cpp
-             ${source}/tests/laws/flux_laws.cpp)
+file(GLOB scene ${work}/lib/shearfront/numeric/*.cpp ${work}/lib/shearfront/scene/*.cpp)
+foreach(file IN LISTS scene ITEMS ${source}/tests/docs/new_flux.cpp ${work}/lib/shearfront/track/unimodal_grid.cpp
+                                  ${source}/tests/laws/flux_laws.cpp)
   get_filename_component(name ${file} NAME_WE)
   run(${launcher} ${compile} -c ${file} -o ${name}.o)
 endforeach()
-run(${compiler} new_flux.o unimodal_grid.o -o new_flux)
+list(TRANSFORM scene REPLACE ".*/(.*)[.]cpp" "\\1.o" OUTPUT_VARIABLE scene_objects)
+run(${compiler} new_flux.o unimodal_grid.o ${scene_objects} -o new_flux)
 run(./new_flux pipes)
-run(${compiler} flux_laws.o -o flux_laws -lgtest -lgtest_main -lpthread)
+run(${compiler} flux_laws.o ${scene_objects} -o flux_laws -lgtest -lgtest_main -lpthread)
 run(./flux_laws --gtest_filter=*pipes*)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "shearfront/solution/summary.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace shearfront::tools {
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "shearfront/solver/solver.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace shearfront::tools {
 

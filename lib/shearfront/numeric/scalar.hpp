@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <concepts>
 #include <limits>
 #include <stdexcept>
@@ -8,17 +7,14 @@
 #include <string_view>
 #include <type_traits>
 
+#include "shearfront/numeric/multiprecision.hpp"
+
 /// Scalar types of the engines.
 ///
 /// Every engine is a template over one of three scalars: `double` is what users run, `Real50` (50 significant
 /// decimal digits) is the oracle that shows what rounding does, and `Real110` serves printing of up to 100
 /// digits. All three are binary, so scaling by powers of two is exact in each.
 namespace shearfront {
-
-using Real50 =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-using Real110 =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<110>, boost::multiprecision::et_off>;
 
 template <class S>
 concept Real = std::same_as<S, double> || std::same_as<S, Real50> || std::same_as<S, Real110>;

@@ -2,7 +2,6 @@
 #pragma once
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 /// Bad input, kind 2 of the three kinds of error (contract violation, bad input, outcome of a computation).
@@ -14,9 +13,7 @@ struct Problem {
   std::string value;       ///< the offending value as text; empty when there is none (a missing key)
   std::string constraint;  ///< what is allowed, beginning with a verb: "must be > 0"
 
-  [[nodiscard]] std::string text() const {
-    return value.empty() ? key + ": " + constraint : key + " = " + value + "; " + constraint;
-  }
+  [[nodiscard]] std::string text() const;
 };
 
 using Problems = std::vector<Problem>;
@@ -24,22 +21,12 @@ using Problems = std::vector<Problem>;
 /// Thrown when an input cannot be used; carries every problem found, not only the first.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(Problems problems)
-      : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
-  InputError(std::string key, std::string value, std::string constraint)
-      : InputError(Problems{{std::move(key), std::move(value), std::move(constraint)}}) {}
+  explicit InputError(Problems problems);
+  InputError(std::string key, std::string value, std::string constraint);
 
   [[nodiscard]] const Problems& problems() const { return problems_; }
 
  private:
-  static std::string join(const Problems& problems) {
-    std::string all;
-    for (const Problem& p : problems) {
-      if (!all.empty()) all += '\n';
-      all += p.text();
-    }
-    return all;
-  }
   Problems problems_;
 };
 

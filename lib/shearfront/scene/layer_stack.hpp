@@ -87,32 +87,12 @@ class LayerStack {
 /// Flux and packing of the layers between `boundaries`, which must include every knot of the scene.
 template <Real Scalar>
 [[nodiscard]] LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene,
-                                                const std::vector<Scalar>& boundaries) {
-  LayerMaterial<Scalar> material;
-  material.fluxes = scene.fluxes();
-  for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
-    if (scene.fluxes().size() > 1) material.flux_index.push_back(scene.flux_index(boundaries[k]));
-    if (scene.spec().packing)
-      material.packing.push_back(scene.mean_packing(boundaries[k], boundaries[k + 1]));
-  }
-  return material;
-}
+                                                const std::vector<Scalar>& boundaries);
 
 /// The layers of a scene whose shear rate is piecewise constant, nothing rounded.
 /// Precondition: scene.is_layered().
 template <Real Scalar>
-[[nodiscard]] LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene) {
-  SHEARFRONT_EXPECTS(scene.is_layered(), "a layered shear rate");
-  const std::vector<Scalar> knots = scene.knots();
-  std::vector<Scalar> boundaries{scene.bottom()}, rates;
-  boundaries.insert(boundaries.end(), knots.begin(), knots.end());
-  boundaries.push_back(scene.top());
-  for (std::size_t k = 0; k + 1 < boundaries.size(); ++k)
-    rates.push_back(scene.mean_rate(boundaries[k], boundaries[k + 1]));
-  LayerMaterial<Scalar> material = material_of(scene, boundaries);
-  return {std::move(boundaries), std::move(rates), scene.scale(), std::vector<bool>(knots.size(), true),
-          std::move(material)};
-}
+[[nodiscard]] LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene);
 
 /// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
@@ -121,36 +101,16 @@ template <Real Scalar>
 /// initial jumps: the layers, each with the mean of c, then hold what the bed does. Cost: O(n_layers +
 /// knots).
 template <Real Scalar>
-[[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
-  using std::ceil;
-  std::vector<Scalar> cuts{scene.bottom()};
-  std::vector<bool> is_break;
-  for (const Scalar& z : scene.knots()) cuts.push_back(z);
-  if (scene.spec().packing) {
-    cuts.insert(cuts.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
-    std::sort(cuts.begin(), cuts.end());
-    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-  }
-  cuts.push_back(scene.top());
-  const Scalar height = scene.top() - scene.bottom();
-  std::vector<Scalar> boundaries{scene.bottom()}, rates;
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const Scalar piece = cuts[i + 1] - cuts[i];
-    const double share = to_double(Scalar(piece / height)) * static_cast<double>(n_layers);
-    const std::size_t n = std::max<std::size_t>(1, static_cast<std::size_t>(ceil(share - 1e-9)));
-    for (std::size_t j = 1; j <= n; ++j) {
-      const Scalar z =
-          j == n ? cuts[i + 1]
-                 : cuts[i] + piece * Scalar(static_cast<double>(j)) / Scalar(static_cast<double>(n));
-      if (!(z > boundaries.back())) continue;  // the piece is too thin for n distinct numbers
-      rates.push_back(scene.mean_rate(boundaries.back(), z));
-      boundaries.push_back(z);
-      is_break.push_back(j == n && scene.jumps_at(z));
-    }
-  }
-  is_break.pop_back();  // the top
-  LayerMaterial<Scalar> material = material_of(scene, boundaries);
-  return {std::move(boundaries), std::move(rates), scene.scale(), std::move(is_break), std::move(material)};
-}
+[[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers);
+
+extern template LayerMaterial<double> material_of(const Scene<double>&, const std::vector<double>&);
+extern template LayerStack<double> exact_layers(const Scene<double>&);
+extern template LayerStack<double> staircase(const Scene<double>&, std::size_t);
+extern template LayerMaterial<Real50> material_of(const Scene<Real50>&, const std::vector<Real50>&);
+extern template LayerStack<Real50> exact_layers(const Scene<Real50>&);
+extern template LayerStack<Real50> staircase(const Scene<Real50>&, std::size_t);
+extern template LayerMaterial<Real110> material_of(const Scene<Real110>&, const std::vector<Real110>&);
+extern template LayerStack<Real110> exact_layers(const Scene<Real110>&);
+extern template LayerStack<Real110> staircase(const Scene<Real110>&, std::size_t);
 
 }  // namespace shearfront

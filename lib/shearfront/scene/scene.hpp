@@ -247,4 +247,8 @@ class Scene {
   SceneSpec<Scalar> spec_;
 };
 
+extern template class Scene<double>;
+extern template class Scene<Real50>;
+extern template class Scene<Real110>;
+
 }  // namespace shearfront

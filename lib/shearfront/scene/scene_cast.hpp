@@ -112,4 +112,7 @@ template <Real To, Real From>
   return Scene<To>(std::move(to));
 }
 
+extern template Scene<Real50> scene_cast(const Scene<double>&);
+extern template Scene<double> scene_cast(const Scene<Real50>&);
+
 }  // namespace shearfront

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/numeric/number_text.hpp"
+
+#include <array>
+#include <charconv>
+#include <ios>
+#include <limits>
+
+namespace shearfront {
+
+std::string number_text(double x) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
+  return {buffer.data(), end};
+}
+
+std::string number_text(const Real50& x) {
+  return x.str(std::numeric_limits<Real50>::digits10, std::ios_base::fmtflags{});
+}
+std::string number_text(const Real110& x) {
+  return x.str(std::numeric_limits<Real110>::digits10, std::ios_base::fmtflags{});
+}
+
+std::string number_text(double x, int digits) {
+  std::array<char, 400> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, digits).ptr;
+  return {buffer.data(), end};
+}
+
+std::string number_text(const Real50& x, int digits) { return x.str(digits, std::ios_base::showpoint); }
+std::string number_text(const Real110& x, int digits) { return x.str(digits, std::ios_base::showpoint); }
+
+}  // namespace shearfront
