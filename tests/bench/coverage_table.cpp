@@ -2,7 +2,7 @@
 // Whether the error bars of a fit hold: coverage of the 95 % intervals and error over the Cramer-Rao bound,
 // as a table in Markdown. Noise is drawn anew for every replicate; half of them are fitted with the column
 // sigma, half without. Cumulative data, where the misfit is far from a parabola, also with profile
-// likelihood. Usage: shearfront_coverage_table [REPLICATES [THREADS [EXAMPLE [QUANTITY]]]]
+// likelihood. Usage: shearfront_coverage_table [REPLICATES [THREADS [EXAMPLE [QUANTITY [SIGMA]]]]]
 #include <Eigen/Cholesky>
 #include <atomic>
 #include <cmath>
@@ -238,9 +238,11 @@ int main(int argc, char** argv) {
       spec.unknown.start = example.start;
       spec.uncertainty.profile = quantity == Quantity::cumulative;
       const VectorXd bound = cramer_rao(example, spec.observations);
-      for (const double sigma : {0.01, 0.05})
+      for (const double sigma : {0.01, 0.05}) {
+        if (argc > 5 && std::strtod(argv[5], nullptr) != sigma) continue;
         print(example, quantity, sigma, names, bound,
               replicate(spec, parameters.start(), sigma, n, n_threads));
+      }
     }
   }
 }

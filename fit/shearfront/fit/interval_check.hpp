@@ -20,10 +20,11 @@ namespace shearfront::fit {
 /// elsewhere F can only be larger, so an end that is too near is proved to be, and the others are refitted
 /// (Ceres) before one is called too far. A bound on the way is looked at in place of what is beyond it.
 ///
-/// Empty for parameters without interval; for all with a shape (intervals of differences have no such line)
-/// and where points near a shock are left out (which ones depends on the estimate). Cost: two runs of the
-/// model per parameter; one more, or a refit of about ten, for an end where rise(1) is far from 1. Source:
-/// Bates & Watts (1988), Nonlinear Regression Analysis, section 6.1 (profile t plots).
+/// Empty for parameters without interval or with one that is rounding (exact data); for all with a shape
+/// (intervals of differences have no such line) and where points near a shock are left out (which ones
+/// depends on the estimate). Cost: two runs of the model per parameter; one more, or a refit of about ten,
+/// for an end where rise(1) is far from 1. Source: Bates & Watts (1988), Nonlinear Regression Analysis,
+/// section 6.1 (profile t plots).
 [[nodiscard]] std::vector<std::optional<IntervalCheck>> check_intervals(
     const FitSpec& spec, const Parameters& parameters, const Objective& objective, const Covariance& errors,
     const Objective::Evaluation& best, const Eigen::VectorXd& minimum, double quantile,
