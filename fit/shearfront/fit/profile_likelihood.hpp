@@ -31,8 +31,9 @@ struct Profiles {
 /// distance, with at most kMostRefits refits (Ceres) of the others, each from the last one; where that has no
 /// solution, or ends beyond the interval, also from nearer to the start values of the fit, and the lower
 /// counts. An end not reached inside the bounds of the parameter, or up to where the model has no solution,
-/// stays open and is warned about; so is a misfit below the minimum. Preconditions: no shape; `estimate` is the minimum of `objective`, usable. Cost: about 10 refits
-/// a parameter. Source: Venzon & Moolgavkar (1988); scaling: Chandler & Bate (2007).
+/// stays open and is warned about; so is a misfit below the minimum. Preconditions: no shape; `estimate` is
+/// the minimum of `objective`, usable. Cost: about 10 refits a parameter. Source: Venzon & Moolgavkar (1988);
+/// scaling: Chandler & Bate (2007).
 [[nodiscard]] Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters,
                                          const Objective& objective, const Estimate& estimate,
                                          const Progress& progress = {});
