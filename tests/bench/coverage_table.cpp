@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether the error bars of a fit hold: coverage of the 95 % intervals and error over the Cramer-Rao bound,
 // as a table in Markdown. Noise is drawn anew for every replicate; half of them are fitted with the column
-// sigma, half without. Usage: shearfront_coverage_table [REPLICATES [THREADS [EXAMPLE [QUANTITY]]]]
+// sigma, half without. Cumulative data, where the misfit is far from a parabola, also with profile
+// likelihood. Usage: shearfront_coverage_table [REPLICATES [THREADS [EXAMPLE [QUANTITY [SIGMA]]]]]
 #include <Eigen/Cholesky>
 #include <atomic>
 #include <cmath>
@@ -55,6 +56,8 @@ std::vector<Example> examples() {
   crank_nicolson.method = CrankNicolsonSolver::kName;
   crank_nicolson.options.cells = 100;
   crank_nicolson.options.time_step = 0.02;
+  // Cumulative data set no upper bound on the fast layer: the model must have a solution for any rate there.
+  crank_nicolson.options.monotone = true;
   const std::vector<double> fine_t = grid(0.5, 0.5, 20), fine_z = grid(0.01, 0.01, 99);
   return {
       {"3", with(Piecewise<double>{{0.29}, {3.15, 0.5}}), {"shear_rate.values"}, {2.5, 0.7}, fine_t, fine_z},
@@ -110,7 +113,9 @@ struct Outcome {
   bool is_usable = false;
   VectorXd error;    ///< log(estimate / truth)
   VectorXd covered;  ///< 1, 0; NaN without interval
-  VectorXd stated;   ///< standard error / estimate
+  VectorXd profile_covered;
+  VectorXd doubtful;
+  VectorXd stated;  ///< standard error / estimate
   bool structured = false;
 };
 
@@ -119,11 +124,16 @@ Outcome run(const fit::FitSpec& spec, const VectorXd& truth) {
   Outcome outcome;
   outcome.is_usable = estimate.usable() && estimate.status == Status::ok;
   outcome.error.resize(truth.size());
-  outcome.covered = outcome.stated = VectorXd::Constant(truth.size(), std::nan(""));
+  outcome.covered = outcome.stated = outcome.profile_covered = outcome.doubtful =
+      VectorXd::Constant(truth.size(), std::nan(""));
   outcome.structured = estimate.structure && estimate.structure->is_structured;
   for (Index i = 0; i < truth.size(); ++i) {
     const fit::ParameterEstimate& p = estimate.parameters[static_cast<std::size_t>(i)];
     outcome.error[i] = std::log(p.estimate / truth[i]);
+    // An open end covers all beyond.
+    if (p.profile95)
+      outcome.profile_covered[i] = !(p.profile95->low > truth[i]) && !(p.profile95->high < truth[i]) ? 1 : 0;
+    if (p.check) outcome.doubtful[i] = p.check->is_doubtful() ? 1 : 0;
     if (!p.ci95) continue;
     outcome.covered[i] = p.ci95->low <= truth[i] && truth[i] <= p.ci95->high ? 1 : 0;
     outcome.stated[i] = *p.std_error / p.estimate;
@@ -151,15 +161,20 @@ std::vector<Outcome> replicate(const fit::FitSpec& spec, const VectorXd& truth, 
   return outcomes;
 }
 
-double share(const std::vector<Outcome>& outcomes, Index i, std::size_t parity) {
-  double covered = 0, n = 0;
+/// In percent of the fits that have it: "-" if none has. parity: 0 and 1 for those with and without sigma.
+std::string share(const std::vector<Outcome>& outcomes, VectorXd Outcome::*which, Index i,
+                  std::size_t parity = 2) {
+  double sum = 0, n = 0;
   for (std::size_t b = 0; b < outcomes.size(); ++b) {
-    if (!outcomes[b].is_usable || std::isnan(outcomes[b].covered[i]) || (parity < 2 && b % 2 != parity))
-      continue;
-    covered += outcomes[b].covered[i];
+    if (!outcomes[b].is_usable || (parity < 2 && b % 2 != parity)) continue;
+    const double x = (outcomes[b].*which)[i];
+    if (std::isnan(x)) continue;
+    sum += x;
     n += 1;
   }
-  return 100 * covered / n;
+  char text[16] = "-";
+  if (n > 0) std::snprintf(text, sizeof text, "%.1f", 100 * sum / n);
+  return text;
 }
 
 void print(const Example& example, Quantity quantity, double sigma, const std::vector<std::string>& names,
@@ -181,12 +196,14 @@ void print(const Example& example, Quantity quantity, double sigma, const std::v
     }
     const auto count = static_cast<double>(n);
     const double rmse = std::sqrt(squares / count);
-    std::printf("| %s | %s | %g | %s | %.1f | %.1f | %.1f | %.2e | %.2f | %+.2f | %.2f | %zu | %zu | %zu |\n",
-                example.name, std::string(name_of(quantity)).c_str(), sigma, names[i].c_str(),
-                share(outcomes, k, 2), share(outcomes, k, 0), share(outcomes, k, 1), rmse,
-                rmse / (sigma * bound[k]), bias / count / rmse,
-                std::sqrt(stated / (count - static_cast<double>(without))) / rmse, outcomes.size() - n,
-                without, structured);
+    const auto covered = [&](std::size_t parity) { return share(outcomes, &Outcome::covered, k, parity); };
+    std::printf(
+        "| %s | %s | %g | %s | %s | %s | %s | %s | %s | %.2e | %.2f | %+.2f | %.2f | %zu | %zu | %zu |\n",
+        example.name, std::string(name_of(quantity)).c_str(), sigma, names[i].c_str(), covered(2).c_str(),
+        covered(0).c_str(), covered(1).c_str(), share(outcomes, &Outcome::profile_covered, k).c_str(),
+        share(outcomes, &Outcome::doubtful, k).c_str(), rmse, rmse / (sigma * bound[k]), bias / count / rmse,
+        std::sqrt(stated / (count - static_cast<double>(without))) / rmse, outcomes.size() - n, without,
+        structured);
     std::fflush(stdout);
   }
 }
@@ -199,9 +216,10 @@ int main(int argc, char** argv) {
   const std::size_t n_threads = std::strtoul(argument(2, "2"), nullptr, 10);
   std::printf("%zu replicates; intervals of 95 %%; errors are those of the logarithm of a parameter.\n\n", n);
   std::printf(
-      "| example | data | sigma | parameter | covered %% | sigma known | unknown | rmse | rmse / bound | "
+      "| example | data | sigma | parameter | covered %% | sigma known | unknown | profile | doubtful %% | "
+      "rmse | rmse / bound | "
       "bias / rmse | stated / rmse | failed | no interval | structured |\n");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Example& example : examples()) {
     if (argc > 3 && std::string_view(argv[3]) != example.name) continue;
     for (const Quantity quantity : {Quantity::bin, Quantity::cumulative, Quantity::point}) {
@@ -218,10 +236,13 @@ int main(int argc, char** argv) {
       std::vector<std::string> names;
       for (const fit::Parameter& p : parameters) names.push_back(p.name());
       spec.unknown.start = example.start;
+      spec.uncertainty.profile = quantity == Quantity::cumulative;
       const VectorXd bound = cramer_rao(example, spec.observations);
-      for (const double sigma : {0.01, 0.05})
+      for (const double sigma : {0.01, 0.05}) {
+        if (argc > 5 && std::strtod(argv[5], nullptr) != sigma) continue;
         print(example, quantity, sigma, names, bound,
               replicate(spec, parameters.start(), sigma, n, n_threads));
+      }
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shearfront/fit/bootstrap.hpp"
+#include "shearfront/fit/interval_check.hpp"
 #include "shearfront/fit/profile_likelihood.hpp"
 #include "support/fit_scenes.hpp"
 
@@ -135,6 +136,90 @@ TEST(FitBootstrap, TheSameToTheBitOnAnyNumberOfThreads) {
     }
   spec.uncertainty.seed = 2;
   EXPECT_NE(fit(spec).parameters[0].bootstrap95->low, estimates[0].parameters[0].bootstrap95->low);
+}
+
+TEST(FitProfile, DoesNotEndWhereTheModelDoes) {
+  // The layers about the break are nearly alike, so the data hardly see it; at 0.6 it meets the next one.
+  const auto truth = small_above_large({0.3, 0.6}, {1, 1.01, 2});
+  FitSpec spec =
+      fit_of(truth, observed(truth, {{0.3, 0.6, 1}, {0.2, 0.4, 0.6, 0.8}, Quantity::bin, 0.1}, 0.05, 1, true),
+             {"shear_rate.breaks[0]"});
+  spec.unknown.lower = {0.1};
+  spec.unknown.upper = {0.9};
+  spec.uncertainty.profile = true;
+  const Estimate e = fit(spec);
+  EXPECT_FALSE(e.parameters[0].profile95);
+  const auto begins = [&](const std::string& text) {
+    return std::count_if(e.warnings.begin(), e.warnings.end(),
+                         [&](const std::string& warning) { return warning.starts_with(text); });
+  };
+  EXPECT_EQ(begins("shear_rate.breaks[0]: these data give no lower end of its 95 % profile interval"), 1);
+  // Found to 2 % of its distance from the estimate.
+  EXPECT_EQ(begins("shear_rate.breaks[0]: no upper end of its 95 % profile interval up to 0.59") +
+                begins("shear_rate.breaks[0]: no upper end of its 95 % profile interval up to 0.6"),
+            1);
+}
+
+TEST(FitCheck, IsQuietWhereTheMisfitIsAParabola) {
+  for (const bool with_sigma : {true, false}) {
+    const Estimate e = fit(fan_fit(0.002, 11, with_sigma));
+    for (const ParameterEstimate& p : e.parameters) {
+      ASSERT_TRUE(p.check) << p.name;
+      EXPECT_FALSE(p.check->is_doubtful()) << p.name;
+    }
+    EXPECT_TRUE(e.warnings.empty());
+  }
+}
+
+TEST(FitCheck, SaysWhatProfilesSay) {
+  // Sums say little about a thin fast layer at the bottom: no upper bound at 5 % noise.
+  const auto truth = small_above_large({0.29}, {3.15, 0.5});
+  std::size_t near = 0, far = 0, open = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    FitSpec spec = fit_of(truth,
+                          observed(truth,
+                                   {{0.5, 1, 1.5, 2, 3, 4},
+                                    {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
+                                    Quantity::cumulative,
+                                    0},
+                                   0.01, seed, true),
+                          {"shear_rate.values"}, {2.5, 0.7});
+    spec.uncertainty.profile = true;
+    const Estimate e = fit(spec);
+    for (const ParameterEstimate& p : e.parameters) {
+      if (!p.check || !p.profile95) continue;
+      const double log_width = std::log(p.ci95->high / p.estimate);
+      const double low = std::log(p.estimate / p.profile95->low) / log_width;
+      const double high = std::log(p.profile95->high / p.estimate) / log_width;
+      for (const auto& [fault, factor] : {std::pair{p.check->low, low}, {p.check->high, high}}) {
+        // 2 %: how well ends of profiles and refits are found.
+        const bool is_wrong = (fault == EndFault::too_near && factor < 0.98 * kMostOff) ||
+                              (fault == EndFault::too_far && !(factor < 1.02 / kMostOff));
+        EXPECT_FALSE(is_wrong) << p.name << " seed " << seed << ": " << factor;
+        near += fault == EndFault::too_near ? 1 : 0;
+        far += fault == EndFault::too_far ? 1 : 0;
+        open += fault == EndFault::too_near && std::isnan(factor) ? 1 : 0;
+      }
+      const std::string text = "do not trust the 95 % interval of " + p.name;
+      EXPECT_EQ(std::any_of(e.warnings.begin(), e.warnings.end(),
+                            [&](const std::string& warning) { return warning.starts_with(text); }),
+                p.check->is_doubtful());
+    }
+  }
+  EXPECT_GT(near, 0U);
+  EXPECT_GT(far, 0U);
+  EXPECT_GT(open, 0U);
+}
+
+TEST(FitCheck, IsNotMadeWhereItHasNoMeaning) {
+  const auto truth = small_above_large({0.29}, {3.15, 0.5});
+  const ObservationPlan plan{{0.5, 1, 2, 3}, {0.1, 0.3, 0.5, 0.7, 0.9}, Quantity::bin, 0.1};
+  FitSpec spec = fit_of(truth, observed(truth, plan, 1e-3, 5, true), {"shear_rate.values"}, {3, 0.6});
+  spec.unknown.shape = Shape::decreasing;
+  for (const ParameterEstimate& p : fit(spec).parameters) {
+    EXPECT_TRUE(p.ci95);
+    EXPECT_FALSE(p.check);
+  }
 }
 
 TEST(FitBootstrap, AgreesWithErrorBars) {

@@ -73,18 +73,33 @@ TEST(FitWarnings, AnActiveShape) {
 }
 
 TEST(FitWarnings, AnUnseenLayer) {
-  // A layer above all data that no wave has left yet.
+  // A layer above all data that no wave has left yet. With noise 0.01 the first has an open interval.
   const auto truth = small_above_large({0.3, 0.8}, {1, 2, 1.5});
   FitSpec spec = fit_of(
       truth,
       observed(truth, {{0.1, 0.14}, {0.2, 0.25, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7}, Quantity::bin, 0.05},
-               0.01, 1, true),
+               0.001, 1, true),
       {"shear_rate.values"});
   const Estimate e = fit(spec);
   expect_only_warning(e, "shear_rate.values[2] is not seen by these data: no observation depends on it");
   expect_no_error_bar(e.parameters[2]);
   EXPECT_TRUE(e.parameters[0].std_error && e.parameters[1].std_error);
   EXPECT_EQ(e.parameters[2].estimate, 1.5);
+}
+
+TEST(FitWarnings, AnIntervalThatIsNotToBeTrusted) {
+  // Sums over z: the profile interval of the lower rate ends 1.54 times as far above it, in the logarithm.
+  FitSpec spec = layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.01);
+  spec.misfit.quantity = "cumulative";
+  for (const bool has_profile : {false, true}) {
+    spec.uncertainty.profile = has_profile;
+    const Estimate e = fit(spec);
+    expect_warning(e, "do not trust the 95 % interval of shear_rate.values[0], ");
+    expect_warning(e,
+                   std::string("the misfit is no parabola, its upper end should be farther off; ") +
+                       (has_profile ? "believe its profile interval" : "ask for uncertainty.profile = true"));
+    EXPECT_FALSE(e.parameters[1].check->is_doubtful());
+  }
 }
 
 TEST(FitWarnings, DataBeforeTheFirstWave) {
@@ -161,7 +176,7 @@ TEST(FitWarnings, BarelySeen) {
 }
 
 TEST(FitWarnings, AnotherQuantityThanMeasured) {
-  FitSpec spec = layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.01);
+  FitSpec spec = layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.001);
   spec.misfit.quantity = "cumulative";
   expect_only_warning(
       fit(spec),

@@ -22,8 +22,12 @@ int digits_of(const fit::ParameterEstimate& p) {
   return static_cast<int>(std::clamp<double>(places, kFewest, kMost));
 }
 
+/// An open end is not invented: "> 1.7".
 std::string interval_text(const std::optional<fit::Interval>& i, int digits) {
-  return i ? fmt::format("{:.{}g} to {:.{}g}", i->low, digits, i->high, digits) : "";
+  if (!i) return "";
+  if (std::isnan(i->high)) return fmt::format("> {:.{}g}", i->low, digits);
+  if (std::isnan(i->low)) return fmt::format("< {:.{}g}", i->high, digits);
+  return fmt::format("{:.{}g} to {:.{}g}", i->low, digits, i->high, digits);
 }
 
 std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::string(); }
@@ -40,7 +44,9 @@ std::string estimate_text(const fit::Estimate& estimate) {
     table.add({p.name, number_text(p.start), fmt::format("{:.{}g}", p.estimate, digits),
                p.std_error ? fmt::format("{:.2g}", *p.std_error) : "none", interval_text(p.ci95, digits),
                interval_text(p.profile95, digits), interval_text(p.bootstrap95, digits),
-               p.at_bound ? "at bound" : ""});
+               p.at_bound                          ? "at bound"
+               : p.check && p.check->is_doubtful() ? "doubtful interval"
+                                                   : ""});
   }
   text += table.text();
   text += fmt::format(

@@ -16,6 +16,14 @@ struct Interval {
   double low = 0, high = 0;
 };
 
+/// What is wrong with an end of a 95 % interval (interval_check.hpp).
+enum class EndFault { none, too_near, too_far, no_solution };
+struct IntervalCheck {
+  EndFault low = EndFault::none, high = EndFault::none;
+  std::string failure;  ///< why the model has no solution at an end
+  [[nodiscard]] bool is_doubtful() const { return low != EndFault::none || high != EndFault::none; }
+};
+
 /// What was found about one unknown. Error bars are empty where they would be invented: at a bound, not seen
 /// by the data, confounded with others, or no degrees of freedom left.
 struct ParameterEstimate {
@@ -23,8 +31,9 @@ struct ParameterEstimate {
   double start = 0, estimate = 0;
   std::optional<double> std_error;      ///< from the Jacobian
   std::optional<Interval> ci95;         ///< estimate -+ q std_error; for positive entries in the logarithm
-  std::optional<Interval> profile95;    ///< profile likelihood, on request
+  std::optional<Interval> profile95;    ///< profile likelihood, on request; NaN: open end
   std::optional<Interval> bootstrap95;  ///< parametric bootstrap, on request
+  std::optional<IntervalCheck> check;   ///< of ci95; empty where none was made
   bool at_bound = false;
 };
 

@@ -26,6 +26,9 @@ std::string parameter_text(const ParameterEstimate& p) {
       fmt::format(R"({{"name": {}, "start": {}, "estimate": {}, "std_error": {}, "ci95": {}, "at_bound": {})",
                   json_text(p.name), json_number(p.start), json_number(p.estimate), json_number(p.std_error),
                   interval(p.ci95), p.at_bound);
+  text += fmt::format(R"(, "ci95_is_doubtful": {})", !p.check                 ? "null"
+                                                     : p.check->is_doubtful() ? "true"
+                                                                              : "false");
   if (p.profile95) text += fmt::format(R"(, "profile95": {})", interval(p.profile95));
   if (p.bootstrap95) text += fmt::format(R"(, "bootstrap95": {})", interval(p.bootstrap95));
   return text + "}";

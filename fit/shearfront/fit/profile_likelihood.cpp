@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/profile_likelihood.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -8,10 +10,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "shearfront/fit/covariance.hpp"
 #include "shearfront/fit/search/search.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -25,6 +29,8 @@ constexpr double kLevel = 0.95;
 constexpr double kFirstStep = 0.1;
 /// Stands for "no solution there" in a root search.
 constexpr double kVeryFar = 100;
+/// How well the place is found, relative to its distance, beyond which the model has no solution.
+constexpr double kEdgeTolerance = 0.02;
 /// A misfit lower than the minimum by more than this, in units of chi^2, is another minimum.
 constexpr double kLower = 1e-3;
 
@@ -35,13 +41,21 @@ double quantile_of(const Estimate& estimate) {
   return t * t;
 }
 
+/// Where one side of a profile ends.
+struct End {
+  double place = kNaN;  ///< coordinate; NaN: open
+  double edge = kNaN;   ///< open because the model has no solution beyond this coordinate
+  std::string failure;  ///< why it has none
+};
+
 /// The profile of one coordinate to one side of the minimum, by the distance from it.
 class Side {
  public:
-  Side(Objective& objective, const SearchSpec& spec, const VectorXd& minimum, double misfit, Index j,
-       double direction)
+  Side(Objective& objective, const SearchSpec& spec, const VectorXd& start, const VectorXd& minimum,
+       double misfit, Index j, double direction)
       : objective_(&objective),
         spec_(spec),
+        start_(start),
         u_(minimum),
         misfit_(misfit),
         j_(j),
@@ -51,21 +65,29 @@ class Side {
     fixed_[static_cast<std::size_t>(j)] = true;
   }
 
-  /// The coordinate where 2 (F - F_min) = scale * quantile, not beyond the bound; NaN if there is none.
-  double end(double scale, double quantile, double first_step, double bound) {
+  /// The coordinate where 2 (F - F_min) = scale * quantile, not beyond the bound.
+  End end(double scale, double quantile, double first_step, double bound) {
     scale_ = scale;
     target_ = std::sqrt(quantile);
     const double limit = std::abs(bound - from_);
-    double inside = 0, below = -target_, outside = std::min(first_step, limit);
-    while (inside < outside && may_refit()) {
+    double inside = 0, below = -target_, edge = std::numeric_limits<double>::infinity();
+    double outside = std::min(first_step, limit);
+    while (inside < outside && inside < (1 - kEdgeTolerance) * edge && may_refit()) {
       const double above = height(outside);
-      if (above >= 0) return from_ + direction_ * crossing(inside, below, outside, above);
+      if (above == kVeryFar) {
+        edge = outside;
+        outside = 0.5 * (inside + edge);
+        continue;
+      }
+      if (above >= 0) return {from_ + direction_ * crossing(inside, below, outside, above), kNaN, {}};
       inside = outside;
       below = above;
       // The root of the misfit is nearly a straight line.
       outside = std::min(limit, inside * std::clamp(1.05 * target_ / (above + target_), 1.3, 4.0));
+      if (outside >= edge) outside = 0.5 * (inside + edge);
     }
-    return kNaN;
+    if (std::isinf(edge)) return {};
+    return {kNaN, from_ + direction_ * inside, failure_};
   }
   [[nodiscard]] bool found_lower() const { return found_lower_; }
 
@@ -74,17 +96,33 @@ class Side {
     return n_refits_ < kMostRefits && !objective_->control().must_stop();
   }
 
-  /// sqrt(2 (F - F_min) / scale) - sqrt(quantile), the others refitted.
+  /// sqrt(2 (F - F_min) / scale) - sqrt(quantile), the others refitted; kVeryFar without a solution.
   double height(double distance) {
     ++n_refits_;
-    VectorXd start = u_;
-    start[j_] = from_ + direction_ * distance;
-    const SearchResult refit = search_ceres(*objective_, start, spec_, fixed_);
+    const SearchResult refit = refit_at(from_ + direction_ * distance);
     if (!std::isfinite(refit.misfit)) return kVeryFar;
     u_ = refit.u;
     const double chi2 = 2 * (refit.misfit - misfit_) / scale_;
     if (chi2 < -kLower) found_lower_ = true;
     return std::sqrt(std::max(chi2, 0.0)) - target_;
+  }
+
+  /// The refit from the last one. Where that has no solution, or ends so high that it may have got stuck (on
+  /// a bound, where the misfit is flat), also from nearer to the start of the whole fit.
+  SearchResult refit_at(double value) {
+    SearchResult best;
+    best.misfit = std::numeric_limits<double>::infinity();
+    for (const double share : {0.0, 0.5, 1.0}) {
+      VectorXd from = (1 - share) * u_ + share * start_;
+      from[j_] = value;
+      const Objective::Evaluation& at = objective_->evaluate(from, false);
+      if (share == 0) failure_ = at.failure;
+      if (!at.is_valid) continue;
+      SearchResult refit = search_ceres(*objective_, from, spec_, fixed_);
+      if (refit.misfit < best.misfit) best = std::move(refit);
+      if (2 * (best.misfit - misfit_) < scale_ * target_ * target_) break;
+    }
+    return best;
   }
 
   double crossing(double inside, double below, double outside, double above) {
@@ -98,7 +136,8 @@ class Side {
 
   Objective* objective_;
   SearchSpec spec_;
-  VectorXd u_;  ///< of the last refit, the start of the next
+  VectorXd start_;  ///< of the whole fit
+  VectorXd u_;      ///< of the last refit, the start of the next
   double misfit_;
   Index j_;
   double direction_, from_;
@@ -106,6 +145,7 @@ class Side {
   double scale_ = 1, target_ = 1;
   int n_refits_ = 0;
   bool found_lower_ = false;
+  std::string failure_;
 };
 
 /// The scale of 2 F where the covariance gives none: that of least squares.
@@ -114,59 +154,124 @@ double scale_of(const Covariance& errors, const Estimate& estimate, Index j) {
   return std::isfinite(scale) && scale > 0 ? scale : estimate.sigma * estimate.sigma;
 }
 
+/// What is to be said of ends that stay open.
+void warn_of_open_ends(const std::string& name, const Interval& interval, const Interval& edges,
+                       const std::string& failure, std::vector<std::string>& warnings) {
+  const bool low = std::isfinite(interval.low), high = std::isfinite(interval.high);
+  const auto edge = [&](double at, std::string_view end, std::string_view beyond) {
+    if (std::isnan(at)) return;
+    warnings.push_back(fmt::format(
+        "{}: no {} end of its 95 % profile interval {} to {}, {} which the model has no solution: {}", name,
+        end, end == "lower" ? "down" : "up", number_text(at, 3), beyond, failure));
+  };
+  edge(edges.low, "lower", "below");
+  edge(edges.high, "upper", "above");
+  const bool bounds_low = !low && std::isnan(edges.low), bounds_high = !high && std::isnan(edges.high);
+  if (!bounds_low && !bounds_high) return;
+  warnings.push_back(fmt::format("{}: these data give no {}95 % profile interval within its bounds", name,
+                                 !bounds_low    ? "upper end of its "
+                                 : !bounds_high ? "lower end of its "
+                                                : ""));
+}
+
+/// All that the profiles of one fit have in common.
+class Profiler {
+ public:
+  Profiler(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+           const Estimate& estimate, const Progress& progress)
+      : parameters_(parameters),
+        objective_(objective),
+        coordinates_(objective.coordinates()),
+        estimate_(estimate),
+        progress_(progress),
+        local_(spec.search),
+        forward_(spec.forward),
+        quantile_(quantile_of(estimate)),
+        u_(coordinates_.size()) {
+    for (Index j = 0; j < u_.size(); ++j) u_[j] = estimate.parameters[static_cast<std::size_t>(j)].estimate;
+    u_ = coordinates_.coordinates(u_);
+    best_ = objective.inspect(u_, true);
+    local_.algorithm = "ceres";
+    local_.starts = 1;
+    if (is_possible())
+      errors_ = covariance(objective.rows(), spec.observations, best_, objective.loss(), estimate.sigma,
+                           coordinates_.at_bound(u_));
+  }
+
+  Profiles operator()() {
+    profiles_.intervals.resize(parameters_.size());
+    for (Index j = 0; is_possible() && j < u_.size(); ++j)
+      if (!add(j)) break;
+    if (found_lower_)
+      profiles_.warnings.emplace_back(
+          "a lower misfit was found on the way along a profile: the estimate is not the best fit; try other "
+          "start values or search.starts > 1");
+    return std::move(profiles_);
+  }
+
+ private:
+  [[nodiscard]] bool is_possible() const { return best_.is_valid && estimate_.sigma > 0; }
+
+  /// The interval of coordinate j; false if the user ended it.
+  bool add(Index j) {
+    // Refits of one parameter may take as long as the fit itself did.
+    RunControl control(local_.max_evaluations, progress_);
+    Objective refitted(parameters_, coordinates_, forward_, objective_.rows(), objective_.loss(), control);
+    Interval interval, edges;
+    std::string failure;
+    const auto find = [&](double direction, double bound, double& place, double& edge) {
+      Side side(refitted, local_, coordinates_.coordinates(parameters_.start()), u_, best_.misfit, j,
+                direction);
+      End end = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j), bound);
+      found_lower_ = found_lower_ || side.found_lower();
+      place = value(j, end.place);
+      edge = value(j, end.edge);
+      if (!end.failure.empty()) failure = std::move(end.failure);
+    };
+    find(-1, coordinates_.lower()[j], interval.low, edges.low);
+    find(1, coordinates_.upper()[j], interval.high, edges.high);
+    if (control.is_interrupted()) return false;
+    const auto k = static_cast<std::size_t>(j);
+    if (std::isfinite(interval.low) || std::isfinite(interval.high)) profiles_.intervals[k] = interval;
+    warn_of_open_ends(parameters_[k].name(), interval, edges, failure, profiles_.warnings);
+    return true;
+  }
+
+  [[nodiscard]] double first_step(Index j) const {
+    const double error = std::sqrt(errors_.matrix(j, j));
+    const bool has_error =
+        errors_.determined[static_cast<std::size_t>(j)] && error > 0 && std::isfinite(error);
+    return has_error ? error * std::sqrt(quantile_) : kFirstStep;
+  }
+
+  /// Of the parameter where coordinate j is `place`.
+  [[nodiscard]] double value(Index j, double place) const {
+    if (std::isnan(place)) return kNaN;
+    VectorXd at = u_;
+    at[j] = place;
+    return coordinates_.values(at)[j];
+  }
+
+  const Parameters& parameters_;
+  const Objective& objective_;
+  const Coordinates& coordinates_;
+  const Estimate& estimate_;
+  const Progress& progress_;
+  SearchSpec local_;
+  const ForwardSpec& forward_;
+  double quantile_;
+  VectorXd u_;  ///< the estimate
+  Objective::Evaluation best_;
+  Covariance errors_;
+  Profiles profiles_;
+  bool found_lower_ = false;
+};
+
 }  // namespace
 
 Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
                            const Estimate& estimate, const Progress& progress) {
-  const Coordinates& coordinates = objective.coordinates();
-  Profiles profiles;
-  profiles.intervals.resize(parameters.size());
-  VectorXd values(coordinates.size());
-  for (Index j = 0; j < values.size(); ++j)
-    values[j] = estimate.parameters[static_cast<std::size_t>(j)].estimate;
-  const VectorXd u = coordinates.coordinates(values);
-  const Objective::Evaluation best = objective.inspect(u, true);
-  if (!best.is_valid || !(estimate.sigma > 0)) return profiles;
-  const Covariance errors = covariance(objective.rows(), spec.observations, best, objective.loss(),
-                                       estimate.sigma, coordinates.at_bound(u));
-  const double quantile = quantile_of(estimate);
-  SearchSpec local = spec.search;
-  local.algorithm = "ceres";
-  local.starts = 1;
-  bool found_lower = false;
-  for (Index j = 0; j < u.size(); ++j) {
-    // Refits of one parameter may take as long as the fit itself did.
-    RunControl control(spec.search.max_evaluations, progress);
-    Objective refitted(parameters, coordinates, spec.forward, objective.rows(), objective.loss(), control);
-    const double error = std::sqrt(errors.matrix(j, j));
-    const bool has_error =
-        errors.determined[static_cast<std::size_t>(j)] && error > 0 && std::isfinite(error);
-    const double step = has_error ? error * std::sqrt(quantile) : kFirstStep;
-    const auto find = [&](double direction, double bound) {
-      Side side(refitted, local, u, best.misfit, j, direction);
-      const double end = side.end(scale_of(errors, estimate, j), quantile, step, bound);
-      found_lower = found_lower || side.found_lower();
-      VectorXd at = u;
-      at[j] = end;
-      return std::isnan(end) ? kNaN : coordinates.values(at)[j];
-    };
-    const Interval interval{find(-1, coordinates.lower()[j]), find(1, coordinates.upper()[j])};
-    if (control.is_interrupted()) break;
-    const bool low = std::isfinite(interval.low), high = std::isfinite(interval.high);
-    if (low || high) profiles.intervals[static_cast<std::size_t>(j)] = interval;
-    if (low && high) continue;
-    profiles.warnings.push_back(
-        parameters[static_cast<std::size_t>(j)].name() +
-        (low    ? ": these data give no upper end of its 95 % profile interval within its bounds"
-         : high ? ": these data give no lower end of its 95 % profile interval within its bounds"
-                : ": these data give no 95 % profile interval within its bounds"));
-  }
-  if (found_lower)
-    profiles.warnings.emplace_back(
-        "a lower misfit was found on the way along a profile: the estimate is not the best fit; try other "
-        "start "
-        "values or search.starts > 1");
-  return profiles;
+  return Profiler(spec, parameters, objective, estimate, progress)();
 }
 
 }  // namespace shearfront::fit

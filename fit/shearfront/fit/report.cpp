@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "shearfront/fit/covariance.hpp"
+#include "shearfront/fit/interval_check.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/residual_structure.hpp"
@@ -165,6 +166,11 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     parameter.estimate = kNaN;
   }
   if (!best.is_valid) {
+    if (estimate.status == Status::ok) {
+      // Solved on the way there, and only just: not again from scratch.
+      estimate.status = Status::not_converged;
+      estimate.message = "the search ended where the model has no solution";
+    }
     if (!best.failure.empty()) estimate.message += ": " + best.failure;
     return estimate;
   }
@@ -183,6 +189,10 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   mark_bounds(objective.coordinates(), parameters, errors.held, estimate);
   set_error_bars(objective, errors, found, quantile, parameters, estimate);
   set_information_criteria(spec, estimate);
+  if (found.status != Status::interrupted) {
+    auto checks = check_intervals(spec, parameters, objective, errors, best, found.u, quantile, estimate);
+    for (std::size_t i = 0; i < checks.size(); ++i) estimate.parameters[i].check = std::move(checks[i]);
+  }
   estimate.structure = residual_structure(spec.observations, estimate.predicted);
   estimate.warnings = warnings(spec, parameters, objective, errors, best, estimate);
   return estimate;

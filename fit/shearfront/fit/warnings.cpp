@@ -80,6 +80,7 @@ class Writer {
     null_directions();
     few_data();
     huge_errors();
+    doubtful_intervals();
     derived_rows();
     structure();
     chi_squared();
@@ -189,6 +190,26 @@ class Writer {
                       "estimate {}",
                       p.name, short_text(*p.std_error),
                       number_text(std::round(100 * *p.std_error / p.estimate)), short_text(p.estimate)));
+    }
+  }
+
+  void doubtful_intervals() {
+    for (const ParameterEstimate& p : estimate_.parameters) {
+      if (!p.check || !p.check->is_doubtful() || !p.ci95) continue;
+      std::vector<std::string> faults;
+      const auto say = [&](EndFault fault, std::string_view end) {
+        if (fault == EndFault::none) return;
+        faults.push_back(fmt::format("{} end {}", end,
+                                     fault == EndFault::too_near  ? "should be farther off"
+                                     : fault == EndFault::too_far ? "should be nearer"
+                                                                  : "has no solution: " + p.check->failure));
+      };
+      say(p.check->low, "its lower");
+      say(p.check->high, "its upper");
+      texts_.push_back(fmt::format(
+          "do not trust the 95 % interval of {}, {} to {}: the misfit is no parabola, {}; {}", p.name,
+          short_text(p.ci95->low), short_text(p.ci95->high), listed(faults),
+          spec_.uncertainty.profile ? "believe its profile interval" : "ask for uncertainty.profile = true"));
     }
   }
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/interval_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit/search/search.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// A bound nearer than this share of the way leaves too little to look at.
+constexpr double kNearestBound = 0.25;
+/// Relative half width of an interval that is rounding, not noise: searches end at 1e-10.
+constexpr double kRounding = 1e-8;
+/// A rise at the end itself between these needs no second look.
+constexpr double kLeastGood = 0.85, kMostGood = 1.2;
+/// Refits end when the misfit changes by less than this share of the rise looked for.
+constexpr double kRefitTolerance = 0.02;
+constexpr std::size_t kMostEvaluations = 40;
+
+/// Share of the way from u along `direction` that is inside the bounds, at most 1.
+double share_inside(const Coordinates& coordinates, const VectorXd& u, const VectorXd& direction) {
+  double share = 1;
+  for (Index j = 0; j < u.size(); ++j) {
+    if (direction[j] == 0) continue;
+    const double bound = direction[j] > 0 ? coordinates.upper()[j] : coordinates.lower()[j];
+    if (std::isfinite(bound)) share = std::min(share, (bound - u[j]) / direction[j]);
+  }
+  return std::max(share, 0.0);
+}
+
+class Checker {
+ public:
+  Checker(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+          const Covariance& errors, const Objective::Evaluation& best, const VectorXd& minimum,
+          double quantile)
+      : spec_(spec),
+        parameters_(parameters),
+        objective_(objective),
+        errors_(errors),
+        best_misfit_(best.misfit),
+        u_(minimum),
+        quantile_(quantile) {}
+
+  /// Towards the lower (-1) or upper end of coordinate j.
+  [[nodiscard]] EndFault towards(Index j, double sign, std::string& failure) const {
+    const VectorXd way = sign * quantile_ / std::sqrt(errors_.matrix(j, j)) * errors_.matrix.col(j);
+    const Rise end = rise(j, way, 1);
+    if (!end.failure.empty()) {
+      failure = end.failure;
+      return EndFault::no_solution;
+    }
+    if (end.size < kLeastGood && rise(j, way, kMostOff).size < 1 / kMostOff) return EndFault::too_near;
+    if (end.size > kMostGood && rise(j, way, 1 / kMostOff).size > kMostOff) return EndFault::too_far;
+    return EndFault::none;
+  }
+
+ private:
+  struct Rise {
+    double size = std::numeric_limits<double>::quiet_NaN();  ///< NaN: a bound is too near
+    std::string failure;                                     ///< no solution there
+  };
+
+  /// At `stretch` times the way, or where it meets a bound.
+  [[nodiscard]] Rise rise(Index j, const VectorXd& way, double stretch) const {
+    const double share = share_inside(objective_.coordinates(), u_, stretch * way);
+    if (share < kNearestBound) return {};
+    // A bound is inside by rounding.
+    const VectorXd at = u_ + (share < 1 ? share * (1 - 1e-9) : 1) * stretch * way;
+    const double expected = 0.5 * errors_.misfit_scale[j] * std::pow(share * stretch * quantile_, 2);
+    const Objective::Evaluation there = objective_.inspect(at, false);
+    if (!there.is_valid)
+      return {std::numeric_limits<double>::quiet_NaN(),
+              there.failure.empty() ? "it is out of bounds" : there.failure};
+    const auto size = [&](double misfit) {
+      return std::sqrt(std::max(0.0, misfit - best_misfit_) / expected);
+    };
+    double least = size(there.misfit);
+    if (stretch < 1 && least > kMostOff) least = std::min(least, size(refitted(j, at, expected)));
+    return {least, {}};
+  }
+
+  /// The misfit there when the others are refitted.
+  [[nodiscard]] double refitted(Index j, const VectorXd& at, double expected) const {
+    RunControl control(kMostEvaluations);
+    Objective objective(parameters_, objective_.coordinates(), spec_.forward, objective_.rows(),
+                        objective_.loss(), control);
+    SearchSpec search = spec_.search;
+    search.max_evaluations = kMostEvaluations;
+    search.tolerance = std::clamp(kRefitTolerance * expected / best_misfit_, spec_.search.tolerance, 1e-2);
+    std::vector<bool> fixed(static_cast<std::size_t>(u_.size()), false);
+    fixed[static_cast<std::size_t>(j)] = true;
+    return search_ceres(objective, at, search, fixed).misfit;
+  }
+
+  const FitSpec& spec_;
+  const Parameters& parameters_;
+  const Objective& objective_;
+  const Covariance& errors_;
+  double best_misfit_;
+  VectorXd u_;
+  double quantile_;
+};
+
+}  // namespace
+
+std::vector<std::optional<IntervalCheck>> check_intervals(const FitSpec& spec, const Parameters& parameters,
+                                                          const Objective& objective,
+                                                          const Covariance& errors,
+                                                          const Objective::Evaluation& best,
+                                                          const Eigen::VectorXd& minimum, double quantile,
+                                                          const Estimate& estimate) {
+  std::vector<std::optional<IntervalCheck>> checks(parameters.size());
+  const bool leaves_out = quantity_of(spec) == name_of(Quantity::point) &&
+                          objective.rows().rows.size() < spec.observations.rows.size();
+  if (parameters.shape() != Shape::none || leaves_out) return checks;
+  const Checker checker(spec, parameters, objective, errors, best, minimum, quantile);
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const auto j = static_cast<Index>(k);
+    const double scale = errors.misfit_scale[j];
+    if (!estimate.parameters[k].ci95 || !(scale > 0) || !std::isfinite(scale)) continue;
+    const double half_width = quantile * std::sqrt(errors.matrix(j, j));
+    if (!(half_width > kRounding * std::max(1.0, std::abs(minimum[j])))) continue;
+    IntervalCheck check;
+    check.low = checker.towards(j, -1, check.failure);
+    check.high = checker.towards(j, 1, check.failure);
+    checks[k] = std::move(check);
+  }
+  return checks;
+}
+
+}  // namespace shearfront::fit
