@@ -14,7 +14,7 @@ namespace shearfront::diffusion {
 namespace {
 
 constexpr double kGrading = 0.0625;
-constexpr double kQuietShare = 0.01;
+constexpr double kQuiet = 0.03;
 /// max |phi''| of the logistic front 1 / (1 + exp(x)): 1 / (6 sqrt(3)).
 constexpr double kFrontBend = 0.09622504486493763;
 constexpr int kCallsBetweenCleanings = 32;
@@ -61,11 +61,11 @@ std::vector<double> front_widths(const Problem& problem, double bend) {
 
 std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states, double bend) {
   const std::vector<double> slope = slopes(problem, states), finest = front_widths(problem, bend);
-  const double widest = problem.top - problem.bottom;
+  const double widest = problem.top - problem.bottom, quiet = kQuiet * bend * std::sqrt(bend);
   std::vector<double> wanted(problem.n_cells);
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     const double width = problem.width(j), found = std::abs(slope[j + 1] - slope[j]) * width;
-    const double smooth = width * std::sqrt(kQuietShare * bend / std::max(found, 1e-300));
+    const double smooth = width * std::sqrt(quiet / std::max(found, 1e-300));
     wanted[j] = std::min(std::max(smooth, std::min(finest[j], finest[j + 1])), widest);
   }
   return wanted;
