@@ -50,7 +50,7 @@ struct TimeStep {
 ///
 /// Unknowns of the nonlinear system are the fluxes, which makes the scheme conservative in every iterate.
 /// Guaranteed:
-///   (1) the mass sum phi_j dz is that of the beginning, to 1e-15 relative, after any number of steps and
+///   (1) the mass sum phi_j dz_j is that of the beginning, to 1e-15 relative, after any number of steps and
 ///       whether or not the iteration converged (walls, periodic; neumann: up to what passes the ends);
 ///   (2) second order in dt and dz for smooth data (central; fitted where the cell Peclet number is small);
 ///   (3) Scheme::fitted with walls or periodic ends: phi stays in [lo, hi] if f(lo) = f(hi) = 0, up to
@@ -61,15 +61,18 @@ struct TimeStep {
 ///       has such bounds for all steps: Bolley & Crouzeix 1978, RAIRO Anal. Numer. 12, 237-245.)
 ///   (4) tangents are the derivatives of the computed states for the same steps, to rounding (equal cells
 ///   only).
+///
 /// On another grid (Options::regrid) the states and the fluxes of the last two steps go on, see
-/// grid_transfer.hpp; (1) holds across it, and so do the bounds of (3). Adaptive steps: the local error is
-/// estimated from the distance to a quadratic extrapolation in time and kept at c tolerance^(3/2), so that
-/// the error of a run is proportional to the tolerance. They start with short steps of backward Euler, which
-/// also damp what data that do not satisfy the conditions at the walls excite. They grow without bound; at
-/// rest they end, see is_steady(). Cost: O(N) a step and iteration; usually one iteration a step. Each
-/// tangent costs one further right-hand side. Source: Christov (2018), Materials Physics and Mechanics 35,
-/// 21-27; Gresho, Lee & Sani (1980) for the control of steps; Rannacher (1984), Numer. Math. 43, 309-327 for
-/// the smoothing.
+/// grid_transfer.hpp; the mass stays what it is, and so do the bounds of (3).
+///
+/// Adaptive steps: the local error is estimated from the distance to a quadratic extrapolation in time and
+/// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. They start with
+/// short steps of backward Euler, which also damp what data that do not satisfy the conditions at the walls
+/// excite. They grow without bound; at rest they end, see is_steady().
+///
+/// Cost: O(N) a step and iteration; usually one iteration a step. Each tangent costs one further right-hand
+/// side. Source: Christov (2018), Materials Physics and Mechanics 35, 21-27; Gresho, Lee & Sani (1980) for
+/// the control of steps; Rannacher (1984), Numer. Math. 43, 309-327 for the smoothing.
 class CrankNicolson {
  public:
   CrankNicolson(const Problem& problem, Options options, std::vector<Tangent> tangents = {});
@@ -116,6 +119,7 @@ class CrankNicolson {
   double correct(double tau, bool same_matrix);
   void commit(const TimeStep& step);
   void move_to(Regrid next);
+  /// All that depends on the cells but not on their states.
   void set_grid();
   void commit_tangents(const TimeStep& step);
   void set_ghosts(std::vector<double>& v) const;

@@ -10,7 +10,7 @@ namespace shearfront::diffusion {
 
 /// Another grid for a running computation.
 struct Regrid {
-  Problem problem;
+  Problem problem;                  ///< `initial` does not count
   std::vector<CellChange> changes;  ///< by which the cells of the grid before become those of `problem`
 };
 

@@ -28,8 +28,8 @@ namespace shearfront::diffusion {
 [[nodiscard]] std::vector<double> graded(const Problem& problem, std::vector<double> widths);
 
 /// Grids for one scene that follow its fronts: n equal cells, halved where wanted_widths() asks for it and
-/// merged again when a front has passed. Each front takes about 8 / sqrt(bend) cells and 32 for every factor
-/// of two between the width of the others and its own.
+/// merged again when a front has passed. Each front takes about 32 cells for every factor of two between the
+/// width of the others and its own.
 class Refinement {
  public:
   static constexpr std::size_t kMostCells = 1'000'000;
