@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "shearfront/diffusion/cole_hopf_solver.hpp"
 #include "shearfront/diffusion/crank_nicolson_solver.hpp"
@@ -190,6 +193,96 @@ TEST(DiffusionRefinement, AgreesWithEqualCells) {
       EXPECT_NEAR(refined.samples[i].M, equal.samples[i].M, 1e-4) << "seed " << seed_of(700 + number);
     }
   }
+}
+
+SceneSpec<double> step_at(double z, double rate, double D) {
+  SceneSpec<double> spec = uniform_start(D);
+  spec.shear_rate = Piecewise<double>{{}, {rate}};
+  spec.initial_breaks = {z};
+  spec.initial_values = {0, 1};
+  return spec;
+}
+
+// phi = (1 + erf(x)) / 2, x = (z - z0) / sqrt(4 D t), until the walls are felt: wider than any front there
+// is.
+TEST(DiffusionRefinement, ResolvesStepsThatOnlyDiffuse) {
+  struct Case {
+    double D, t;
+  };
+  for (const auto& [D, t] : {Case{1e-4, 1}, Case{0.1, 1e-3}, Case{1e-2, 0.1}}) {
+    SolverOptions options;
+    options.cells = 100;
+    options.cell_tolerance = options.tolerance = 1e-3;
+    std::vector<double> depths;
+    for (int i = -4; i <= 4; ++i) depths.push_back(0.513 + 0.5 * i * std::sqrt(D * t));
+    const auto result = CrankNicolsonSolver::solve(Scene<double>(step_at(0.513, 1e-9, D)),
+                                                   {{t}, depths, false, false, false}, options);
+    ASSERT_EQ(result.samples.size(), depths.size()) << result.summary.message;
+    for (std::size_t i = 0; i < depths.size(); ++i)
+      EXPECT_NEAR(result.samples[i].phi, 0.5 * (1 + std::erf((depths[i] - 0.513) / std::sqrt(4 * D * t))),
+                  3e-3)
+          << D;
+  }
+}
+
+TEST(DiffusionRefinement, SeesDataThatEqualCellsDoNot) {
+  SceneSpec<double> spec = step_at(0.25, 1, 1e-3);
+  spec.initial_breaks = {0.25, 0.5, 0.75};
+  spec.initial_values = {0, 1, 0, 1};
+  spec.is_periodic = true;
+  SolverOptions options;
+  options.cells = 2;
+  options.cell_tolerance = options.tolerance = 1e-3;
+  const SolverRequest request{{0.1}, {0.1, 0.3, 0.6, 0.8}, false, false, false};
+  const auto refined = CrankNicolsonSolver::solve(Scene<double>(spec), request, options);
+  options.cells = 4000;
+  options.cell_tolerance = 0;
+  const auto equal = CrankNicolsonSolver::solve(Scene<double>(spec), request, options);
+  ASSERT_TRUE(refined.summary.usable() && equal.summary.usable()) << refined.summary.message;
+  for (std::size_t i = 0; i < request.depths.size(); ++i)
+    EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 3e-3) << request.depths[i];
+}
+
+// Whatever the unit of length: the same numbers, or a reason.
+TEST(DiffusionRefinement, WorksInAnyUnitOfLength) {
+  for (const double unit : {0x1p-500, 0x1p500}) {
+    SceneSpec<double> spec = step_at(0.5 * unit, unit, 1e-3 * unit * unit);
+    spec.top = unit;
+    SolverOptions options;
+    options.cells = 50;
+    options.cell_tolerance = options.tolerance = 1e-2;
+    const auto scaled =
+        CrankNicolsonSolver::solve(Scene<double>(spec), {{1}, {0.4 * unit}, false, false, false}, options);
+    const auto plain = CrankNicolsonSolver::solve(Scene<double>(step_at(0.5, 1, 1e-3)),
+                                                  {{1}, {0.4}, false, false, false}, options);
+    ASSERT_TRUE(scaled.summary.usable() && plain.summary.usable()) << scaled.summary.message;
+    EXPECT_NEAR(scaled.samples[0].phi, plain.samples[0].phi, 1e-12);
+  }
+}
+
+TEST(DiffusionRefinement, SaysWhenHeightsCannotBeToldApart) {
+  SceneSpec<double> spec = step_at(1e5 + 0.5, 1, 1e-11);
+  spec.bottom = 1e5;
+  spec.top = 1e5 + 1;
+  SolverOptions options;
+  options.cell_tolerance = 1e-2;
+  const auto result =
+      CrankNicolsonSolver::solve(Scene<double>(spec), {{1e-9}, {1e5 + 0.5}, false, false, false}, options);
+  EXPECT_EQ(result.summary.status, Status::budget_reached) << result.summary.message;
+}
+
+TEST(DiffusionRefinement, RefusesWhatCannotEnd) {
+  SolverOptions options;
+  options.time_step = 0.01;
+  const auto steady = CrankNicolsonSolver::solve(
+      Scene<double>(uniform_start(0.02)),
+      {{std::numeric_limits<double>::infinity()}, {0.5}, false, false, false}, options);
+  EXPECT_EQ(steady.summary.status, Status::unsupported);
+  options.time_step = 0;
+  options.cells = 2'000'000;
+  options.cell_tolerance = 1e-2;
+  EXPECT_NE(diffusion::refusal(Scene<double>(uniform_start(0.02)), options).find("1000000"),
+            std::string::npos);
 }
 
 TEST(DiffusionRefinement, SaysWhenItWouldTakeTooManyCells) {

@@ -67,7 +67,8 @@ void MethodArguments::add_to(CLI::App& app) {
       ->type_name("N");
   app.add_option("--max-collisions", max_collisions_, "front tracking: stop after so many collisions")
       ->type_name("N");
-  app.add_option("--cells", cells_, "finite volumes: number of cells, default 400")->type_name("N");
+  app.add_option("--cells", cells_, "finite volumes, crank-nicolson: number of cells, default 400")
+      ->type_name("N");
   app.add_option("--cfl", cfl_,
                  "finite volumes: time step over the largest for which the bounds of phi are proved (Courant "
                  "number 1, muscl 1/2); > 0 and <= 1, default 1")

@@ -57,7 +57,10 @@ class Checker {
       failure = end.failure;
       return EndFault::no_solution;
     }
-    if (end.size < kLeastGood && rise(j, way, kMostOff).size < 1 / kMostOff) return EndFault::too_near;
+    if (end.size < kLeastGood) {
+      const Rise beyond = rise(j, way, kMostOff);
+      if (beyond.reach >= 1 && beyond.size < 1 / kMostOff) return EndFault::too_near;
+    }
     if (end.size > kMostGood && rise(j, way, 1 / kMostOff).size > kMostOff) return EndFault::too_far;
     return EndFault::none;
   }
@@ -65,7 +68,8 @@ class Checker {
  private:
   struct Rise {
     double size = std::numeric_limits<double>::quiet_NaN();  ///< NaN: a bound is too near
-    std::string failure;                                     ///< no solution there
+    double reach = 0;     ///< how far towards the end it was looked, 1: there
+    std::string failure;  ///< no solution there
   };
 
   /// At `stretch` times the way, or where it meets a bound.
@@ -77,14 +81,14 @@ class Checker {
     const double expected = 0.5 * errors_.misfit_scale[j] * std::pow(share * stretch * quantile_, 2);
     const Objective::Evaluation there = objective_.inspect(at, false);
     if (!there.is_valid)
-      return {std::numeric_limits<double>::quiet_NaN(),
+      return {std::numeric_limits<double>::quiet_NaN(), share * stretch,
               there.failure.empty() ? "it is out of bounds" : there.failure};
     const auto size = [&](double misfit) {
       return std::sqrt(std::max(0.0, misfit - best_misfit_) / expected);
     };
     double least = size(there.misfit);
     if (stretch < 1 && least > kMostOff) least = std::min(least, size(refitted(j, at, expected)));
-    return {least, {}};
+    return {least, share * stretch, {}};
   }
 
   /// The misfit there when the others are refitted.

@@ -18,7 +18,8 @@ namespace shearfront::fit {
 /// a profile interval ends more than k times farther or nearer there. v is where a linear model has the
 /// minimum over the other coordinates (c_j is Covariance::misfit_scale, q the quantile of the interval);
 /// elsewhere F can only be larger, so an end that is too near is proved to be, and the others are refitted
-/// (Ceres) before one is called too far. A bound on the way is looked at in place of what is beyond it.
+/// (Ceres) before one is called too far. A bound on the way is looked at in place of what is beyond it; an
+/// end beyond it is never called too near.
 ///
 /// Empty for parameters without interval or with one that is rounding (exact data); for all with a shape
 /// (intervals of differences have no such line) and where points near a shock are left out (which ones

@@ -99,8 +99,12 @@ class Side {
   /// sqrt(2 (F - F_min) / scale) - sqrt(quantile), the others refitted; kVeryFar without a solution.
   double height(double distance) {
     ++n_refits_;
-    const SearchResult refit = refit_at(from_ + direction_ * distance);
-    if (!std::isfinite(refit.misfit)) return kVeryFar;
+    std::string failure;
+    const SearchResult refit = refit_at(from_ + direction_ * distance, failure);
+    if (!std::isfinite(refit.misfit)) {
+      failure_ = std::move(failure);
+      return kVeryFar;
+    }
     u_ = refit.u;
     const double chi2 = 2 * (refit.misfit - misfit_) / scale_;
     if (chi2 < -kLower) found_lower_ = true;
@@ -108,15 +112,16 @@ class Side {
   }
 
   /// The refit from the last one. Where that has no solution, or ends so high that it may have got stuck (on
-  /// a bound, where the misfit is flat), also from nearer to the start of the whole fit.
-  SearchResult refit_at(double value) {
+  /// a bound, where the misfit is flat), also from nearer to the start of the whole fit. `failure`: why the
+  /// first has none.
+  SearchResult refit_at(double value, std::string& failure) {
     SearchResult best;
     best.misfit = std::numeric_limits<double>::infinity();
     for (const double share : {0.0, 0.5, 1.0}) {
       VectorXd from = (1 - share) * u_ + share * start_;
       from[j_] = value;
       const Objective::Evaluation& at = objective_->evaluate(from, false);
-      if (share == 0) failure_ = at.failure;
+      if (share == 0) failure = at.failure;
       if (!at.is_valid) continue;
       SearchResult refit = search_ceres(*objective_, from, spec_, fixed_);
       if (refit.misfit < best.misfit) best = std::move(refit);
@@ -156,16 +161,18 @@ double scale_of(const Covariance& errors, const Estimate& estimate, Index j) {
 
 /// What is to be said of ends that stay open.
 void warn_of_open_ends(const std::string& name, const Interval& interval, const Interval& edges,
-                       const std::string& failure, std::vector<std::string>& warnings) {
+                       const std::string& failure_below, const std::string& failure_above,
+                       std::vector<std::string>& warnings) {
   const bool low = std::isfinite(interval.low), high = std::isfinite(interval.high);
-  const auto edge = [&](double at, std::string_view end, std::string_view beyond) {
+  const auto edge = [&](double at, std::string_view end, std::string_view beyond,
+                        const std::string& failure) {
     if (std::isnan(at)) return;
     warnings.push_back(fmt::format(
         "{}: no {} end of its 95 % profile interval {} to {}, {} which the model has no solution: {}", name,
         end, end == "lower" ? "down" : "up", number_text(at, 3), beyond, failure));
   };
-  edge(edges.low, "lower", "below");
-  edge(edges.high, "upper", "above");
+  edge(edges.low, "lower", "below", failure_below);
+  edge(edges.high, "upper", "above", failure_above);
   const bool bounds_low = !low && std::isnan(edges.low), bounds_high = !high && std::isnan(edges.high);
   if (!bounds_low && !bounds_high) return;
   warnings.push_back(fmt::format("{}: these data give no {}95 % profile interval within its bounds", name,
@@ -200,6 +207,9 @@ class Profiler {
 
   Profiles operator()() {
     profiles_.intervals.resize(parameters_.size());
+    if (!best_.is_valid)
+      profiles_.warnings.emplace_back(
+          "no profile intervals: the model has no solution at the estimate, or only just");
     for (Index j = 0; is_possible() && j < u_.size(); ++j)
       if (!add(j)) break;
     if (found_lower_)
@@ -218,22 +228,23 @@ class Profiler {
     RunControl control(local_.max_evaluations, progress_);
     Objective refitted(parameters_, coordinates_, forward_, objective_.rows(), objective_.loss(), control);
     Interval interval, edges;
-    std::string failure;
-    const auto find = [&](double direction, double bound, double& place, double& edge) {
+    std::string failure_below, failure_above;
+    const auto find = [&](double direction, double bound, double& place, double& edge, std::string& failure) {
       Side side(refitted, local_, coordinates_.coordinates(parameters_.start()), u_, best_.misfit, j,
                 direction);
       End end = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j), bound);
       found_lower_ = found_lower_ || side.found_lower();
       place = value(j, end.place);
       edge = value(j, end.edge);
-      if (!end.failure.empty()) failure = std::move(end.failure);
+      failure = std::move(end.failure);
     };
-    find(-1, coordinates_.lower()[j], interval.low, edges.low);
-    find(1, coordinates_.upper()[j], interval.high, edges.high);
+    find(-1, coordinates_.lower()[j], interval.low, edges.low, failure_below);
+    find(1, coordinates_.upper()[j], interval.high, edges.high, failure_above);
     if (control.is_interrupted()) return false;
     const auto k = static_cast<std::size_t>(j);
     if (std::isfinite(interval.low) || std::isfinite(interval.high)) profiles_.intervals[k] = interval;
-    warn_of_open_ends(parameters_[k].name(), interval, edges, failure, profiles_.warnings);
+    warn_of_open_ends(parameters_[k].name(), interval, edges, failure_below, failure_above,
+                      profiles_.warnings);
     return true;
   }
 

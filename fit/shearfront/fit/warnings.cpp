@@ -197,6 +197,9 @@ class Writer {
     for (const ParameterEstimate& p : estimate_.parameters) {
       if (!p.check || !p.check->is_doubtful() || !p.ci95) continue;
       std::vector<std::string> faults;
+      const auto is_off = [](EndFault fault) {
+        return fault == EndFault::too_near || fault == EndFault::too_far;
+      };
       const auto say = [&](EndFault fault, std::string_view end) {
         if (fault == EndFault::none) return;
         faults.push_back(fmt::format("{} end {}", end,
@@ -207,8 +210,9 @@ class Writer {
       say(p.check->low, "its lower");
       say(p.check->high, "its upper");
       texts_.push_back(fmt::format(
-          "do not trust the 95 % interval of {}, {} to {}: the misfit is no parabola, {}; {}", p.name,
-          short_text(p.ci95->low), short_text(p.ci95->high), listed(faults),
+          "do not trust the 95 % interval of {}, {} to {}: {}{}; {}", p.name, short_text(p.ci95->low),
+          short_text(p.ci95->high),
+          is_off(p.check->low) || is_off(p.check->high) ? "the misfit is no parabola, " : "", listed(faults),
           spec_.uncertainty.profile ? "believe its profile interval" : "ask for uncertainty.profile = true"));
     }
   }

@@ -6,20 +6,18 @@
 namespace shearfront::diffusion {
 namespace {
 
-/// Another cell: distance of its middle from that of cell j, with sign, its width and how much its mean is
-/// above that of cell j.
+/// Another cell, lengths over the width of cell j: distance of its middle from that of cell j, with sign, its
+/// width and how much its mean is above that of cell j.
 struct Other {
   double distance, width, excess;
 
   /// Mean over the cell of x^2 less that over cell j.
-  [[nodiscard]] double square(double own) const {
-    return distance * distance + (width * width - own * own) / 12;
-  }
+  [[nodiscard]] double square() const { return distance * distance + (width * width - 1) / 12; }
 };
 
 /// Slope at the middle of the parabola whose means are those of cell j, a and b.
-double slope(double own, const Other& a, const Other& b) {
-  const double square_a = a.square(own), square_b = b.square(own);
+double slope(const Other& a, const Other& b) {
+  const double square_a = a.square(), square_b = b.square();
   return (a.excess * square_b - b.excess * square_a) / (a.distance * square_b - b.distance * square_a);
 }
 
@@ -37,18 +35,18 @@ double half_rise(const Problem& problem, std::span<const double> means, std::siz
   }
   const double own = problem.width(j);
   const auto other = [&](std::size_t k, double distance) {
-    return Other{distance, problem.width(k), means[k] - means[j]};
+    return Other{distance / own, problem.width(k) / own, means[k] - means[j]};
   };
   const bool has_below = j > 0 || is_periodic, has_above = j + 1 < n || is_periodic;
   const std::size_t below = j > 0 ? j - 1 : n - 1, above = j + 1 < n ? j + 1 : 0;
   const double down = -0.5 * (own + problem.width(below)), up = 0.5 * (own + problem.width(above));
-  if (has_below && has_above) return 0.5 * own * slope(own, other(below, down), other(above, up));
+  if (has_below && has_above) return 0.5 * slope(other(below, down), other(above, up));
   if (has_above) {
     const double next = up + 0.5 * (problem.width(above) + problem.width(above + 1));
-    return 0.5 * own * slope(own, other(above, up), other(above + 1, next));
+    return 0.5 * slope(other(above, up), other(above + 1, next));
   }
   const double next = down - 0.5 * (problem.width(below) + problem.width(below - 1));
-  return 0.5 * own * slope(own, other(below, down), other(below - 1, next));
+  return 0.5 * slope(other(below, down), other(below - 1, next));
 }
 
 double bounded_half_rise(const Problem& problem, std::span<const double> means, std::size_t j,

@@ -33,6 +33,7 @@ CrankNicolson::CrankNicolson(const Problem& problem, Options options, std::vecto
   SHEARFRONT_EXPECTS(n_ >= 2, "at least two cells");
   SHEARFRONT_EXPECTS(parameters_.empty() || (problem.has_equal_cells() && !options_.regrid),
                      "derivatives on a grid of equal cells");
+  SHEARFRONT_EXPECTS(!options_.regrid || !problem.has_equal_cells(), "cells given by their faces");
   set_grid();
   SHEARFRONT_EXPECTS(options_.dt > 0 || options_.tolerance > 0, "fixed steps or a tolerance");
   std::copy(problem.initial.begin(), problem.initial.end(), phi_.begin() + 1);

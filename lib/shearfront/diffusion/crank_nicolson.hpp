@@ -33,7 +33,8 @@ struct Options {
   std::uint64_t max_steps = 1'000'000'000;
   /// Called after every step with (t, steps so far); return false to stop with Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
-  /// Called after every step with the present problem and states; may return another grid for the next one.
+  /// Called after every step with the present problem and states; may return another grid for the
+  /// next one. Precondition: the first problem has `faces`.
   std::function<std::optional<Regrid>(const Problem&, std::span<const double>)> regrid;
 };
 
@@ -63,7 +64,7 @@ struct TimeStep {
 ///   only).
 ///
 /// On another grid (Options::regrid) the states and the fluxes of the last two steps go on, see
-/// grid_transfer.hpp; the mass stays what it is, and so do the bounds of (3).
+/// grid_transfer.hpp; the mass stays what it is, and fitted states stay in the range of the flux.
 ///
 /// Adaptive steps: the local error is estimated from the distance to a quadratic extrapolation in time and
 /// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. They start with

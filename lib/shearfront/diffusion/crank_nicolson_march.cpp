@@ -145,8 +145,9 @@ void CrankNicolson::start_fixed() {
 }
 
 void CrankNicolson::start_adaptive(double t) {
-  const double rate = largest_magnitude(initial_rates().data(), n_);
-  is_steady_ = rate == 0;
+  const std::vector<double> rates = initial_rates();
+  const double rate = largest_magnitude(rates.data(), n_);  // which knows no NaN
+  is_steady_ = std::all_of(rates.begin(), rates.end(), [](double r) { return r == 0; });
   control_.start(rate / scale_, t - time_);
 }
 

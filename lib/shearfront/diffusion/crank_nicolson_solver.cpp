@@ -27,6 +27,9 @@ std::string diffusion::refusal(const Scene<double>& scene, const SolverOptions& 
     return "tolerance = " + number_text(options.tolerance) + "; must be > 0 and <= 1";
   if (options.cell_tolerance != 0 && !(options.cell_tolerance >= 1e-6 && options.cell_tolerance <= 0.1))
     return "cell_tolerance = " + number_text(options.cell_tolerance) + "; must be >= 1e-6 and <= 0.1, or 0";
+  if (options.cell_tolerance > 0 && options.cells > Refinement::kMostCells)
+    return "cells = " + std::to_string(options.cells) +
+           "; must be <= " + std::to_string(Refinement::kMostCells) + " with a cell_tolerance";
   return "";
 }
 
@@ -74,6 +77,12 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
     summary.status = Status::unsupported;
     return result;
   }
+  if (options.time_step > 0 &&
+      std::any_of(request.times.begin(), request.times.end(), [](double t) { return std::isinf(t); })) {
+    summary.status = Status::unsupported;
+    summary.message = "fixed steps do not reach the steady state: leave time_step out";
+    return result;
+  }
   diffusion::Options own = diffusion::options_of(options);
   std::optional<diffusion::Refinement> refinement;
   if (options.cell_tolerance > 0)
@@ -104,8 +113,8 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
   summary.status = status;
   summary.message = refinement && refinement->is_exhausted()
                         ? "more than " + std::to_string(diffusion::Refinement::kMostCells) +
-                              " cells wanted at t = " + number_text(engine.time()) +
-                              "; take a larger cell_tolerance"
+                              " cells wanted, or narrower ones than heights can tell apart, at t = " +
+                              number_text(engine.time()) + "; take a larger cell_tolerance"
                     : !is_usable()       ? engine.message()
                     : engine.is_steady() ? "steady state reached"
                                          : "reached the last time";

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "shearfront/diffusion/extended_flux.hpp"
+#include "shearfront/numeric/contract.hpp"
 
 namespace shearfront::diffusion {
 namespace {
@@ -79,6 +80,7 @@ class MeanRule final : public FaceRule {
     fill(v, out);
   }
   void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) override {
+    SHEARFRONT_EXPECTS(per_below_.empty(), "equal cells");
     for (std::size_t i = 0; i <= n_; ++i) {
       const double rise = v[i + 1] - v[i];
       out[i] = 0;

@@ -53,7 +53,8 @@ class FaceRule {
   virtual void evaluate(const double* v, FaceFluxes& out) = 0;
   /// Fixed point: derivatives of the line from the states w to v, so that the nonlinear factor lags behind.
   virtual void evaluate_lagged(const double* v, const double* w, FaceFluxes& out) = 0;
-  /// Derivative of `value` with respect to a parameter of the problem, the states unchanged.
+  /// Derivative of `value` with respect to a parameter of the problem, the states unchanged. Precondition:
+  /// equal cells.
   virtual void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) = 0;
   /// Largest L for which an explicit step of length 1 / L is monotone with the fitted flux.
   [[nodiscard]] virtual double explicit_rate() const = 0;

@@ -12,7 +12,18 @@ RefinedCells::RefinedCells(double bottom, double top, std::size_t n) : bottom_(b
   SHEARFRONT_EXPECTS(n >= 2 && bottom < top, "at least two cells");
   for (int level = 0; level <= kMostHalvings; ++level)
     shares_[static_cast<std::size_t>(level)] = std::ldexp(1 / static_cast<double>(n), -level);
+  const double narrowest = 0x1p-40 * std::max(std::abs(bottom), std::abs(top));
+  while (most_halvings_ < kMostHalvings &&
+         (top - bottom) * shares_[static_cast<std::size_t>(most_halvings_) + 1] >= narrowest)
+    ++most_halvings_;
   for (std::size_t j = 0; j < n; ++j) cells_.push_back({0, j});
+}
+
+bool RefinedCells::are_too_wide_for(std::span<const double> wanted_widths) const {
+  for (std::size_t j = 0; j < cells_.size(); ++j)
+    if (cells_[j].level == most_halvings_ && (top_ - bottom_) * share(cells_[j]) > 2 * wanted_widths[j])
+      return true;
+  return false;
 }
 
 std::vector<double> RefinedCells::faces() const {
@@ -36,7 +47,7 @@ std::vector<CellChange> RefinedCells::changes_towards(std::span<const double> wa
   std::vector<CellChange> changes(cells_.size(), CellChange::keep);
   for (std::size_t j = 0; j < cells_.size(); ++j) {
     const double own = (top_ - bottom_) * share(cells_[j]);
-    if (own > wanted_widths[j] && cells_[j].level < kMostHalvings) {
+    if (own > wanted_widths[j] && cells_[j].level < most_halvings_) {
       changes[j] = CellChange::split;
     } else if (are_halves(j) && std::min(wanted_widths[j], wanted_widths[j + 1]) >= kMergeAbove * own) {
       changes[j] = changes[j + 1] = CellChange::merge;

@@ -26,6 +26,9 @@ class RefinedCells {
   /// The changes by which cells that are wider than wanted are split, and halves merged if both are to be at
   /// least twice as wide: one halving each, so that a grid that is off by more takes several rounds.
   [[nodiscard]] std::vector<CellChange> changes_towards(std::span<const double> wanted_widths) const;
+  /// Whether a cell is twice as wide as wanted and cannot be halved: kMostHalvings times, or its faces could
+  /// hardly be told apart (widths below 2^12 units in the last place of the heights).
+  [[nodiscard]] bool are_too_wide_for(std::span<const double> wanted_widths) const;
   /// One change for each cell.
   void apply(std::span<const CellChange> changes);
 
@@ -41,6 +44,7 @@ class RefinedCells {
   [[nodiscard]] bool are_halves(std::size_t j) const;
 
   double bottom_, top_;
+  int most_halvings_ = 0;
   std::array<double, kMostHalvings + 1> shares_;  ///< of each level
   std::vector<Cell> cells_;
 };

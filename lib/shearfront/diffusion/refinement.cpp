@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kGrading = 0.0625;
 constexpr double kQuiet = 0.03;
+/// How often equal cells are halved for what is steeper than any front: data, and their first moments.
+constexpr int kHalvingsOfData = 3;
 /// max |phi''| of the logistic front 1 / (1 + exp(x)): 1 / (6 sqrt(3)).
 constexpr double kFrontBend = 0.09622504486493763;
 constexpr int kCallsBetweenCleanings = 32;
@@ -59,14 +61,17 @@ std::vector<double> front_widths(const Problem& problem, double bend) {
 
 }  // namespace
 
-std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states, double bend) {
+std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states, double bend,
+                                  double equal_width) {
   const std::vector<double> slope = slopes(problem, states), finest = front_widths(problem, bend);
   const double widest = problem.top - problem.bottom, quiet = kQuiet * bend * std::sqrt(bend);
+  const double data = std::ldexp(equal_width, -kHalvingsOfData);
   std::vector<double> wanted(problem.n_cells);
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     const double width = problem.width(j), found = std::abs(slope[j + 1] - slope[j]) * width;
     const double smooth = width * std::sqrt(quiet / std::max(found, 1e-300));
-    wanted[j] = std::min(std::max(smooth, std::min(finest[j], finest[j + 1])), widest);
+    const double front = std::min(finest[j], finest[j + 1]);
+    wanted[j] = std::min(std::max(smooth, std::min(front, data)), widest);
   }
   return wanted;
 }
@@ -80,9 +85,16 @@ std::vector<double> graded(const Problem& problem, std::vector<double> widths) {
 }
 
 Refinement::Refinement(const Scene<double>& scene, std::size_t n_cells, double bend)
-    : scene_(scene), cells_(scene.bottom(), scene.top(), n_cells), bend_(bend) {}
+    : scene_(scene),
+      cells_(scene.bottom(), scene.top(), n_cells),
+      bend_(bend),
+      equal_width_((scene.top() - scene.bottom()) / static_cast<double>(n_cells)) {}
 
-bool Refinement::apply(std::span<const CellChange> changes) {
+bool Refinement::change_towards(const Problem& present, std::vector<double> widths,
+                                std::vector<CellChange>& changes) {
+  widths = graded(present, std::move(widths));
+  changes = cells_.changes_towards(widths);
+  if (cells_.are_too_wide_for(widths)) is_exhausted_ = true;
   if (std::all_of(changes.begin(), changes.end(), [](CellChange c) { return c == CellChange::keep; }))
     return false;
   const auto n_split = std::count(changes.begin(), changes.end(), CellChange::split);
@@ -93,22 +105,25 @@ bool Refinement::apply(std::span<const CellChange> changes) {
 }
 
 Problem Refinement::start() {
+  for (int i = 0; i < kHalvingsOfData && 2 * cells_.size() <= kMostCells; ++i)
+    cells_.apply(std::vector<CellChange>(cells_.size(), CellChange::split));
   Problem problem = problem_of(scene_, cells_.faces());
+  std::vector<CellChange> changes;
   for (int i = 0; i < 2 * RefinedCells::kMostHalvings; ++i) {
-    const std::vector<double> widths = graded(problem, wanted_widths(problem, problem.initial, bend_));
-    if (!apply(cells_.changes_towards(widths))) break;
+    if (!change_towards(problem, wanted_widths(problem, problem.initial, bend_, equal_width_), changes))
+      break;
     problem = problem_of(scene_, cells_.faces());
   }
   return problem;
 }
 
 std::optional<Regrid> Refinement::next(const Problem& present, std::span<const double> states) {
-  std::vector<double> widths = wanted_widths(present, states, bend_);
+  std::vector<double> widths = wanted_widths(present, states, bend_, equal_width_);
   bool is_needed = ++n_calls_ % kCallsBetweenCleanings == 0;
   for (std::size_t j = 0; j < present.n_cells && !is_needed; ++j) is_needed = present.width(j) > widths[j];
   if (!is_needed) return {};
-  std::vector<CellChange> changes = cells_.changes_towards(graded(present, std::move(widths)));
-  if (!apply(changes)) return {};
+  std::vector<CellChange> changes;
+  if (!change_towards(present, std::move(widths), changes)) return {};
   return Regrid{problem_without_initial(scene_, cells_.faces()), std::move(changes)};
 }
 

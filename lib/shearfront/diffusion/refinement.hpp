@@ -12,16 +12,20 @@
 
 namespace shearfront::diffusion {
 
-/// Widths dz_j that cells of such states should have: 0.03 bend^(3/2) = dz^2 |phi_zz|, phi_z at walls being
-/// what the condition there says (so a layer at a wall is seen before it is resolved), but no smaller than
-/// fronts ask for: the width at which the steepest front there is, the logistic one of the width D / (|r| W),
-/// W = max |f'|, bends by `bend` from one cell to the next, sqrt(bend / 0.0962) D / (|r| W). So cells of a
-/// front bend by up to `bend`, and cells change their widths only where states bend far less: the truncation
-/// error jumps there, and when the grid moves on, what states had adjusted to it is left behind as a
-/// disturbance. It has to stay below what time steps may err, tolerance^(3/2), or it keeps them short
-/// (measured: up to tenfold). Cost: O(cells).
+/// Widths dz_j that cells of such states should have.
+///
+/// 0.03 bend^(3/2) = dz^2 |phi_zz|, phi_z at walls being what the condition there says (so a layer at a wall
+/// is seen before it is resolved), but no smaller than fronts ask for: the width at which the steepest front
+/// there is, the logistic one of the width D / (|r| W), W = max |f'|, bends by `bend` from one cell to the
+/// next, sqrt(bend / 0.0962) D / (|r| W), or an eighth of equal_width if that is less. What is steeper than
+/// fronts, as a jump in the beginning, is resolved no further.
+///
+/// So cells of a front bend by up to `bend`, and cells change their widths only where states bend far less:
+/// the truncation error jumps there, and when the grid moves on, what states had adjusted to it is left
+/// behind as a disturbance. It has to stay below what time steps may err, tolerance^(3/2), or it keeps them
+/// short (measured: up to tenfold). Cost: O(cells).
 [[nodiscard]] std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states,
-                                                double bend);
+                                                double bend, double equal_width);
 
 /// Widths that grow by at most a sixteenth of the distance from where they are small: fronts may go some
 /// cells before they leave the small ones, and neighbours differ by a factor of two at most.
@@ -38,21 +42,23 @@ class Refinement {
   /// rounding of the iteration asks for cells).
   Refinement(const Scene<double>& scene, std::size_t n_cells, double bend);
 
-  /// The scene on the grid for its initial data.
+  /// The scene on the grid for its initial data, which n_cells must resolve to an eighth of a cell: what has
+  /// the same mean in all eighths of a cell is not seen.
   [[nodiscard]] Problem start();
   /// A better grid once the present one, that of the last call, does not do; every 32 calls also if it
   /// need not be as fine. Cost: O(cells).
   [[nodiscard]] std::optional<Regrid> next(const Problem& present, std::span<const double> states);
-  /// More than kMostCells cells were wanted; the grid then stays as it is.
+  /// More than kMostCells cells were wanted, or narrower ones than heights can tell apart; the grid then
+  /// stays as it is.
   [[nodiscard]] bool is_exhausted() const { return is_exhausted_; }
 
  private:
-  /// Whether there was anything to change.
-  bool apply(std::span<const CellChange> changes);
+  /// Whether there is anything to change; it is done.
+  bool change_towards(const Problem& present, std::vector<double> widths, std::vector<CellChange>& changes);
 
   const Scene<double>& scene_;
   RefinedCells cells_;
-  double bend_;
+  double bend_, equal_width_;
   int n_calls_ = 0;
   bool is_exhausted_ = false;
 };
