@@ -8,22 +8,15 @@
 #include "shearfront/hopf_lax/solver.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"
+#include "support/layered_spec.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
 namespace {
 
+using support::layered;
 using support::relative_error;
 using support::SceneMaker;
-
-SceneSpec<double> layered(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
-                          std::vector<double> values) {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{std::move(breaks), std::move(a)};
-  spec.initial_breaks = std::move(jumps);
-  spec.initial_values = std::move(values);
-  return spec;
-}
 
 /// double against 50 digits on a grid, and the bounds.
 void expect_accurate(const SceneSpec<double>& spec, const std::vector<double>& times,

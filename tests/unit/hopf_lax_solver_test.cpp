@@ -5,18 +5,12 @@
 #include "shearfront/hopf_lax/events.hpp"
 #include "shearfront/hopf_lax/exact_solution.hpp"
 #include "shearfront/hopf_lax/solver.hpp"
+#include "support/layered_spec.hpp"
 
 namespace shearfront {
 namespace {
 
-SceneSpec<double> layered(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
-                          std::vector<double> values) {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{std::move(breaks), std::move(a)};
-  spec.initial_breaks = std::move(jumps);
-  spec.initial_values = std::move(values);
-  return spec;
-}
+using support::layered;
 
 TEST(ExactSolverApi, SamplesTimelineAndSummary) {
   const Scene<double> scene(layered({0.29}, {2.4, 0.31}, {0.5}, {0, 1}));

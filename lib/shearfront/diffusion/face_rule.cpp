@@ -95,7 +95,7 @@ class MeanRule final : public FaceRule {
 
  private:
   void set_unequal(const Problem& problem) {
-    const double fastest = flux_.fastest();
+    const double fastest = scheme == Scheme::fitted ? flux_.fastest() : 0;
     const bool is_periodic = ends_ == Ends::periodic;
     for (auto* faces : {&rates_below_, &rates_above_, &diffusions_, &per_below_, &per_above_})
       faces->reserve(n_ + 1);

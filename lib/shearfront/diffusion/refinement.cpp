@@ -47,31 +47,32 @@ std::vector<double> slopes(const Problem& problem, std::span<const double> state
   return all;
 }
 
-/// Smallest widths at the faces.
-std::vector<double> front_widths(const Problem& problem, double bend) {
-  const double fastest = std::visit(
-      [](const auto& flux) { return ExtendedFlux<std::decay_t<decltype(flux)>, false>(flux).fastest(); },
-      problem.flux);
-  const double share = std::sqrt(bend / kFrontBend) / fastest, widest = problem.top - problem.bottom;
-  std::vector<double> widths(problem.n_cells + 1);
-  for (std::size_t i = 0; i < widths.size(); ++i)
-    widths[i] = std::min(widest, share * problem.diffusivity[i] / std::abs(problem.rate[i]));
-  return widths;
+/// max |f'|.
+double fastest(const Flux<double>& flux) {
+  return std::visit([](const auto& f) { return ExtendedFlux<std::decay_t<decltype(f)>, false>(f).fastest(); },
+                    flux);
 }
 
 }  // namespace
 
-std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states, double bend,
-                                  double equal_width) {
-  const std::vector<double> slope = slopes(problem, states), finest = front_widths(problem, bend);
-  const double widest = problem.top - problem.bottom, quiet = kQuiet * bend * std::sqrt(bend);
-  const double data = std::ldexp(equal_width, -kHalvingsOfData);
+std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states,
+                                  const Resolution& resolution) {
+  const double bend = resolution.bend, quiet = kQuiet * bend * std::sqrt(bend);
+  const double front_share = std::sqrt(bend / kFrontBend) / resolution.fastest;
+  const double data = std::ldexp(resolution.equal_width, -kHalvingsOfData);
+  const double widest = problem.top - problem.bottom;
+  const std::vector<double> slope = slopes(problem, states);
+  const auto front_at = [&](std::size_t i) {
+    return std::min(widest, front_share * problem.diffusivity[i] / std::abs(problem.rate[i]));
+  };
   std::vector<double> wanted(problem.n_cells);
+  double front_below = front_at(0);
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     const double width = problem.width(j), found = std::abs(slope[j + 1] - slope[j]) * width;
     const double smooth = width * std::sqrt(quiet / std::max(found, 1e-300));
-    const double front = std::min(finest[j], finest[j + 1]);
-    wanted[j] = std::min(std::max(smooth, std::min(front, data)), widest);
+    const double front_above = front_at(j + 1);
+    wanted[j] = std::min(std::max(smooth, std::min({front_below, front_above, data})), widest);
+    front_below = front_above;
   }
   return wanted;
 }
@@ -87,8 +88,7 @@ std::vector<double> graded(const Problem& problem, std::vector<double> widths) {
 Refinement::Refinement(const Scene<double>& scene, std::size_t n_cells, double bend)
     : scene_(scene),
       cells_(scene.bottom(), scene.top(), n_cells),
-      bend_(bend),
-      equal_width_((scene.top() - scene.bottom()) / static_cast<double>(n_cells)) {}
+      resolution_{bend, (scene.top() - scene.bottom()) / static_cast<double>(n_cells), 0} {}
 
 bool Refinement::change_towards(const Problem& present, std::vector<double> widths,
                                 std::vector<CellChange>& changes) {
@@ -108,17 +108,17 @@ Problem Refinement::start() {
   for (int i = 0; i < kHalvingsOfData && 2 * cells_.size() <= kMostCells; ++i)
     cells_.apply(std::vector<CellChange>(cells_.size(), CellChange::split));
   Problem problem = problem_of(scene_, cells_.faces());
+  resolution_.fastest = fastest(problem.flux);
   std::vector<CellChange> changes;
   for (int i = 0; i < 2 * RefinedCells::kMostHalvings; ++i) {
-    if (!change_towards(problem, wanted_widths(problem, problem.initial, bend_, equal_width_), changes))
-      break;
+    if (!change_towards(problem, wanted_widths(problem, problem.initial, resolution_), changes)) break;
     problem = problem_of(scene_, cells_.faces());
   }
   return problem;
 }
 
 std::optional<Regrid> Refinement::next(const Problem& present, std::span<const double> states) {
-  std::vector<double> widths = wanted_widths(present, states, bend_, equal_width_);
+  std::vector<double> widths = wanted_widths(present, states, resolution_);
   bool is_needed = ++n_calls_ % kCallsBetweenCleanings == 0;
   for (std::size_t j = 0; j < present.n_cells && !is_needed; ++j) is_needed = present.width(j) > widths[j];
   if (!is_needed) return {};

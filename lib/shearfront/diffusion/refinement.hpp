@@ -12,20 +12,27 @@
 
 namespace shearfront::diffusion {
 
+/// How fine cells are to be.
+struct Resolution {
+  double bend;         ///< see wanted_widths()
+  double equal_width;  ///< of the equal cells at the beginning
+  double fastest;      ///< W = max |f'|
+};
+
 /// Widths dz_j that cells of such states should have.
 ///
 /// 0.03 bend^(3/2) = dz^2 |phi_zz|, phi_z at walls being what the condition there says (so a layer at a wall
 /// is seen before it is resolved), but no smaller than fronts ask for: the width at which the steepest front
-/// there is, the logistic one of the width D / (|r| W), W = max |f'|, bends by `bend` from one cell to the
+/// there is, the logistic one of the width D / (|r| W), bends by `bend` from one cell to the
 /// next, sqrt(bend / 0.0962) D / (|r| W), or an eighth of equal_width if that is less. What is steeper than
 /// fronts, as a jump in the beginning, is resolved no further.
 ///
 /// So cells of a front bend by up to `bend`, and cells change their widths only where states bend far less:
 /// the truncation error jumps there, and when the grid moves on, what states had adjusted to it is left
 /// behind as a disturbance. It has to stay below what time steps may err, tolerance^(3/2), or it keeps them
-/// short (measured: up to tenfold). Cost: O(cells).
+/// short. Cost: O(cells).
 [[nodiscard]] std::vector<double> wanted_widths(const Problem& problem, std::span<const double> states,
-                                                double bend, double equal_width);
+                                                const Resolution& resolution);
 
 /// Widths that grow by at most a sixteenth of the distance from where they are small: fronts may go some
 /// cells before they leave the small ones, and neighbours differ by a factor of two at most.
@@ -58,7 +65,7 @@ class Refinement {
 
   const Scene<double>& scene_;
   RefinedCells cells_;
-  double bend_, equal_width_;
+  Resolution resolution_;
   int n_calls_ = 0;
   bool is_exhausted_ = false;
 };
