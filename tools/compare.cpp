@@ -17,7 +17,7 @@
 #include "compare/report.hpp"
 #include "plot/error_time.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/hopf_lax/refusal.hpp"
+#include "shearfront/exact/refusal.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -106,7 +106,7 @@ int compare_with_paper(const CompareArguments& arguments) {
 }
 
 void check_scene(const Scene<double>& scene, const std::string& path) {
-  if (const std::string reason = hopf_lax::refusal(scene); !reason.empty())
+  if (const std::string reason = exact::refusal(scene); !reason.empty())
     throw InputError(printable(path), "", "has no exact solution to compare with: " + reason);
 }
 

@@ -15,7 +15,8 @@
 #include "cli/progress.hpp"
 #include "cli/table.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -24,7 +25,7 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr int kDoubleDigits = 17, kReal50Digits = 40, kMostDigits = 100;
+constexpr int kDoubleDigits = 17, kMostDigits = 100;
 // Few enough fronts to be told apart.
 constexpr double kPictureResolution = 0.04;
 constexpr std::size_t kPictureLayers = 100;
@@ -160,7 +161,7 @@ int draw(const EventsArguments& arguments, const Scene<double>& scene, const Tim
   const std::string method = methods_with_fronts().front();
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
-  request.depths = {scene.bottom()};
+  request.heights = {scene.bottom()};
   request.fronts = true;
   const SolverResult result = solve_with(method, scene, request, options);
   if (!result.summary.usable()) return report_unusable(result.summary);
@@ -201,10 +202,8 @@ int events(const EventsArguments& arguments) {
     }
     return report_unusable(result.summary);
   }
-  if (digits > kReal50Digits) {
+  if (digits > kDoubleDigits) {
     many_digits<Real110>(arguments, scene, digits);
-  } else if (digits > kDoubleDigits) {
-    many_digits<Real50>(arguments, scene, digits);
   } else {
     print_events(arguments, scene, *result.timeline, result.summary, digits);
   }

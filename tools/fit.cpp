@@ -31,17 +31,17 @@ struct FitArguments {
 /// All files, with the problems of all of them.
 std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
   std::vector<fit::FitFile> files;
-  Problems problems;
+  Complaints complaints;
   std::string report;
   for (const std::string& path : paths) {
     try {
       files.push_back(fit::read_fit_file(path));
     } catch (const FileError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
       report += (report.empty() ? "" : "\n") + std::string(error.what());
     }
   }
-  if (!problems.empty()) throw FileError(std::move(problems), std::move(report));
+  if (!complaints.empty()) throw FileError(std::move(complaints), std::move(report));
   return files;
 }
 

@@ -87,7 +87,7 @@ std::string unknowns() {
         field->models += (field->models.empty() ? "" : ", ") + std::string(model);
     });
   };
-  ShearRateList<double>::for_each([&]<class A>() {
+  DepthFunctionList<double>::for_each([&]<class A>() {
     SceneSpec<double> spec;
     spec.shear_rate = A{};
     visit(spec, "shear_rate.", A::kName);
@@ -97,9 +97,9 @@ std::string unknowns() {
     spec.fluxes = {F{}};
     visit(spec, "flux.", F::kName);
   });
-  InitialProfileList<double>::for_each([&]<class P>() {
+  InitialStateList<double>::for_each([&]<class P>() {
     SceneSpec<double> spec;
-    spec.initial_profile = P{};
+    spec.initial_state = P{};
     visit(spec, "initial.", P::kName);
   });
   ClosePackingList<double>::for_each([&]<class C>() {
@@ -121,12 +121,12 @@ int list() {
   });
   all += indented(fluxes.text()) + "\nShear rates (shear_rate.model)\n";
   TextTable rates({"name", "a(z)", "entries"});
-  ShearRateList<double>::for_each([&]<class A>() {
+  DepthFunctionList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
   all += indented(rates.text()) + "\nSmooth initial profiles, with diffusion (initial.model)\n";
   TextTable initial({"name", "phi(z, 0)", "entries"});
-  InitialProfileList<double>::for_each([&]<class P>() {
+  InitialStateList<double>::for_each([&]<class P>() {
     initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});
   });
   all += indented(initial.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";

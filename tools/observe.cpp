@@ -60,13 +60,13 @@ double width_of(const ObserveArguments& arguments, const ObservationPlan& plan) 
 
 /// The first problem of the plan as one of the option it comes from.
 void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, const Scene<double>& scene) {
-  const Problems problems = find_problems(plan, scene.bottom(), scene.top());
-  if (problems.empty()) return;
-  const Problem& problem = problems.front();
-  const std::string key = problem.key.substr(0, problem.key.find('['));
-  if (key == "width") refuse("--width", problem.value, problem.constraint);
+  const Complaints complaints = find_complaints(plan, scene.bottom(), scene.top());
+  if (complaints.empty()) return;
+  const Complaint& complaint = complaints.front();
+  const std::string key = complaint.key.substr(0, complaint.key.find('['));
+  if (key == "width") refuse("--width", complaint.value, complaint.constraint);
   refuse("--" + key, key == "times" ? arguments.times : arguments.depths,
-         fmt::format("{} (here {})", problem.constraint, problem.value));
+         fmt::format("{} (here {})", complaint.constraint, complaint.value));
 }
 
 void check_arguments(const ObserveArguments& arguments) {

@@ -39,8 +39,8 @@ std::vector<double> depths_of(const SolveArguments& arguments, const Scene<doubl
 SolverRequest request_of(const SolveArguments& arguments, const Scene<double>& scene) {
   SolverRequest request;
   request.times = list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed);
-  request.depths = depths_of(arguments, scene);
-  const double n = static_cast<double>(request.times.size()) * static_cast<double>(request.depths.size());
+  request.heights = depths_of(arguments, scene);
+  const double n = static_cast<double>(request.times.size()) * static_cast<double>(request.heights.size());
   if (n > kMostSamples) refuse("--times", arguments.times, "must give at most 1e8 pairs of time and depth");
   request.fronts = !arguments.fronts.empty();
   // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
@@ -156,10 +156,10 @@ int solve(const SolveArguments& arguments) {
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
   if (arguments.json)
-    write_samples_json(output, scene.name(), arguments.method.method(), times, request.depths, result.samples,
+    write_samples_json(output, scene.name(), arguments.method.method(), times, request.heights, result.samples,
                        result.summary);
   else
-    write_samples_csv(output, times, request.depths, result.samples);
+    write_samples_csv(output, times, request.heights, result.samples);
   if (fronts) write_fronts_csv(*fronts, result.fronts);
   if (fronts) fronts->commit();
   output.commit();

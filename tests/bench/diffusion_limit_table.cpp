@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "shearfront/diffusion/crank_nicolson_solver.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/track/solver.hpp"
 
 namespace shearfront {

@@ -3,9 +3,10 @@
 // construction.
 #include <benchmark/benchmark.h>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
@@ -76,12 +77,12 @@ void BM_Construction(benchmark::State& state) {
 }
 void BM_Point50Digits(benchmark::State& state) {
   const auto scene = scene_of(static_cast<Kind>(state.range(0)), static_cast<int>(state.range(1)));
-  const ExactSolution<Real50> solution(scene_cast<Real50>(scene));
+  const ExactSolution<Real110> solution(scene_cast<Real110>(scene));
   const auto points = points_of(scene);
   std::size_t i = 0;
   for (auto _ : state) {
     const auto& [z, t] = points[i++ % points.size()];
-    benchmark::DoNotOptimize(solution.at(Real50(z), Real50(t)));
+    benchmark::DoNotOptimize(solution.at(Real110(z), Real110(t)));
   }
 }
 

@@ -18,12 +18,12 @@ void row(Quantity quantity, const char* algorithm, std::size_t starts) {
   std::vector<std::size_t> evaluations;
   std::vector<double> seconds;
   for (int k = 0; k < kProblems; ++k) {
-    const auto problem = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
-    FitSpec spec = support::fit_of(problem, support::exact_data(problem, quantity));
+    const auto complaint = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
+    FitSpec spec = support::fit_of(complaint, support::exact_data(complaint, quantity));
     spec.search.algorithm = algorithm;
     spec.search.starts = starts;
     const Estimate estimate = fit(spec);
-    found += problem.error(estimate) <= kClose ? 1 : 0;
+    found += complaint.error(estimate) <= kClose ? 1 : 0;
     evaluations.push_back(estimate.evaluations);
     seconds.push_back(estimate.wall_s);
   }

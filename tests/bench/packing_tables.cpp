@@ -24,11 +24,11 @@ SceneSpec<double> example(int number, Grains grains) {
   spec.initial_values = {0.5};
   const Table<double> sloping{{0, 0.05, 0.95, 1}, {0.7, 0.7, 0.2, 0.2}};
   if (number == 1) {
-    spec.packing = Piecewise<double>{{}, {0.64}};
+    spec.solid_fraction = Piecewise<double>{{}, {0.64}};
   } else if (number == 4) {
-    spec.packing = Piecewise<double>{{0.56}, {0.68, 0.3}};
+    spec.solid_fraction = Piecewise<double>{{0.56}, {0.68, 0.3}};
   } else {
-    spec.packing = sloping;
+    spec.solid_fraction = sloping;
   }
   if (number == 3) {
     Table<double> temperature;
@@ -46,13 +46,13 @@ SceneSpec<double> example(int number, Grains grains) {
 double overshoot(fv::FaceRule rule, const Scene<double>& scene, std::size_t cells) {
   const fv::Grid grid{0, 1, cells, {}, {}};
   fv::PlainMarch march(rule, scene, grid, FaceCoefficient::harmonic);
-  const std::vector<double> packing = fv::cell_packings(scene, grid);
+  const std::vector<double> solid_fraction = fv::cell_packings(scene, grid);
   const fv::PlainMarch godunov(fv::FaceRule::godunov, scene, grid, FaceCoefficient::harmonic);
   const double dt = godunov.largest_step() / 2;
   double most = 0;
   for (double t = 0; t < 1.5; t += dt) {
     march.step(dt);
-    for (std::size_t j = 0; j < cells; ++j) most = std::max(most, packing[j] * (march.states()[j] - 1));
+    for (std::size_t j = 0; j < cells; ++j) most = std::max(most, solid_fraction[j] * (march.states()[j] - 1));
   }
   return most;
 }
@@ -96,7 +96,7 @@ void print_overshoot() {
   for (const auto& [below, above] : std::vector<std::array<double, 2>>{
            {0.55, 0.35}, {0.6, 0.3}, {0.64, 0.3}, {0.68, 0.3}, {0.7, 0.3}, {0.7, 0.2}, {0.8, 0.1}}) {
     SceneSpec<double> spec = example(4, Grains::large);
-    spec.packing = Piecewise<double>{{0.56}, {below, above}};
+    spec.solid_fraction = Piecewise<double>{{0.56}, {below, above}};
     std::printf("| %g, %g | %.5f |\n", below, above,
                 overshoot(fv::FaceRule::classical_godunov, Scene<double>(spec), 200));
   }

@@ -3,7 +3,7 @@
 // (2023) beside the consistent one, on their Example 1.
 #include <cstdio>
 
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
 #include "support/printed_engquist_osher.hpp"

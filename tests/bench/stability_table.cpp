@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/digits/real110.hpp"
 #include "support/hard_points.hpp"
 #include "support/side_by_side.hpp"
 
@@ -83,7 +84,7 @@ void print(const std::string& name, const ExactDifferences& error, const ExactDi
 
 void track(const Scene<double>& scene, double resolution, const std::vector<double>& times, int n_moves,
            Differences& error, Differences& moved) {
-  const auto oracle = support::run(scene_cast<Real50>(scene), resolution, times);
+  const auto oracle = support::run(scene_cast<Real110>(scene), resolution, times);
   error.add(compare(support::run(scene, resolution, times), oracle));
   for (int i = 1; i <= n_moves; ++i) {
     const auto other =
@@ -94,11 +95,11 @@ void track(const Scene<double>& scene, double resolution, const std::vector<doub
 
 void evaluate(const Scene<double>& scene, const std::vector<Point>& points, bool with_timeline, int n_moves,
               ExactDifferences& error, ExactDifferences& moved) {
-  const ExactRun<Real50> oracle(scene_cast<Real50>(scene), points, with_timeline);
+  const ExactRun<Real110> oracle(scene_cast<Real110>(scene), points, with_timeline);
   error.add(compare(ExactRun<double>(scene, points, with_timeline), oracle));
   for (int i = 1; i <= n_moves; ++i)
     moved.add(compare(
-        ExactRun<Real50>(support::perturbed(scene, static_cast<std::uint64_t>(i)), points, with_timeline),
+        ExactRun<Real110>(support::perturbed(scene, static_cast<std::uint64_t>(i)), points, with_timeline),
         oracle));
 }
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <memory>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "shearfront/digits/real110.hpp"
 #include "support/hard_points.hpp"
 #include "support/side_by_side.hpp"
 
@@ -50,7 +51,7 @@ void expect_explained(const ExactDifferences& error, const ExactDifferences& mov
 
 void check(const Scene<double>& scene, double resolution, const std::vector<double>& times, int n_moves,
            double rounding = kRounding) {
-  const auto oracle = support::run(scene_cast<Real50>(scene), resolution, times);
+  const auto oracle = support::run(scene_cast<Real110>(scene), resolution, times);
   Differences moved;
   for (int i = 1; i <= n_moves; ++i)
     moved.add(compare(
@@ -60,11 +61,11 @@ void check(const Scene<double>& scene, double resolution, const std::vector<doub
 
 void check(const Scene<double>& scene, const std::vector<support::Point>& points, bool with_timeline,
            int n_moves) {
-  const ExactRun<Real50> oracle(scene_cast<Real50>(scene), points, with_timeline);
+  const ExactRun<Real110> oracle(scene_cast<Real110>(scene), points, with_timeline);
   ExactDifferences moved;
   for (int i = 1; i <= n_moves; ++i)
     moved.add(compare(
-        ExactRun<Real50>(support::perturbed(scene, static_cast<std::uint64_t>(i)), points, with_timeline),
+        ExactRun<Real110>(support::perturbed(scene, static_cast<std::uint64_t>(i)), points, with_timeline),
         oracle));
   expect_explained(compare(ExactRun<double>(scene, points, with_timeline), oracle), moved);
 }
@@ -103,7 +104,7 @@ TEST(Stability, ErrorsDoNotGrowWithTheNumberOfCollisions) {
   const Scene<double> scene = support::shear_cell();
   for (const double resolution : {1e-2, 1e-3, 1e-4}) {
     const auto error = compare(support::run(scene, resolution, {0.5, 6}),
-                               support::run(scene_cast<Real50>(scene), resolution, {0.5, 6}));
+                               support::run(scene_cast<Real110>(scene), resolution, {0.5, 6}));
     EXPECT_LE(error.t_star, 4 * kRounding) << resolution;
     EXPECT_LE(error.M, 4 * kRounding) << resolution;
     EXPECT_LE(error.position, 8 * kRounding) << resolution;
@@ -113,7 +114,7 @@ TEST(Stability, ErrorsDoNotGrowWithTheNumberOfCollisions) {
 // Speeds that agree to 15 digits: the meeting comes out to all 16.
 TEST(Stability, NearlyParallelFrontsMeetWhereTheyShould) {
   const Scene<double> scene = support::nearly_parallel_fronts();
-  const auto error = compare(support::run(scene, 1, {1}), support::run(scene_cast<Real50>(scene), 1, {1}));
+  const auto error = compare(support::run(scene, 1, {1}), support::run(scene_cast<Real110>(scene), 1, {1}));
   EXPECT_EQ(error.unmatched, 0u);
   EXPECT_LE(error.time, 8 * kRounding);
 }

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/io/scene_file.hpp"
 
 int main(int, char** argv) {

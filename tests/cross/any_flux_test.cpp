@@ -72,7 +72,7 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       const double height = std::visit([](const auto& f) { return f.range().highest; }, flux);
       SolverRequest request;
       request.times = {0.2, 1};
-      for (int i = 1; i < 40; ++i) request.depths.push_back(i / 40.0);
+      for (int i = 1; i < 40; ++i) request.heights.push_back(i / 40.0);
       SolverOptions options;
       options.resolution = 0.003;
       const auto tracked = FrontTrackingSolver::solve(scene, request, options);

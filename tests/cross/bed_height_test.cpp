@@ -11,7 +11,7 @@
 
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
-#include "shearfront/hopf_lax/refusal.hpp"
+#include "shearfront/exact/refusal.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
 #include "shearfront/solution/mixing.hpp"
@@ -129,7 +129,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
       spec = maker.data(maker.integer(1, 5), maker.order(), 6);
     } else {
       spec = support::packed_data(maker, number % 4 == 1 ? Grains::small : Grains::large);
-      for (auto* profile : {&*spec.packing, &*spec.temperature})
+      for (auto* profile : {&*spec.solid_fraction, &*spec.temperature})
         *profile = maker.layers(2, SceneMaker::Order::random);
     }
     if (number % 3 == 1) spec.close_packing = PackingUpperBound<double>{0.6};
@@ -163,9 +163,9 @@ TEST(BedHeight, IntegralsOfTheShareAndOfOneAreConserved) {
     SCOPED_TRACE(support::name_of(flux));
     SceneMaker maker(support::seed_of(9200));
     SceneSpec<double> spec = support::draw(maker, flux, 3, 4);
-    spec.packing = maker.layers(2, SceneMaker::Order::random);
+    spec.solid_fraction = maker.layers(2, SceneMaker::Order::random);
     const Scene<double> scene(spec);
-    ASSERT_EQ(hopf_lax::refusal(scene), "");
+    ASSERT_EQ(exact::refusal(scene), "");
     for (const double share :
          integrals<ExactSolver>(scene, {0, 0.1, 0.7, 3, kSteady}, {[](double x) { return x; }, {}}))
       EXPECT_NEAR(share, scene.mass(), 1e-11);
@@ -203,7 +203,7 @@ TEST(BedHeightFit, FindsBothRatesAndTheirInterface) {
   EXPECT_NEAR(estimate.parameters[2].estimate, 0.29, 1e-10);
 }
 
-// Heights of another solver, and the law of packing unknown as well.
+// Heights of another solver, and the law of solid fraction unknown as well.
 TEST(BedHeightFit, FindsTheSameThroughFrontTracking) {
   const auto data = testing::observed(may(), every_tenth(), 0, 1, false);
   auto spec = testing::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {2.2, 0.35, 0.3});

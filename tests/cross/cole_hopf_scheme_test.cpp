@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "support/closeness.hpp"
@@ -73,7 +74,7 @@ class BesselSeries {
 TEST(ColeHopf, PeriodicBurgersIsTheBesselSeries) {
   for (const double mu : {1.0, 0.1, 0.01}) {
     const BesselSeries series(mu);
-    const PeriodicBurgers<Real50> exact(Real50(mu), 1, 1);
+    const PeriodicBurgers<Real110> exact(Real110(mu), 1, 1);
     const PeriodicBurgers<double> rounded(mu, 1, 1);
     for (const double t : {0.2, 2.0, 30.0})
       for (const double x : {1e-3, 1.0, 3.0, 5.0}) {

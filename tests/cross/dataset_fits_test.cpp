@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fits of synthetic data sets find the numbers the data were made with: entries of fluxes, the scale,
-// packing.
+// solid fraction.
 #include <gtest/gtest.h>
 
 #include <cmath>

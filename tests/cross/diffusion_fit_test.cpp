@@ -55,7 +55,7 @@ VectorXd difference(const Forward& forward, const VectorXd& at, Index j, double 
 }
 
 /// max |derivative - difference| of a column over its largest entry.
-double disagreement(const Parameters& parameters, const ForwardSpec& forward, Field field, Index j,
+double disagreement(const Parameters& parameters, const ForwardSpec& forward, Observable field, Index j,
                     double h) {
   std::vector<Point> points;
   for (const double t : {0.03, 0.3, 1.7})
@@ -75,11 +75,11 @@ void expect_derivatives(const SceneSpec<double>& spec, const std::vector<std::st
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const bool is_height = parameters[k].entry.field.ends_with("breaks");
     const double h = is_height ? 3e-3 * cell : 2e-5 * parameters[k].start;
-    for (const Field field : {Field::phi, Field::M})
+    for (const Observable field : {Observable::phi, Observable::M})
       // phi has kinks where the lines in the cells begin to be cut at 0 or 1, which differences pass.
       EXPECT_LT(disagreement(parameters, forward, field, static_cast<Index>(k), h),
-                field == Field::phi ? 1e-6 : 1e-7)
-          << parameters[k].name() << (field == Field::phi ? " phi" : " M");
+                field == Observable::phi ? 1e-6 : 1e-7)
+          << parameters[k].name() << (field == Observable::phi ? " phi" : " M");
   }
 }
 
@@ -225,11 +225,11 @@ TEST(SlowDiffusionFit, IntervalsCoverTheTruth) {
 
 TEST(DiffusionFit, RefusesWhatTheSchemeDoesNotCover) {
   const Parameters parameters = parameters_of(may_bed(1e-2), {"diffusion.D", "domain.top"});
-  EXPECT_FALSE(DiffusionForward(parameters, crank_nicolson(50, 0), Field::phi, {}).has_derivatives());
+  EXPECT_FALSE(DiffusionForward(parameters, crank_nicolson(50, 0), Observable::phi, {}).has_derivatives());
   SceneSpec<double> without = may_bed(0);
   without.diffusion.reset();
   const Parameters hyperbolic = parameters_of(without, {"shear_rate.values"});
-  EXPECT_THROW((void)make_forward(hyperbolic, crank_nicolson(50, 0), Field::phi, {}), InputError);
+  EXPECT_THROW((void)make_forward(hyperbolic, crank_nicolson(50, 0), Observable::phi, {}), InputError);
 }
 
 }  // namespace

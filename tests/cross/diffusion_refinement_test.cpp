@@ -239,8 +239,8 @@ TEST(DiffusionRefinement, SeesDataThatEqualCellsDoNot) {
   options.cell_tolerance = 0;
   const auto equal = CrankNicolsonSolver::solve(Scene<double>(spec), request, options);
   ASSERT_TRUE(refined.summary.usable() && equal.summary.usable()) << refined.summary.message;
-  for (std::size_t i = 0; i < request.depths.size(); ++i)
-    EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 3e-3) << request.depths[i];
+  for (std::size_t i = 0; i < request.heights.size(); ++i)
+    EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 3e-3) << request.heights[i];
 }
 
 // Whatever the unit of length: the same numbers, or a reason.

@@ -11,8 +11,8 @@
 
 #include "shearfront/diffusion/cole_hopf_solver.hpp"
 #include "shearfront/diffusion/crank_nicolson_solver.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
 
@@ -31,7 +31,7 @@ SceneSpec<double> uniform(double D, double phi = 0.55) {
 SceneSpec<double> kink() {
   SceneSpec<double> spec = uniform(0.01);
   spec.initial_values.clear();
-  spec.initial_profile = KinkInitial<double>{0.75, 0, 0.7, 0.01 / 0.75};
+  spec.initial_state = KinkInitial<double>{0.75, 0, 0.7, 0.01 / 0.75};
   spec.is_neumann = true;
   return spec;
 }
@@ -40,7 +40,7 @@ SceneSpec<double> burgers(double mu) {
   spec.fluxes = {Burgers<double>{-2, 2}};
   spec.initial_values.clear();
   spec.top = 2 * std::acos(-1.0);
-  spec.initial_profile = SineInitial<double>{0.5, 1, spec.top, 0.25};
+  spec.initial_state = SineInitial<double>{0.5, 1, spec.top, 0.25};
   spec.is_periodic = true;
   return spec;
 }
@@ -212,7 +212,7 @@ TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
   SceneSpec<double> still = may(1);
   still.diffusion.reset();
   SceneSpec<double> packed = may(1e-2);
-  packed.packing = Piecewise<double>{{}, {0.6}};
+  packed.solid_fraction = Piecewise<double>{{}, {0.6}};
   for (const SceneSpec<double>& spec : {still, may(0), may(1e-2), packed, kink()}) {
     const Scene<double> scene(spec);
     const bool has_diffusion = scene.has_diffusion();

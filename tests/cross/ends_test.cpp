@@ -48,8 +48,8 @@ TEST(Ends, APeriodicBedIsTheMiddleOfManyCopies) {
       spec.is_periodic = true;
       const int n = 11;
       SolverRequest request{{0.4, 2.5}, {}, false, false, false}, many = request;
-      for (int i = 0; i < 50; ++i) request.depths.push_back((i + 0.31) / 50);
-      for (const double z : request.depths) many.depths.push_back(z + 5);
+      for (int i = 0; i < 50; ++i) request.heights.push_back((i + 0.31) / 50);
+      for (const double z : request.heights) many.depths.push_back(z + 5);
       SolverOptions options;
       options.resolution = 0.05;
       const auto periodic = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
@@ -84,7 +84,7 @@ TEST(Ends, AnOpenEndNextToItsOwnStateIsNotThere) {
       spec.outside_bottom = OutsideState<double>{{}, {spec.initial_values.front()}};
       spec.outside_top = OutsideState<double>{{}, {spec.initial_values.back()}};
       SolverRequest request{{0.2, t}, {}, false, false, false};
-      for (int i = 0; i < 50; ++i) request.depths.push_back((i + 0.31) / 50);
+      for (int i = 0; i < 50; ++i) request.heights.push_back((i + 0.31) / 50);
       SolverOptions options;
       options.resolution = 0.05;
       const auto open = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
@@ -114,7 +114,7 @@ TEST(Ends, ChangingStatesAgreeWithGodunov) {
     spec.outside_bottom = bottom, spec.outside_top = top;
     const Scene<double> scene(spec);
     SolverRequest request{{0.5, 2.5}, {}, false, false, false};
-    for (int i = 1; i <= 20; ++i) request.depths.push_back(i / 20.0);
+    for (int i = 1; i <= 20; ++i) request.heights.push_back(i / 20.0);
     SolverOptions options;
     options.resolution = 0.002;
     const auto tracked = FrontTrackingSolver::solve(scene, request, options);

@@ -5,12 +5,13 @@
 
 #include <cmath>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/general_medium.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
-#include "shearfront/hopf_lax/medium.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/general_medium.hpp"
+#include "shearfront/exact/l1_error.hpp"
+#include "shearfront/exact/medium.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -22,7 +23,7 @@ using support::SceneMaker;
 
 TEST(GeneralLaw, BranchesInvertTheFlux) {
   const auto check = [](const Flux<double>& flux) {
-    const hopf_lax::UnimodalLaw<double> law(flux);
+    const exact::UnimodalLaw<double> law(flux);
     for (const bool up : {true, false}) {
       double before = -1;
       for (int i = 0; i <= 64; ++i) {
@@ -53,9 +54,9 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
   int jumps = 0;
   for (int n = 0; n < 100; ++n) {
     const Scene<double> scene(make.data(make.integer(1, 8), make.order(), 8));
-    const auto special = hopf_lax::make_medium(scene, 1);
-    const hopf_lax::NormalForm<double> form(scene, 1);
-    const hopf_lax::GeneralMedium<double> general(form);
+    const auto special = exact::make_medium(scene, 1);
+    const exact::CanonicalForm<double> form(scene, 1);
+    const exact::GeneralMedium<double> general(form);
     for (int i = 0; i < 40; ++i) {
       const double z = make.uniform(0, 1), t = std::exp(make.uniform(-4, 3));
       const auto a = special->best_free(z, t, 1e300), b = general.best_free(z, t, 1e300);
@@ -193,25 +194,25 @@ TEST_P(GeneralScenes, ConserveAndStayInRange) {
 TEST_P(GeneralScenes, SolveTheEquation) {
   int smooth = 0;
   for (int n = 0; n < 10; ++n) {
-    const Scene<Real50> scene =
-        scene_cast<Real50>(Scene<double>(support::random_flux_scene(make_, GetParam())));
-    const ExactSolution<Real50> solution(scene);
-    const Real50 h("1e-18");
+    const Scene<Real110> scene =
+        scene_cast<Real110>(Scene<double>(support::random_flux_scene(make_, GetParam())));
+    const ExactSolution<Real110> solution(scene);
+    const Real110 h("1e-18");
     for (int i = 0; i < 6; ++i) {
-      const Real50 z = make_.uniform(0.01, 0.99), t = std::exp(make_.uniform(-2, 2));
+      const Real110 z = make_.uniform(0.01, 0.99), t = std::exp(make_.uniform(-2, 2));
       const auto at = solution.at(z, t);
-      const auto slope = [&](const Real50& dz, const Real50& dt) {
-        return Real50((solution.M(z + dz, t + dt) - solution.M(z - dz, t - dt)) / (2 * h));
+      const auto slope = [&](const Real110& dz, const Real110& dt) {
+        return Real110((solution.M(z + dz, t + dt) - solution.M(z - dz, t - dt)) / (2 * h));
       };
-      const Real50 by_z = slope(h, Real50(0)), by_t = slope(Real50(0), h);
-      if (abs(Real50(solution.phi(z + h, t) - solution.phi(z - h, t))) > Real50("1e-12")) continue;
-      EXPECT_LT(abs(Real50(by_z - at.phi)), Real50("1e-14")) << n << " " << z << " " << t;
-      EXPECT_LT(abs(Real50(by_t - at.H)), Real50("1e-14")) << n << " " << z << " " << t;
-      const Real50 c = scene.packing_at(z);
-      const Real50 flux =
+      const Real110 by_z = slope(h, Real110(0)), by_t = slope(Real110(0), h);
+      if (abs(Real110(solution.phi(z + h, t) - solution.phi(z - h, t))) > Real110("1e-12")) continue;
+      EXPECT_LT(abs(Real110(by_z - at.phi)), Real110("1e-14")) << n << " " << z << " " << t;
+      EXPECT_LT(abs(Real110(by_t - at.H)), Real110("1e-14")) << n << " " << z << " " << t;
+      const Real110 c = scene.solid_fraction_at(z);
+      const Real110 flux =
           scene.scale() * scene.rate_at(z) * c *
-          std::visit([&](const auto& f) { return Real50(f.value(Real50(at.phi / c))); }, scene.flux_at(z));
-      EXPECT_LT(abs(Real50(at.H + flux)), Real50("1e-40")) << n << " " << z << " " << t;
+          std::visit([&](const auto& f) { return Real110(f.value(Real110(at.phi / c))); }, scene.flux_at(z));
+      EXPECT_LT(abs(Real110(at.H + flux)), Real110("1e-40")) << n << " " << z << " " << t;
       ++smooth;
     }
   }
@@ -224,11 +225,11 @@ TEST_P(GeneralScenes, DoubleKeepsTheDigits) {
   for (int n = 0; n < 15; ++n) {
     const Scene<double> scene(support::random_flux_scene(make_, GetParam()));
     const ExactSolution<double> solution(scene);
-    const ExactSolution<Real50> precise(scene_cast<Real50>(scene));
+    const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
     for (int i = 0; i < 20; ++i) {
       const double z = make_.uniform(0, 1), t = std::exp(make_.uniform(-3, 2));
       const auto a = solution.at(z, t);
-      const auto b = precise.at(Real50(z), Real50(t));
+      const auto b = precise.at(Real110(z), Real110(t));
       worst_M = std::max(worst_M, std::abs(a.M - to_double(b.M)));
       const double phi = std::abs(a.phi - to_double(b.phi));
       if (phi > 1e-3)
@@ -250,9 +251,9 @@ bool snap(SceneSpec<double>& spec) {
   round(spec.flux_breaks);
   round(spec.initial_breaks);
   round(std::get<Piecewise<double>>(spec.shear_rate).breaks);
-  if (spec.packing) round(std::get<Piecewise<double>>(*spec.packing).breaks);
+  if (spec.solid_fraction) round(std::get<Piecewise<double>>(*spec.solid_fraction).breaks);
   if (spec.temperature) round(std::get<Piecewise<double>>(*spec.temperature).breaks);
-  return find_problems(spec).empty();
+  return find_complaints(spec).empty();
 }
 
 TEST_P(GeneralScenes, GodunovConverges) {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/refusal.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/refusal.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -69,7 +69,7 @@ TEST(ExactParabolas, ConstantPackingAndTemperatureOnlyScale) {
   on_random_scenes(
       [&](SceneSpec<double> spec) {
         spec.fluxes = {Packed<double>{Grains::small}};
-        spec.packing = Piecewise<double>{{}, {0.5}};
+        spec.solid_fraction = Piecewise<double>{{}, {0.5}};
         spec.temperature = Piecewise<double>{{}, {4.0}};
         spec.scale /= 2;
         return spec;
@@ -118,11 +118,11 @@ TEST(ExactParabolas, EventsAreThoseOfTheQuadraticFlux) {
   EXPECT_DOUBLE_EQ(*image.interfaces[0].last, *plain.interfaces[0].last);
 }
 
-/// A linear packing as many steps: the staircase the engine makes itself, and its estimate of the error.
+/// A linear solid fraction as many steps: the staircase the engine makes itself, and its estimate of the error.
 TEST(ExactParabolas, SmoothPackingConvergesWithTheLayers) {
   SceneSpec<double> spec;
   spec.fluxes = {Packed<double>{Grains::small}};
-  spec.packing = Table<double>{{0, 1}, {0.95, 0.05}};
+  spec.solid_fraction = Table<double>{{0, 1}, {0.95, 0.05}};
   spec.temperature = Table<double>{{0, 1}, {0.5, 2}};
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.initial_breaks = {0.5};
@@ -139,7 +139,7 @@ TEST(ExactParabolas, SmoothPackingConvergesWithTheLayers) {
         worst = std::max(worst, std::abs(value.M - fine.M(i / 40.0, t)));
         estimate = std::max(estimate, value.M_error);
         EXPECT_GE(value.phi, 0);
-        EXPECT_LE(value.phi, scene.packing_at(i / 40.0));
+        EXPECT_LE(value.phi, scene.solid_fraction_at(i / 40.0));
       }
     EXPECT_LE(worst, estimate) << n;
     if (before > 0) {
@@ -154,7 +154,7 @@ TEST(ExactParabolas, RefusesInOneSentence) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.initial_values = {0.5};
-  const auto text = [&] { return hopf_lax::refusal(Scene<double>(spec)); };
+  const auto text = [&] { return exact::refusal(Scene<double>(spec)); };
   EXPECT_EQ(text(), "");
   spec.fluxes = {Cubic<double>{0.9}};
   EXPECT_EQ(

@@ -2,8 +2,9 @@
 // Facts every solution obeys, on random scenes: seeds are printed by the checks that fail.
 #include <gtest/gtest.h>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
@@ -63,18 +64,18 @@ TEST(ExactLaws, BoundsMassAndMonotoneGrowth) {
 
 TEST(ExactLaws, PhiIsTheSlopeAndHTheRateOfM) {
   for_random_scenes(60, [](SceneMaker& make, const SceneSpec<double>& spec) {
-    const auto scene = scene_cast<Real50>(Scene<double>(spec));
-    const ExactSolution<Real50> solution(scene);
-    const Real50 h("1e-16");
+    const auto scene = scene_cast<Real110>(Scene<double>(spec));
+    const ExactSolution<Real110> solution(scene);
+    const Real110 h("1e-16");
     for (int k = 0; k < 6; ++k) {
-      const Real50 z(make.uniform(0.001, 0.999)), t(any_time(make));
+      const Real110 z(make.uniform(0.001, 0.999)), t(any_time(make));
       const auto value = solution.at(z, t);
-      const Real50 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h);
-      const Real50 rate = (solution.M(z, t + h) - solution.M(z, t - h)) / (2 * h);
-      EXPECT_LT(abs(to_double(Real50(value.phi - slope))), 1e-20) << "z " << z << " t " << t;
-      EXPECT_LT(abs(to_double(Real50(value.H - rate))), 1e-20) << "z " << z << " t " << t;
-      const Real50 flux = scene.scale() * scene.shear_rate_at(z) * value.phi * (1 - value.phi);
-      EXPECT_LT(abs(to_double(Real50(value.H - flux))), 1e-45) << "z " << z << " t " << t;
+      const Real110 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h);
+      const Real110 rate = (solution.M(z, t + h) - solution.M(z, t - h)) / (2 * h);
+      EXPECT_LT(abs(to_double(Real110(value.phi - slope))), 1e-20) << "z " << z << " t " << t;
+      EXPECT_LT(abs(to_double(Real110(value.H - rate))), 1e-20) << "z " << z << " t " << t;
+      const Real110 flux = scene.scale() * scene.shear_rate_at(z) * value.phi * (1 - value.phi);
+      EXPECT_LT(abs(to_double(Real110(value.H - flux))), 1e-45) << "z " << z << " t " << t;
     }
   });
 }
@@ -83,14 +84,14 @@ TEST(ExactLaws, FluxIsContinuousAcrossInterfaces) {
   for_random_scenes(60, [](SceneMaker& make, const SceneSpec<double>& spec) {
     const auto* a = std::get_if<Piecewise<double>>(&spec.shear_rate);
     if (a == nullptr) return;
-    const ExactSolution<Real50> solution(scene_cast<Real50>(Scene<double>(spec)));
-    const Real50 t(any_time(make)), d("1e-22");
+    const ExactSolution<Real110> solution(scene_cast<Real110>(Scene<double>(spec)));
+    const Real110 t(any_time(make)), d("1e-22");
     for (const double b : a->breaks) {
-      const Real50 here = solution.H(b, t);
-      EXPECT_LT(abs(to_double(Real50(solution.H(b - d, t) - here))), 1e-9) << "z " << b << " t " << t;
-      EXPECT_LT(abs(to_double(Real50(solution.H(b + d, t) - here))), 1e-9) << "z " << b << " t " << t;
+      const Real110 here = solution.H(b, t);
+      EXPECT_LT(abs(to_double(Real110(solution.H(b - d, t) - here))), 1e-9) << "z " << b << " t " << t;
+      EXPECT_LT(abs(to_double(Real110(solution.H(b + d, t) - here))), 1e-9) << "z " << b << " t " << t;
       // phi at the interface is the state above it.
-      EXPECT_LT(abs(to_double(Real50(solution.phi(b + d, t) - solution.phi(b, t)))), 1e-9)
+      EXPECT_LT(abs(to_double(Real110(solution.phi(b + d, t) - solution.phi(b, t)))), 1e-9)
           << "z " << b << " t " << t;
     }
   });
@@ -101,11 +102,11 @@ TEST(ExactLaws, DoubleAgreesWith50Digits) {
   for_random_scenes(150, [&](SceneMaker& make, const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     const ExactSolution<double> in_double(scene);
-    const ExactSolution<Real50> oracle(scene_cast<Real50>(scene));
+    const ExactSolution<Real110> oracle(scene_cast<Real110>(scene));
     for (int k = 0; k < 8; ++k) {
       const double z = make.uniform(0, 1), t = any_time(make);
       const auto value = in_double.at(z, t);
-      const auto exact = oracle.at(Real50(z), Real50(t));
+      const auto exact = oracle.at(Real110(z), Real110(t));
       const double error_M = std::abs(value.M - to_double(exact.M)),
                    error_phi = std::abs(value.phi - to_double(exact.phi));
       worst_M = std::max(worst_M, error_M);
@@ -123,28 +124,28 @@ TEST(ExactLaws, ReflectionSymmetry) {
   for_random_scenes(150, [](SceneMaker& make, const SceneSpec<double>& spec) {
     const auto* a = std::get_if<Piecewise<double>>(&spec.shear_rate);
     if (a == nullptr) return;
-    SceneSpec<Real50> mirror = scene_cast<Real50>(Scene<double>(spec)).spec();
-    auto& rate = std::get<Piecewise<Real50>>(mirror.shear_rate);
-    const Real50 bottom(-0.5);
+    SceneSpec<Real110> mirror = scene_cast<Real110>(Scene<double>(spec)).spec();
+    auto& rate = std::get<Piecewise<Real110>>(mirror.shear_rate);
+    const Real110 bottom(-0.5);
     for (auto* heights : {&rate.breaks, &mirror.initial_breaks}) {
       std::reverse(heights->begin(), heights->end());
-      for (Real50& x : *heights) x = 1 - x;
+      for (Real110& x : *heights) x = 1 - x;
     }
     std::reverse(rate.values.begin(), rate.values.end());
     std::reverse(mirror.initial_values.begin(), mirror.initial_values.end());
-    for (Real50& phi : mirror.initial_values) phi = 1 - phi;
+    for (Real110& phi : mirror.initial_values) phi = 1 - phi;
     // The mirrored scene lives in a shifted domain as well.
     for (auto* heights : {&rate.breaks, &mirror.initial_breaks})
-      for (Real50& x : *heights) x += bottom;
+      for (Real110& x : *heights) x += bottom;
     mirror.bottom = bottom;
     mirror.top = bottom + 1;
-    const ExactSolution<Real50> one(scene_cast<Real50>(Scene<double>(spec))), two{Scene<Real50>(mirror)};
+    const ExactSolution<Real110> one(scene_cast<Real110>(Scene<double>(spec))), two{Scene<Real110>(mirror)};
     for (int k = 0; k < 5; ++k) {
-      const Real50 z(make.uniform(0, 1)), t(any_time(make));
+      const Real110 z(make.uniform(0, 1)), t(any_time(make));
       // int_0^z phi = int_{1-z}^1 (1 - phi~) = z - (m~ - M~(1 - z)).
-      const Real50 M = z - (two.mass() - two.M(bottom + 1 - z, t));
-      EXPECT_LT(abs(to_double(Real50(one.M(z, t) - M))), 1e-45) << "z " << z << " t " << t;
-      EXPECT_LT(abs(to_double(Real50(one.phi(z, t) - (1 - two.phi(bottom + 1 - z, t))))), 1e-40)
+      const Real110 M = z - (two.mass() - two.M(bottom + 1 - z, t));
+      EXPECT_LT(abs(to_double(Real110(one.M(z, t) - M))), 1e-45) << "z " << z << " t " << t;
+      EXPECT_LT(abs(to_double(Real110(one.phi(z, t) - (1 - two.phi(bottom + 1 - z, t))))), 1e-40)
           << "z " << z << " t " << t;
     }
   });

@@ -3,7 +3,7 @@
 // by the formula would show as an error that does not fall with the cells.
 #include <gtest/gtest.h>
 
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "support/conservative_scheme.hpp"
 #include "support/random_scene.hpp"
 

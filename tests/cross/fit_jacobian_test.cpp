@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/forward.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
@@ -26,22 +27,22 @@ struct Difference {
 };
 
 /// Central difference in 50 digits of phi or M in one entry of the scene file.
-Difference difference(const SceneSpec<double>& spec, std::size_t entry, Field field, const Point& point,
+Difference difference(const SceneSpec<double>& spec, std::size_t entry, Observable field, const Point& point,
                       int kind_in_double) {
-  const Real50 h("1e-16"), z(point.z), t(point.t);
-  SceneSpec<Real50> moved = scene_cast<Real50>(Scene<double>(spec)).spec();
-  Real50& number = *entry_places(moved)[entry];
-  const Real50 here = number;
-  Real50 values[2];
+  const Real110 h("1e-16"), z(point.z), t(point.t);
+  SceneSpec<Real110> moved = scene_cast<Real110>(Scene<double>(spec)).spec();
+  Real110& number = *entry_places(moved)[entry];
+  const Real110 here = number;
+  Real110 values[2];
   bool same = true;
   for (int side = 0; side < 2; ++side) {
     number = here + (side == 0 ? -h : h);
-    const ExactSolution<Real50> solution{Scene<Real50>(moved)};
+    const ExactSolution<Real110> solution{Scene<Real110>(moved)};
     const auto at = solution.at(z, t);
     same = same && static_cast<int>(solution.path(z, t).kind) == kind_in_double;
-    values[side] = field == Field::phi ? at.phi : at.M;
+    values[side] = field == Observable::phi ? at.phi : at.M;
   }
-  return {to_double(Real50((values[1] - values[0]) / (2 * h))), same};
+  return {to_double(Real110((values[1] - values[0]) / (2 * h))), same};
 }
 
 void expect_jacobian(const SceneSpec<double>& spec, SceneMaker& make, const std::string& label,
@@ -57,7 +58,7 @@ void expect_jacobian(const SceneSpec<double>& spec, SceneMaker& make, const std:
   std::vector<Point> points;
   for (int k = 0; k < 3; ++k)
     points.push_back({std::exp(make.uniform(std::log(0.05), std::log(4.0))), make.uniform(0, 1)});
-  for (const Field field : {Field::phi, Field::M}) {
+  for (const Observable field : {Observable::phi, Observable::M}) {
     const auto forward = make_forward(parameters, {}, field, points);
     ASSERT_TRUE(forward->has_derivatives());
     const Prediction at = forward->predict(parameters.start(), true);
@@ -73,7 +74,7 @@ void expect_jacobian(const SceneSpec<double>& spec, SceneMaker& make, const std:
         if (!numeric.is_smooth) continue;
         const double exact = at.derivatives(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
         EXPECT_NEAR(exact, numeric.value, 1e-10 * std::max(1.0, std::abs(numeric.value)))
-            << label << (field == Field::phi ? " phi" : " M") << " d " << parameters[j].name() << " t "
+            << label << (field == Observable::phi ? " phi" : " M") << " d " << parameters[j].name() << " t "
             << points[i].t << " z " << points[i].z;
         ++compared;
       }

@@ -10,8 +10,8 @@
 
 #include "shearfront/fv/march.hpp"
 #include "shearfront/fv/solve.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
 #include "support/conservative_scheme.hpp"

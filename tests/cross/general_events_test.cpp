@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
-#include "shearfront/hopf_lax/general_first_wave.hpp"
-#include "shearfront/hopf_lax/normal_form.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/general_first_wave.hpp"
+#include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/track/solver.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -26,9 +26,9 @@ TEST(GeneralEvents, FirstWavesOfParabolasAreThoseOfTheClosedForms) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene(make.data(make.integer(2, 5), make.order(), 5));
     const Timeline<double> times = exact_timeline(scene);
-    const hopf_lax::GeneralMedium<double> medium(hopf_lax::NormalForm<double>(scene, 1));
+    const exact::GeneralMedium<double> medium(exact::CanonicalForm<double>(scene, 1));
     for (std::size_t i = 0; i < times.interfaces.size(); ++i) {
-      const auto first = hopf_lax::first_wave(medium, i + 1, scene.mass(), *times.t_star);
+      const auto first = exact::first_wave(medium, i + 1, scene.mass(), *times.t_star);
       ASSERT_EQ(first.has_value(), times.interfaces[i].first.has_value()) << "interface " << i;
       if (!first) continue;
       EXPECT_NEAR(*first, *times.interfaces[i].first, 1e-9 * (1 + *first)) << "interface " << i;

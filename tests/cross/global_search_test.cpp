@@ -15,14 +15,14 @@ constexpr double kClose = 1e-6;
 int found(Quantity quantity, int first, int last) {
   int n = 0;
   for (int k = first; k < last; ++k) {
-    const auto problem = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
-    FitSpec spec = support::fit_of(problem, support::exact_data(problem, quantity));
+    const auto complaint = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
+    FitSpec spec = support::fit_of(complaint, support::exact_data(complaint, quantity));
     spec.search.algorithm = "global";
     const Estimate estimate = fit(spec);
-    const double error = problem.error(estimate);
+    const double error = complaint.error(estimate);
     n += error <= kClose ? 1 : 0;
     if (!(error <= kClose))
-      std::cout << "problem " << k << ": error " << error << ", misfit " << estimate.misfit << ", "
+      std::cout << "complaint " << k << ": error " << error << ", misfit " << estimate.misfit << ", "
                 << estimate.message << '\n';
   }
   return n;
@@ -39,8 +39,8 @@ TEST(SlowGlobalSearch, FindsTheTruthFromFarAwayByBins) { EXPECT_GE(found(Quantit
 TEST(SlowGlobalSearch, FindsTheTruthFromFarAwayByPoints) { EXPECT_GE(found(Quantity::point, 0, 8), 8); }
 
 TEST(SlowGlobalSearch, IsTheSameEveryTime) {
-  const auto problem = support::random_identification(1003, 5, 10);
-  FitSpec spec = support::fit_of(problem, support::exact_data(problem, Quantity::point));
+  const auto complaint = support::random_identification(1003, 5, 10);
+  FitSpec spec = support::fit_of(complaint, support::exact_data(complaint, Quantity::point));
   spec.search.algorithm = "global";
   const Estimate once = fit(spec), again = fit(spec);
   EXPECT_EQ(once.evaluations, again.evaluations);

@@ -110,7 +110,7 @@ TEST(Identification, GrossErrorsDoNotDoubleTheErrorOfRobustLosses) {
 Observations engquist_osher_data(const Identification& problem) {
   SolverRequest request;
   request.times = problem.times;
-  request.depths = problem.heights;
+  request.heights = problem.heights;
   SolverOptions options;
   options.cells = 10'000;
   const SolverResult result = EngquistOsherSolver::solve(Scene<double>(problem.truth), request, options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exactly integrated L1 error: closed forms, plain quadrature, and 50 digits.
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 
 #include <gtest/gtest.h>
@@ -214,8 +215,8 @@ TEST(L1Error, KeepsItsBoundAgainstFiftyDigits) {
     for (const bool tracked : {false, true}) {
       const Profile<double> profile = solved(scene, t, options, tracked);
       const auto errors = errors_against(ExactSolution<double>(scene), profile, t);
-      const ExactSolution<Real50> precise(scene_cast<Real50>(scene));
-      const auto truth = errors_against(precise, cast<Real50>(profile), Real50(t));
+      const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
+      const auto truth = errors_against(precise, cast<Real110>(profile), Real110(t));
       EXPECT_NEAR(errors.l1, to_double(truth.l1), errors.l1_bound);
       EXPECT_NEAR(errors.M_max, to_double(truth.M_max), 1e-14);
       EXPECT_LT(to_double(truth.l1_bound), 1e-45);

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/solver/all.hpp"
 
 namespace shearfront {

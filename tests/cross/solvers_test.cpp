@@ -5,7 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/model_types.hpp"
 #include "support/random_scene.hpp"
@@ -50,8 +50,8 @@ SolverRequest request_for(const Scene<double>& scene) {
   SolverRequest request;
   request.times = {1.3, 0, infinity<double>(), 0.2};  // in no order
   for (int i = 0; i <= 40; ++i)
-    request.depths.push_back(scene.bottom() + (scene.top() - scene.bottom()) * i / 40);
-  std::swap(request.depths[3], request.depths[20]);
+    request.heights.push_back(scene.bottom() + (scene.top() - scene.bottom()) * i / 40);
+  std::swap(request.heights[3], request.heights[20]);
   request.timeline = request.profiles = true;
   return request;
 }
@@ -68,14 +68,14 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
     options.cells = kCells;
     const SolverResult result = TypeParam::solve(scene, request, options);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
-    ASSERT_EQ(result.samples.size(), request.times.size() * request.depths.size());
+    ASSERT_EQ(result.samples.size(), request.times.size() * request.heights.size());
     const ExactSolution<double> exact(scene);
     double slack = 1e-12;
     if (!promised.exact) slack = std::pow(kResolution, promised.order_M);
     for (std::size_t i = 0; i < request.times.size(); ++i)
-      for (std::size_t j = 0; j < request.depths.size(); ++j) {
-        const Sample& s = result.samples[i * request.depths.size() + j];
-        const double z = request.depths[j], t = request.times[i];
+      for (std::size_t j = 0; j < request.heights.size(); ++j) {
+        const Sample& s = result.samples[i * request.heights.size() + j];
+        const double z = request.heights[j], t = request.times[i];
         if (promised.bounded) {
           EXPECT_GE(s.phi, 0);
           EXPECT_LE(s.phi, 1);
@@ -87,10 +87,10 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
       }
     ASSERT_EQ(result.profiles.size(), promised.has_profiles ? request.times.size() : 0);
     for (std::size_t i = 0; i < result.profiles.size(); ++i)
-      for (std::size_t j = 0; j < request.depths.size(); ++j) {
-        const auto value = result.profiles[i].at(request.depths[j]);
-        EXPECT_EQ(value.phi, result.samples[i * request.depths.size() + j].phi);
-        EXPECT_NEAR(value.M, result.samples[i * request.depths.size() + j].M, 1e-14);
+      for (std::size_t j = 0; j < request.heights.size(); ++j) {
+        const auto value = result.profiles[i].at(request.heights[j]);
+        EXPECT_EQ(value.phi, result.samples[i * request.heights.size() + j].phi);
+        EXPECT_NEAR(value.M, result.samples[i * request.heights.size() + j].M, 1e-14);
       }
     ASSERT_EQ(result.timeline.has_value(), promised.has_timeline);
     if (!promised.has_timeline) continue;
@@ -100,7 +100,7 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
 }
 
 TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
-  ShearRateList<double>::for_each([]<class Model>() {
+  DepthFunctionList<double>::for_each([]<class Model>() {
     for (const Model& model : Model::samples()) {
       SceneSpec<double> spec;
       spec.shear_rate = model;
@@ -118,8 +118,8 @@ TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
       if (!promised.exact && promised.order_M == 0)
         continue;  // upwind leaves segregated grains where they are
       const ExactSolution<double> exact(scene);
-      for (std::size_t j = 0; j < request.depths.size(); ++j)
-        EXPECT_NEAR(result.samples[j].M, exact.M(request.depths[j], 0.3), 0.1 * kResolution) << Model::kName;
+      for (std::size_t j = 0; j < request.heights.size(); ++j)
+        EXPECT_NEAR(result.samples[j].M, exact.M(request.heights[j], 0.3), 0.1 * kResolution) << Model::kName;
     }
   });
 }
@@ -136,7 +136,7 @@ TEST(FrontTracking, ReconstructionsGridsAndFrontsAreOptionsOfTheSolver) {
   options.reconstruct = Reconstruction::linear;
   const SolverResult lines = FrontTrackingSolver::solve(scene, request, options);
   for (std::size_t j = 0; j < 3; ++j)  // before its first meeting the fan is exact
-    EXPECT_NEAR(lines.samples[j].phi, 0.5 + (request.depths[j] - 0.5) / (2 * 0.31 * 0.5), 1e-13);
+    EXPECT_NEAR(lines.samples[j].phi, 0.5 + (request.heights[j] - 0.5) / (2 * 0.31 * 0.5), 1e-13);
   EXPECT_EQ(lines.fronts.size(), 10u);
   for (const auto& f : lines.fronts) EXPECT_EQ(f.t_end, 0.5);
   options.grid = GridKind::singular_mapping;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/verify.hpp"

@@ -48,11 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(parameters.size() > 0, "an accepted fit has unknowns");
     fuzz::require(parameters.within_bounds(parameters.start()), "an accepted start keeps its bounds");
   } catch (const FileError& error) {
-    // Problems of the other files follow under their own names.
+    // Complaints of the other files follow under their own names.
     const std::string report = error.what();
     if (report.starts_with(folder.file() + ":") && report.find("\n/") == std::string::npos)
       fuzz::check_report(error, folder.file());
-    fuzz::require(!error.problems().empty() && !report.empty(), "a report that says something");
+    fuzz::require(!error.complaints().empty() && !report.empty(), "a report that says something");
   }
   return 0;
 }

@@ -19,7 +19,7 @@ inline void require(bool holds, const char* what) {
 /// One line per problem shown, each with the file's name, in ascending order of lines, printable.
 inline void check_report(const FileError& error, const std::string& file) {
   const std::string report = error.what();
-  require(!report.empty() && !error.problems().empty(), "a report that says something");
+  require(!report.empty() && !error.complaints().empty(), "a report that says something");
   long last = 0;
   std::size_t begin = 0, n_lines = 0;
   while (begin < report.size()) {
@@ -37,7 +37,7 @@ inline void check_report(const FileError& error, const std::string& file) {
     begin = end + 1;
     ++n_lines;
   }
-  require(n_lines == error.problems().size(), "one line per problem");
+  require(n_lines == error.complaints().size(), "one line per problem");
 }
 
 }  // namespace shearfront::fuzz

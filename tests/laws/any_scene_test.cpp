@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every solver keeps on general scenes: any flux, packing and temperature, walls, open and joined ends.
+// What every solver keeps on general scenes: any flux, solid fraction and temperature, walls, open and joined ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void for_scenes(std::uint64_t stream, int n, Check&& check) {
   support::SceneMaker maker(support::seed_of(stream));
   for (int number = 0; number < n;) {
     SceneSpec<double> spec = support::any_scene(maker, 4);
-    if (!find_problems(spec).empty()) continue;
+    if (!find_complaints(spec).empty()) continue;
     SCOPED_TRACE("scene " + std::to_string(number++) + ", flux " +
                  std::visit([](const auto& f) { return std::string(f.kName); }, spec.fluxes[0]));
     check(maker, Scene<double>(std::move(spec)));
@@ -42,15 +42,15 @@ void for_scenes(std::uint64_t stream, int n, Check&& check) {
 /// Lowest and highest states of all layers: of phi / c times c.
 void expect_in_range(const Scene<double>& scene, const Profile<double>& profile) {
   const bool is_layered =
-      !scene.spec().packing || std::holds_alternative<Piecewise<double>>(*scene.spec().packing);
+      !scene.spec().solid_fraction || std::holds_alternative<Piecewise<double>>(*scene.spec().solid_fraction);
   for (std::size_t i = 0; i < profile.n_cells(); ++i) {
     const double lo = profile.z()[i], hi = profile.z()[i + 1];
     if (!(hi > lo)) continue;
     // The flux in the middle, c at the ends.
     const StateRange<double> states =
         std::visit([](const auto& f) { return f.range(); }, scene.flux_at(lo + (hi - lo) / 2));
-    const double c_lo = scene.packing_at(is_layered ? lo + (hi - lo) / 2 : lo);
-    const double c_hi = scene.packing_at(is_layered ? lo + (hi - lo) / 2 : hi);
+    const double c_lo = scene.solid_fraction_at(is_layered ? lo + (hi - lo) / 2 : lo);
+    const double c_hi = scene.solid_fraction_at(is_layered ? lo + (hi - lo) / 2 : hi);
     const double slack = 1e-15 * std::max(states.highest, -states.lowest);
     ASSERT_GE(profile.below()[i], c_lo * states.lowest - slack) << "z = " << lo;
     ASSERT_LE(profile.below()[i], c_lo * states.highest + slack) << "z = " << lo;

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "shearfront/close_packing/all.hpp"
-#include "shearfront/close_packing/skeleton.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/model/close_packing/all.hpp"
+#include "shearfront/model/close_packing/skeleton.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "support/model_types.hpp"
 
@@ -25,12 +26,12 @@ TYPED_TEST(ClosePackingLaws, HasSamplesThatPassTheirOwnCheck) {
   static_assert(ClosePackingLaw<TypeParam, double>);
   ASSERT_FALSE(TypeParam::samples().empty());
   for (const auto& law : TypeParam::samples()) {
-    Problems problems;
+    Complaints complaints;
     law.fields(law, [&](const FieldInfo& info, const auto& x) {
-      check_number(std::string(info.key), info.range, x, problems);
+      check_number(std::string(info.key), info.range, x, complaints);
     });
-    law.check("close_packing.", problems);
-    EXPECT_TRUE(problems.empty());
+    law.check("close_packing.", complaints);
+    EXPECT_TRUE(complaints.empty());
   }
 }
 
@@ -68,10 +69,10 @@ TYPED_TEST(ClosePackingLaws, IsContinuousAndBendsOnlyAtItsKinks) {
 TEST(ClosePacking, PolynomialOfTheSource) {
   // Horner's scheme against powers in 50 digits.
   for (const double x : {0.0, 0.1, 0.375, 0.5, 0.9, 1.0}) {
-    const Real50 y(x);
-    const Real50 p = Real50("-0.4903") * pow(y, 5) + Real50("1.2388") * pow(y, 4) -
-                     Real50("0.9450") * pow(y, 3) + Real50("0.0434") * y * y + Real50("0.1531") * y +
-                     Real50("0.633");
+    const Real110 y(x);
+    const Real110 p = Real110("-0.4903") * pow(y, 5) + Real110("1.2388") * pow(y, 4) -
+                     Real110("0.9450") * pow(y, 3) + Real110("0.0434") * y * y + Real110("0.1531") * y +
+                     Real110("0.633");
     EXPECT_NEAR(PackingPolynomial<double>{}.value(x), to_double(p), 3e-16);
   }
   EXPECT_NEAR(PackingPolynomial<double>{}.value(1), 0.633, 1e-15);
@@ -93,8 +94,8 @@ TEST(ClosePacking, WrongLawsAreRefusedWithTheirKeys) {
   spec.initial_values = {0.5};
   const auto first = [&](ClosePacking<double> law) {
     spec.close_packing = std::move(law);
-    const Problems problems = find_problems(spec);
-    return problems.empty() ? std::string() : problems.front().text();
+    const Complaints complaints = find_complaints(spec);
+    return problems.empty() ? std::string() : complaints.front().text();
   };
   EXPECT_EQ(first(PackingPolynomial<double>{0.633}), "");
   EXPECT_EQ(first(PackingPolynomial<double>{0.99}), "close_packing.pure = 0.99; must be < 0.95");

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "shearfront/flux/all.hpp"
-#include "shearfront/flux/skeleton.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/skeleton.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/scene/scene_cast.hpp"
@@ -28,12 +29,12 @@ void for_samples(Visit&& visit) {
   int number = 0;
   for (const Model& flux : Model::samples()) {
     SCOPED_TRACE("sample " + std::to_string(number++));
-    Problems problems;
+    Complaints complaints;
     flux.fields(flux, [&](const FieldInfo& info, const auto& member) {
-      check_number(std::string(info.key), info.range, member, problems);
+      check_number(std::string(info.key), info.range, member, complaints);
     });
-    flux.check("", problems);
-    ASSERT_TRUE(problems.empty()) << problems[0].text();
+    flux.check("", complaints);
+    ASSERT_TRUE(complaints.empty()) << problems[0].text();
     const auto [lowest, highest] = flux.range();
     double steepest = 0;
     for (int i = 0; i <= 1000; ++i)
@@ -59,16 +60,16 @@ TYPED_TEST(FluxLaws, StatesAreARangeWithAFiniteFlux) {
 
 TYPED_TEST(FluxLaws, DerivativeIsTheSlopeAbove) {
   for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
-    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    const auto flux50 = scene_detail::model_cast<Real110>(flux);
     const auto all = states(lowest, highest);
     for (const double p : all) {
       // Two one-sided differences, whose errors of first order cancel; to the inside at the upper end.
-      const Real50 h = (p == highest ? -1 : 1) * Real50("1e-15") * (highest - lowest), phi(p);
-      const auto difference = [&](const Real50& step) {
-        return Real50((flux50.value(Real50(phi + step)) - flux50.value(phi)) / step);
+      const Real110 h = (p == highest ? -1 : 1) * Real110("1e-15") * (highest - lowest), phi(p);
+      const auto difference = [&](const Real110& step) {
+        return Real110((flux50.value(Real110(phi + step)) - flux50.value(phi)) / step);
       };
-      const Real50 slope = 2 * difference(h / 2) - difference(h);
-      EXPECT_NEAR(to_double(Real50(flux50.derivative(phi) - slope)), 0.0, 1e-19 * steepest) << p;
+      const Real110 slope = 2 * difference(h / 2) - difference(h);
+      EXPECT_NEAR(to_double(Real110(flux50.derivative(phi) - slope)), 0.0, 1e-19 * steepest) << p;
       EXPECT_NEAR(flux.derivative(p), to_double(slope), 1e-14 * steepest) << p;
     }
   });
@@ -76,15 +77,15 @@ TYPED_TEST(FluxLaws, DerivativeIsTheSlopeAbove) {
 
 TYPED_TEST(FluxLaws, SecantIsTheSlopeOfTheChord) {
   for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
-    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    const auto flux50 = scene_detail::model_cast<Real110>(flux);
     const auto all = states(lowest, highest);
     for (const double p : all)
       for (const double q : all) {
         if (p == q) {
           EXPECT_NEAR(flux.secant(p, q), flux.derivative(p), 1e-14 * steepest);
         } else {
-          const Real50 rise = flux50.value(Real50(q)) - flux50.value(Real50(p));
-          EXPECT_NEAR(flux.secant(p, q), to_double(Real50(rise / (Real50(q) - Real50(p)))), 1e-14 * steepest)
+          const Real110 rise = flux50.value(Real110(q)) - flux50.value(Real110(p));
+          EXPECT_NEAR(flux.secant(p, q), to_double(Real110(rise / (Real110(q) - Real110(p)))), 1e-14 * steepest)
               << p << " " << q;
           EXPECT_NEAR(flux.secant(p, q), flux.secant(q, p), 1e-15 * steepest);
         }
@@ -94,13 +95,13 @@ TYPED_TEST(FluxLaws, SecantIsTheSlopeOfTheChord) {
 
 TYPED_TEST(FluxLaws, SecantOfCloseStatesDoesNotCancel) {
   for_samples<TypeParam>([](const auto& flux, double lowest, double highest, double steepest) {
-    const auto flux50 = scene_detail::model_cast<Real50>(flux);
+    const auto flux50 = scene_detail::model_cast<Real110>(flux);
     for (const double p : states(lowest, highest))
       for (const double d : {1e-15, 1e-12, 1e-8, 1e-4}) {
         const double q = p < highest ? p + d * (highest - p) : p - d * (p - lowest);
         if (q == p) continue;
-        const Real50 rise = flux50.value(Real50(q)) - flux50.value(Real50(p));
-        EXPECT_NEAR(flux.secant(p, q), to_double(Real50(rise / (Real50(q) - Real50(p)))), 4e-14 * steepest)
+        const Real110 rise = flux50.value(Real110(q)) - flux50.value(Real110(p));
+        EXPECT_NEAR(flux.secant(p, q), to_double(Real110(rise / (Real110(q) - Real110(p)))), 4e-14 * steepest)
             << p << " " << d;
       }
   });
@@ -172,8 +173,8 @@ TEST(CubicFlux, ScaledExtremumIsThatOfTheQuadraticFlux) {
     // Nowhere deeper, and one factor for all states.
     for (const double phi : states(0, 1)) EXPECT_GE(flux.value(phi), -0.25 - kBound) << flux.gamma;
     EXPECT_NEAR(flux.value(0.3) / own.value(0.3), flux.derivative(0) / own.derivative(0), 4 * kBound);
-    const Cubic<Real50> fine{Real50(flux.gamma), kScaled};
-    EXPECT_NEAR(to_double(Real50(fine.value(fine.extrema()[0]) + Real50(0.25))), 0, 1e-48);
+    const Cubic<Real110> fine{Real110(flux.gamma), kScaled};
+    EXPECT_NEAR(to_double(Real110(fine.value(fine.extrema()[0]) + Real110(0.25))), 0, 1e-48);
   }
   EXPECT_EQ((Cubic<double>{0, kScaled}.value(0.375)), quadratic.value(0.375));
   EXPECT_NEAR((Cubic<double>{1, kScaled}.derivative(0)), -27.0 / 16, 4e-16);

@@ -23,7 +23,7 @@ using support::SceneMaker;
 
 SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(12000 + std::uint64_t(number))); }
 
-/// Layers of one or several fluxes of the same kind, packing, temperature, two open ends or a ring.
+/// Layers of one or several fluxes of the same kind, solid fraction, temperature, two open ends or a ring.
 SceneSpec<double> random_ends(SceneMaker& maker, bool is_ring) {
   SceneSpec<double> spec = support::packed_data(maker, Grains::large);
   const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{},

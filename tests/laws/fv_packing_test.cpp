@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finite volumes in beds whose packing and temperature vary with height; random scenes with fixed seeds.
+// Finite volumes in beds whose solid fraction and temperature vary with height; random scenes with fixed seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void expect_within_packing(int n_scenes, std::size_t cells) {
     const auto result =
         solved(scene, {0, 0.02, 0.1, 0.4, 1, 3, infinity<double>()}, cells, Solver{}, number % 3 == 0);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
-    n_jumps += std::holds_alternative<Piecewise<double>>(*scene.spec().packing);
+    n_jumps += std::holds_alternative<Piecewise<double>>(*scene.spec().solid_fraction);
     for (const Profile<double>& profile : result.profiles) {
       ASSERT_EQ(support::overshoot(scene, profile), 0);
       for (std::size_t i = 0; i < profile.n_cells(); ++i)
@@ -56,7 +56,7 @@ TEST(FvPacking, GodunovNeverExceedsThePackingIn1000Scenes) { expect_within_packi
 TEST(FvPacking, EngquistOsherNeverExceedsThePacking) { expect_within_packing<EngquistOsherSolver>(200, 40); }
 TEST(FvPacking, MusclNeverExceedsThePacking) { expect_within_packing<MusclSolver>(200, 40); }
 
-// The reference schemes exceed it where grains move towards smaller packing, and keep the mass.
+// The reference schemes exceed it where grains move towards smaller solid fraction, and keep the mass.
 TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
   for (int number = 0; number < 20; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
@@ -66,7 +66,7 @@ TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
     const bool is_small = number % 2 == 0;
     spec.fluxes = {Packed<double>{is_small ? Grains::small : Grains::large}};
     spec.shear_rate = Piecewise<double>{{}, {1}};
-    spec.packing = Table<double>{{0, 1}, {is_small ? least : most, is_small ? most : least}};
+    spec.solid_fraction = Table<double>{{0, 1}, {is_small ? least : most, is_small ? most : least}};
     spec.initial_values = {0.5};
     const Scene<double> scene(spec);
     const auto check = [&](auto solver) {
@@ -80,7 +80,7 @@ TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
   }
 }
 
-// Layers of packing c are layers c times as thick, and c times as fast, of a bed without packing.
+// Layers of solid fraction c are layers c times as thick, and c times as fast, of a bed without solid fraction.
 TEST(FvPacking, PackedLayersAreThickerLayers) {
   for (int number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
@@ -90,18 +90,18 @@ TEST(FvPacking, PackedLayersAreThickerLayers) {
     spec.fluxes = {Packed<double>{Grains::small}};
     spec.initial_breaks = rate.breaks;
     spec.initial_values.clear();
-    Piecewise<double> packing{rate.breaks, {}}, thick{{}, {}};
+    Piecewise<double> solid_fraction{rate.breaks, {}}, thick{{}, {}};
     double top = 0;
     for (std::size_t k = 0; k < rate.values.size(); ++k) {
       spec.initial_values.push_back(maker.uniform(0, 1));
-      packing.values.push_back(maker.uniform(0.1, 0.7));
+      solid_fraction.values.push_back(maker.uniform(0.1, 0.7));
       const double below = k == 0 ? 0 : rate.breaks[k - 1],
                    above = k < rate.breaks.size() ? rate.breaks[k] : 1;
-      top += packing.values[k] * (above - below);
-      thick.values.push_back(rate.values[k] * packing.values[k]);
+      top += solid_fraction.values[k] * (above - below);
+      thick.values.push_back(rate.values[k] * solid_fraction.values[k]);
       if (k < rate.breaks.size()) thick.breaks.push_back(top);
     }
-    spec.packing = packing;
+    spec.solid_fraction = solid_fraction;
     SceneSpec<double> plain;
     plain.shear_rate = thick;
     plain.initial_breaks = thick.breaks;
@@ -111,7 +111,7 @@ TEST(FvPacking, PackedLayersAreThickerLayers) {
     const Scene<double> packed(spec), other(plain);
     fv::Grid grid = fv::aligned_grid(packed, 60), stretched = grid;
     for (std::size_t j = 0; j < grid.n_cells; ++j) {
-      const double c = packed.packing_at(grid.middle(j));
+      const double c = packed.solid_fraction_at(grid.middle(j));
       stretched.widths[j] = grid.widths[j] * c;
       stretched.edges[j + 1] = stretched.edges[j] + stretched.widths[j];
     }
@@ -139,7 +139,7 @@ TEST(FvPacking, SmallAndLargeGrainsFillTheBed) {
       for (std::size_t i = 0; i < s.profiles.size(); ++i)
         for (std::size_t k = 0; k < s.profiles[i].n_cells(); ++k)
           ASSERT_NEAR(s.profiles[i].below()[k] + l.profiles[i].below()[k],
-                      small.packing_at(s.profiles[i].z()[k]), 1e-12);
+                      small.solid_fraction_at(s.profiles[i].z()[k]), 1e-12);
     };
     check(GodunovSolver{});
     check(EngquistOsherSolver{});
@@ -173,12 +173,12 @@ TEST(FvPacking, KernelsAndThePlainLoopAgree) {
   }
 }
 
-// A bed of constant packing is a bed without, times c; times do not depend on c.
+// A bed of constant solid fraction is a bed without, times c; times do not depend on c.
 TEST(FvPacking, ConstantPackingScalesPhi) {
   SceneMaker maker = maker_of(0);
   SceneSpec<double> spec = maker.data(3, maker.order(), 5);
   const Scene<double> plain(spec);
-  spec.packing = Piecewise<double>{{}, {0.64}};
+  spec.solid_fraction = Piecewise<double>{{}, {0.64}};
   const Scene<double> packed(spec);
   const auto a = solved(plain, {0.3}, 80, GodunovSolver{}), b = solved(packed, {0.3}, 80, GodunovSolver{});
   for (std::size_t i = 0; i < a.profiles[0].n_cells(); ++i)

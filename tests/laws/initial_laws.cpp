@@ -6,8 +6,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <string>
 
-#include "shearfront/initial/all.hpp"
-#include "shearfront/initial/skeleton.hpp"
+#include "shearfront/model/start/all.hpp"
+#include "shearfront/model/start/skeleton.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "support/model_types.hpp"
 
@@ -17,18 +17,18 @@ namespace {
 template <class Model>
 class InitialLaws : public testing::Test {};
 
-using InitialLawsTypes = support::ModelTypes<InitialProfileList<double>, SkeletonInitial<double>>::Type;
+using InitialLawsTypes = support::ModelTypes<InitialStateList<double>, SkeletonInitial<double>>::Type;
 TYPED_TEST_SUITE(InitialLaws, InitialLawsTypes, support::ModelName);
 
 TYPED_TEST(InitialLaws, HasSamplesThatPassTheirOwnCheck) {
   ASSERT_FALSE(TypeParam::samples().empty());
   for (const auto& model : TypeParam::samples()) {
-    Problems problems;
+    Complaints complaints;
     model.fields(model, [&](const FieldInfo& info, const auto& x) {
-      check_number(std::string(info.key), info.range, x, problems);
+      check_number(std::string(info.key), info.range, x, complaints);
     });
-    model.check("initial.", 0.0, 1.0, problems);
-    EXPECT_TRUE(problems.empty());
+    model.check("initial.", 0.0, 1.0, complaints);
+    EXPECT_TRUE(complaints.empty());
   }
 }
 
@@ -54,18 +54,18 @@ TYPED_TEST(InitialLaws, IntegralsAddUp) {
     EXPECT_NEAR(model.integral(0.0, 0.3) + model.integral(0.3, 1.0), model.integral(0.0, 1.0), 1e-15);
 }
 
-SceneSpec<double> spec_with(InitialProfile<double> profile, double D) {
+SceneSpec<double> spec_with(InitialState<double> profile, double D) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.diffusion = Diffusion<double>{D, {}, false};
-  spec.initial_profile = std::move(profile);
+  spec.initial_state = std::move(profile);
   return spec;
 }
 
 TEST(DiffusiveScenes, SmoothDataNeedDiffusionAndStatesOfTheFlux) {
   const auto first = [](const SceneSpec<double>& spec) {
-    const Problems problems = find_problems(spec);
-    return problems.empty() ? std::string() : problems.front().text();
+    const Complaints complaints = find_complaints(spec);
+    return problems.empty() ? std::string() : complaints.front().text();
   };
   EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.01)), "");
   EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Beds whose packing c(z) and granular temperature T(z) vary: what front tracking keeps.
+// Beds whose solid fraction c(z) and granular temperature T(z) vary: what front tracking keeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using support::SceneMaker;
 
 /// A profile with values from `least` to `most`, in layers or linear between points.
-DepthProfile<double> draw_profile(SceneMaker& maker, double least, double most) {
+DepthFunction<double> draw_profile(SceneMaker& maker, double least, double most) {
   const int n = maker.integer(1, 4);
   std::vector<double> heights = maker.heights(n, 0, 1), values;
   for (int i = 0; i <= n + 1; ++i) values.push_back(maker.uniform(least, most));
@@ -37,7 +37,7 @@ Scene<double> draw_scene(SceneMaker& maker) {
   SceneSpec<double> spec;
   spec.fluxes = {Packed<double>{maker.integer(0, 1) == 0 ? Grains::small : Grains::large}};
   spec.shear_rate = Piecewise<double>{{}, {maker.uniform(0.2, 2)}};
-  spec.packing = draw_profile(maker, 0.3, 0.7);
+  spec.solid_fraction = draw_profile(maker, 0.3, 0.7);
   spec.temperature = draw_profile(maker, 0.1, 4);
   spec.initial_breaks = maker.heights(2, 0, 1);
   for (int i = 0; i < 3; ++i)
@@ -52,7 +52,7 @@ double overshoot(const AnyTracker& tracker, const LayerStack<double>& stack) {
   double most = 0;
   for (std::size_t i = 0; i < snapshot.state.size(); ++i) {
     const double phi = tracker.grid().phi(snapshot.layer[i], snapshot.state[i]);
-    most = std::max({most, phi - stack.packing(snapshot.layer[i]), -phi});
+    most = std::max({most, phi - stack.solid_fraction(snapshot.layer[i]), -phi});
   }
   return most;
 }
@@ -83,9 +83,9 @@ TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneSpec<double> spec = draw_scene(maker).spec();
     if (number % 3 == 0) {
-      spec.packing = Exponential<double>{0.7, maker.uniform(0.2, 2)};
+      spec.solid_fraction = Exponential<double>{0.7, maker.uniform(0.2, 2)};
     } else {
-      spec.packing = Table<double>{{0, 0.3, maker.uniform(0.4, 1), 1},
+      spec.solid_fraction = Table<double>{{0, 0.3, maker.uniform(0.4, 1), 1},
                                    {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7), 0.5, 0.3}};
     }
     spec.initial_breaks = maker.heights(2, 0, 1);
@@ -115,7 +115,7 @@ TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
   SceneMaker maker(support::seed_of(7303));
   for (int number = 0; number < 40; ++number) {
     SceneSpec<double> spec = draw_scene(maker).spec();
-    spec.packing = Table<double>{{0, 1}, {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7)}};
+    spec.solid_fraction = Table<double>{{0, 1}, {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7)}};
     const Scene<double> scene(spec);
     const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
     Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
@@ -136,13 +136,13 @@ TEST(PackingLaws, ConstantPackingAndTemperatureAreTheQuadraticFlux) {
     SceneSpec<double> spec;
     spec.fluxes = {Packed<double>{grains}};
     spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
-    spec.packing = Piecewise<double>{{}, {0.64}};
+    spec.solid_fraction = Piecewise<double>{{}, {0.64}};
     spec.temperature = Piecewise<double>{{}, {4}};
     spec.initial_breaks = {0.5};
     spec.initial_values = {0, 1};
     SceneSpec<double> plain = spec;
     plain.fluxes = {Quadratic<double>{}};
-    plain.packing.reset(), plain.temperature.reset();
+    plain.solid_fraction.reset(), plain.temperature.reset();
     if (grains == Grains::large) plain.initial_values = {1, 0};  // of the small grains between the large ones
     const TrackingSetup<double> setup(Scene<double>(spec), 0.01), other(Scene<double>(plain), 0.01);
     Tracker<LevelGrid<double>> packed(setup.grid, setup.pieces), quadratic(other.grid, other.pieces);

@@ -16,7 +16,7 @@ TEST(Scopes, TellWhichScenesAreRefused) {
   int n_scenes = 0;
   while (n_scenes < 600) {
     SceneSpec<double> spec = support::any_scene(maker, 2);
-    if (!find_problems(spec).empty()) continue;
+    if (!find_complaints(spec).empty()) continue;
     SCOPED_TRACE("scene " + std::to_string(n_scenes++));
     const Scene<double> scene(std::move(spec));
     SolverList::for_each([&]<class S>() {

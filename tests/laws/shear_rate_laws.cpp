@@ -8,8 +8,8 @@
 #include <string>
 
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/shear_rate/all.hpp"
-#include "shearfront/shear_rate/skeleton.hpp"
+#include "shearfront/model/depth/all.hpp"
+#include "shearfront/model/depth/skeleton.hpp"
 #include "support/model_types.hpp"
 
 namespace shearfront {
@@ -18,7 +18,7 @@ namespace {
 template <class Model>
 class ShearRateLaws : public testing::Test {};
 
-using ShearRateLawsTypes = support::ModelTypes<ShearRateList<double>, SkeletonShearRate<double>>::Type;
+using ShearRateLawsTypes = support::ModelTypes<DepthFunctionList<double>, SkeletonDepthFunction<double>>::Type;
 TYPED_TEST_SUITE(ShearRateLaws, ShearRateLawsTypes, support::ModelName);
 
 /// [0, 1] cut at the knots.
@@ -47,15 +47,15 @@ double slowness(const Model& a, double lo, double hi) {
 TYPED_TEST(ShearRateLaws, HasSamplesThatPassTheirOwnCheck) {
   ASSERT_FALSE(TypeParam::samples().empty());
   for (const auto& a : TypeParam::samples()) {
-    Problems problems;
-    a.check("shear_rate.", 0.0, 1.0, problems);
-    EXPECT_TRUE(problems.empty()) << (problems.empty() ? "" : problems[0].text());
+    Complaints complaints;
+    a.check("shear_rate.", 0.0, 1.0, complaints);
+    EXPECT_TRUE(complaints.empty()) << (complaints.empty() ? "" : problems[0].text());
     std::set<std::string> keys;
     TypeParam::fields(a, [&](const FieldInfo& info, const auto& member) {
-      check_number(std::string(info.key), info.range, member, problems);
+      check_number(std::string(info.key), info.range, member, complaints);
       EXPECT_TRUE(keys.insert(std::string(info.key)).second) << "two fields called " << info.key;
     });
-    EXPECT_TRUE(problems.empty());
+    EXPECT_TRUE(complaints.empty());
     EXPECT_FALSE(keys.empty());
   }
 }
@@ -130,11 +130,11 @@ TYPED_TEST(ShearRateLaws, EveryFieldRefusesNotANumber) {
         }
       });
       if (!changed) continue;
-      Problems problems;
+      Complaints complaints;
       TypeParam::fields(a, [&](const FieldInfo& info, const auto& member) {
-        check_number(std::string(info.key), info.range, member, problems);
+        check_number(std::string(info.key), info.range, member, complaints);
       });
-      ASSERT_FALSE(problems.empty()) << key;
+      ASSERT_FALSE(complaints.empty()) << key;
       EXPECT_EQ(problems[0].key.rfind(key, 0), 0u);
     }
   }
@@ -156,18 +156,18 @@ TEST(ScaledRates, MustNotOverflowOrVanish) {
   spec.shear_rate = Piecewise<double>{{0.3}, {2.4, 1e200}};
   for (const double scale : {1e-300, 1.0, 1e100}) {
     spec.scale = scale;
-    EXPECT_TRUE(find_problems(spec).empty()) << scale;
+    EXPECT_TRUE(find_complaints(spec).empty()) << scale;
   }
   spec.scale = 1e200;
-  ASSERT_EQ(find_problems(spec).size(), 1u);
+  ASSERT_EQ(find_complaints(spec).size(), 1u);
   EXPECT_EQ(
-      find_problems(spec)[0].text(),
+      find_complaints(spec)[0].text(),
       "shear_rate.scale = 1e+200; must keep s a(z) a positive finite number on the whole domain (a(1) = "
       "1e+200)");
   spec.shear_rate = Piecewise<double>{{0.3, 0.6}, {1, 1e-200, 1}};
   spec.scale = 1e-200;
-  ASSERT_EQ(find_problems(spec).size(), 1u);
-  EXPECT_EQ(find_problems(spec)[0].key, "shear_rate.scale");
+  ASSERT_EQ(find_complaints(spec).size(), 1u);
+  EXPECT_EQ(find_complaints(spec)[0].key, "shear_rate.scale");
 }
 
 }  // namespace

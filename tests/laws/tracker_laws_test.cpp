@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
@@ -298,11 +299,11 @@ TEST(TrackerLaws, DoubleAgreesWithFiftyDigits) {
   for (int number = 0; number < 12; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
-    const Scene<Real50> fine = scene_cast<Real50>(scene);
+    const Scene<Real110> fine = scene_cast<Real110>(scene);
     const TrackingSetup<double> setup(scene, 0.1);
-    const TrackingSetup<Real50> fine_setup(fine, Real50(0.1));
+    const TrackingSetup<Real110> fine_setup(fine, Real110(0.1));
     Recorded a(setup.grid, setup.pieces);
-    Tracker<LevelGrid<Real50>, History<Real50>> b(fine_setup.grid, fine_setup.pieces);
+    Tracker<LevelGrid<Real110>, History<Real110>> b(fine_setup.grid, fine_setup.pieces);
     a.run_to_steady(), b.run_to_steady();
     EXPECT_EQ(a.n_collisions(), b.n_collisions());
     EXPECT_NEAR(a.last_collision(), to_double(b.last_collision()), 1e-13 * a.last_collision());

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "soak/laws.hpp"
@@ -16,26 +17,26 @@ namespace {
 // of 1e30 not to count, large enough for 50 digits.
 constexpr double kStep = 1e-20;
 
-std::string at(const Real50& z, const Real50& t) {
+std::string at(const Real110& z, const Real110& t) {
   return "z = " + number_text(to_double(z)) + ", t = " + number_text(to_double(t));
 }
 
-void check_slopes(const ExactSolution<Real50>& solution, const Real50& z, const Real50& t,
+void check_slopes(const ExactSolution<Real110>& solution, const Real110& z, const Real110& t,
                   Findings& findings) {
-  const Scene<Real50>& scene = solution.scene();
-  const Real50 height = scene.top() - scene.bottom(), h = kStep * height, dt = kStep * t;
+  const Scene<Real110>& scene = solution.scene();
+  const Real110 height = scene.top() - scene.bottom(), h = kStep * height, dt = kStep * t;
   const auto value = solution.at(z, t);
-  const Real50 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h),
+  const Real110 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h),
                growth = (solution.M(z, t + dt) - solution.M(z, t - dt)) / (2 * dt);
   findings.expect_near(to_double(value.phi), to_double(slope), 1e-8, "exact: phi = dM/dz",
                        [&] { return at(z, t); });
-  findings.expect_near(to_double(Real50(value.H * t / height)), to_double(Real50(growth * t / height)),
-                       1e-8 * (1 + to_double(Real50(value.H * t / height))), "exact: H = dM/dt",
+  findings.expect_near(to_double(Real110(value.H * t / height)), to_double(Real110(growth * t / height)),
+                       1e-8 * (1 + to_double(Real110(value.H * t / height))), "exact: H = dM/dt",
                        [&] { return at(z, t); });
 }
 
 /// The entry of a gradient that belongs to an entry of the scene; empty for those that are no parameters.
-std::optional<Real50> derivative(const Gradient<Real50>& gradient, const Entry& entry) {
+std::optional<Real110> derivative(const Gradient<Real110>& gradient, const Entry& entry) {
   if (entry.field == "shear_rate.values") return gradient.shear_rate_values()[entry.index];
   if (entry.field == "shear_rate.breaks") return gradient.shear_rate_breaks()[entry.index];
   if (entry.field == "initial.breaks") return gradient.initial_breaks()[entry.index];
@@ -47,36 +48,36 @@ std::optional<Real50> derivative(const Gradient<Real50>& gradient, const Entry& 
 }
 
 struct PhiM {
-  Real50 phi, M;
+  Real110 phi, M;
 };
 
 /// Second-order difference quotient, one-sided where a state would leave [0, 1].
-PhiM quotient(const ExactSolution<Real50>& solution, std::size_t entry, const Real50& step, bool is_state,
-              const Real50& z, const Real50& t) {
-  SceneSpec<Real50> spec = solution.scene().spec();
-  const Real50 here = *entry_places(spec)[entry];
+PhiM quotient(const ExactSolution<Real110>& solution, std::size_t entry, const Real110& step, bool is_state,
+              const Real110& z, const Real110& t) {
+  SceneSpec<Real110> spec = solution.scene().spec();
+  const Real110 here = *entry_places(spec)[entry];
   const auto moved = [&](int steps) {
-    SceneSpec<Real50> copy = spec;
+    SceneSpec<Real110> copy = spec;
     *entry_places(copy)[entry] = here + step * steps;
-    const auto value = ExactSolution<Real50>(Scene<Real50>(copy), {solution.n_layers()}).at(z, t);
+    const auto value = ExactSolution<Real110>(Scene<Real110>(copy), {solution.n_layers()}).at(z, t);
     return PhiM{value.phi, value.M};
   };
   if (is_state && (here == 0 || here == 1)) {
     const int sign = here == 0 ? 1 : -1;
     const PhiM a = moved(0), b = moved(sign), c = moved(2 * sign);
-    const Real50 width = 2 * step * sign;
+    const Real110 width = 2 * step * sign;
     return {(4 * b.phi - 3 * a.phi - c.phi) / width, (4 * b.M - 3 * a.M - c.M) / width};
   }
   const PhiM a = moved(-1), b = moved(1);
   return {(b.phi - a.phi) / (2 * step), (b.M - a.M) / (2 * step)};
 }
 
-void check_sensitivities(const ExactSolution<Real50>& solution, support::SceneMaker& make, const Real50& z,
-                         const Real50& t, Findings& findings) {
+void check_sensitivities(const ExactSolution<Real110>& solution, support::SceneMaker& make, const Real110& z,
+                         const Real110& t, Findings& findings) {
   constexpr int kParameters = 3;
   const auto exact = sensitivities(solution, z, t);
-  const SceneSpec<Real50>& spec = solution.scene().spec();
-  const Real50 height = spec.top - spec.bottom;
+  const SceneSpec<Real110>& spec = solution.scene().spec();
+  const Real110 height = spec.top - spec.bottom;
   const std::vector<Entry> all = entries(spec);
   findings.expect(exact.value.M == solution.M(z, t), "sensitivities: M is that of the solution",
                   [&] { return at(z, t); });
@@ -84,31 +85,31 @@ void check_sensitivities(const ExactSolution<Real50>& solution, support::SceneMa
     const auto i = static_cast<std::size_t>(make.integer(0, static_cast<int>(all.size()) - 1));
     const auto dM = derivative(exact.M, all[i]), dphi = derivative(exact.phi, all[i]);
     if (!dM) continue;
-    SceneSpec<Real50> copy = spec;
+    SceneSpec<Real110> copy = spec;
     const bool is_state = all[i].field == "initial.values", is_height = all[i].field.ends_with(".breaks");
-    const Real50 unit = is_state ? Real50(1) : is_height ? height : *entry_places(copy)[i];
+    const Real110 unit = is_state ? Real110(1) : is_height ? height : *entry_places(copy)[i];
     const PhiM numeric = quotient(solution, i, kStep * unit, is_state, z, t);
     const auto where = [&] { return "d/d " + all[i].name() + " at " + at(z, t); };
-    const double M_size = to_double(Real50(*dM * unit / height)), phi_size = to_double(Real50(*dphi * unit));
-    findings.expect_near(M_size, to_double(Real50(numeric.M * unit / height)), 1e-8 * (1 + std::abs(M_size)),
+    const double M_size = to_double(Real110(*dM * unit / height)), phi_size = to_double(Real110(*dphi * unit));
+    findings.expect_near(M_size, to_double(Real110(numeric.M * unit / height)), 1e-8 * (1 + std::abs(M_size)),
                          "sensitivities: dM against differences", where);
-    findings.expect_near(phi_size, to_double(Real50(numeric.phi * unit)), 1e-8 * (1 + std::abs(phi_size)),
+    findings.expect_near(phi_size, to_double(Real110(numeric.phi * unit)), 1e-8 * (1 + std::abs(phi_size)),
                          "sensitivities: dphi against differences", where);
   }
 }
 
 /// t* in double: M is final by then up to its rounding (64 u of the height are taken for a tie), and it does
 /// not come after the true t* by more than that amount needs, at the growth H just before.
-void check_steady_time(const Bed& bed, const ExactSolution<Real50>& solution, Findings& findings) {
+void check_steady_time(const Bed& bed, const ExactSolution<Real110>& solution, Findings& findings) {
   const auto t_star = exact_timeline(bed.layered).t_star;
   const auto oracle = exact_timeline(solution.scene()).t_star;
   if (!t_star || !oracle || *oracle == 0) return;
   const double slack = bed.M_rounding() + 64 * unit_roundoff<double>() * bed.trial.height();
-  const Real50 final_M = solution.mass(), after = *t_star * (1 + bed.t_rounding()),
+  const Real110 final_M = solution.mass(), after = *t_star * (1 + bed.t_rounding()),
                missing = final_M - solution.M(solution.steady_height(), after);
   findings.expect_between(to_double(missing), 0, 0, slack, "exact: M is final at t*",
                           [&] { return number_text(*t_star); });
-  const Real50 before = *oracle * Real50("0.999999999999");
+  const Real110 before = *oracle * Real110("0.999999999999");
   const double t = to_double(*oracle), H = to_double(solution.H(solution.steady_height(), before));
   if (H > 0)
     findings.expect_between(*t_star, 0, t, bed.t_rounding() * t + slack / H,
@@ -125,7 +126,7 @@ void check_exact_in_50_digits(const Bed& bed, Findings& findings) {
   const bool is_smooth = std::holds_alternative<Exponential<double>>(bed.scene.shear_rate());
   const Scene<double>& scene = is_smooth ? bed.scene : bed.layered;
   const ExactSolution<double>& in_double = is_smooth ? bed.exact : bed.layered_exact;
-  const ExactSolution<Real50> solution(scene_cast<Real50>(scene));
+  const ExactSolution<Real110> solution(scene_cast<Real110>(scene));
   for (const double t : {bed.trial.early, bed.trial.late}) {
     const double z = make.uniform(scene.bottom(), scene.top());
     if (!(z > scene.bottom() && z < scene.top())) continue;

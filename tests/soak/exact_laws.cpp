@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/exact/events.hpp"
 #include "soak/laws.hpp"
 
 namespace shearfront::soak {
@@ -70,7 +70,7 @@ void check_scaling(const Bed& bed, Findings& findings) {
 void check_reflection(const Bed& bed, Findings& findings) {
   if (!bed.scene.is_layered()) return;
   SceneSpec<double> mirror = upside_down(bed.scene.spec());
-  if (!find_problems(mirror).empty()) return;  // heights an ulp apart have become one
+  if (!find_complaints(mirror).empty()) return;  // heights an ulp apart have become one
   const ExactSolution<double> mirrored{Scene<double>(std::move(mirror))};
   const double n_moved = static_cast<double>(bed.stack.n_layers() + bed.scene.initial_values().size()),
                slack =
@@ -112,7 +112,7 @@ void check_semigroup(const Bed& bed, Findings& findings) {
     spec.initial_values.push_back(std::clamp((next - M) / (end - z), 0.0, 1.0));
     M = next, z = end;
   }
-  if (!find_problems(spec).empty()) return;  // a domain far from 0 that has no 100 distinct heights
+  if (!find_complaints(spec).empty()) return;  // a domain far from 0 that has no 100 distinct heights
   const ExactSolution<double> restarted{Scene<double>(spec)};
   const double slack = bed.trial.height() / (4 * kCells) + 2 * kCells * bed.M_rounding();
   for (const double height : bed.heights)

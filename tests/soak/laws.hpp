@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "soak/findings.hpp"
 #include "soak/trial.hpp"

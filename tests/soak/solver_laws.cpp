@@ -56,7 +56,7 @@ SolverRequest request_of(const Bed& bed, bool is_on_grid) {
     early *= factor, late *= factor;
   }
   SolverRequest request{{early, infinity<double>(), 0, late}, bed.heights};
-  if (request.depths.size() > 3) std::swap(request.depths[1], request.depths[3]);
+  if (request.heights.size() > 3) std::swap(request.heights[1], request.heights[3]);
   request.profiles = true;
   return request;
 }
@@ -102,11 +102,11 @@ class SolverLaws {
 
   [[nodiscard]] std::string name(const char* law) const { return std::string(Solver::kName) + ": " + law; }
   [[nodiscard]] std::size_t index(std::size_t i, std::size_t j) const {
-    return i * request_.depths.size() + j;
+    return i * request_.heights.size() + j;
   }
 
   void check_shape(const SolverResult& result) {
-    findings_.expect(result.samples.size() == request_.times.size() * request_.depths.size() &&
+    findings_.expect(result.samples.size() == request_.times.size() * request_.heights.size() &&
                          result.profiles.size() == (kPromised.has_profiles ? request_.times.size() : 0) &&
                          result.timeline.has_value() == kPromised.has_timeline && result.fronts.empty(),
                      name("gives what was asked for"), [] { return std::string("sizes"); });
@@ -115,15 +115,15 @@ class SolverLaws {
   void check_samples(const SolverResult& result) {
     const double top = bed_.scene.top(), bottom = bed_.scene.bottom(), mass = bed_.scene.mass();
     const double slack = kMassSlack * bed_.trial.largest_height() + bed_.M_rounding();
-    std::vector<std::size_t> upwards(request_.depths.size());
+    std::vector<std::size_t> upwards(request_.heights.size());
     for (std::size_t j = 0; j < upwards.size(); ++j) upwards[j] = j;
     std::sort(upwards.begin(), upwards.end(),
-              [&](std::size_t a, std::size_t b) { return request_.depths[a] < request_.depths[b]; });
+              [&](std::size_t a, std::size_t b) { return request_.heights[a] < request_.heights[b]; });
     for (std::size_t i = 0; i < request_.times.size(); ++i) {
       double z0 = bottom, M0 = 0;
       for (const std::size_t j : upwards) {
         const Sample& s = result.samples[index(i, j)];
-        const double z = request_.depths[j];
+        const double z = request_.heights[j];
         const auto where = [&] { return at(z, request_.times[i]); };
         if (kPromised.bounded) {
           findings_.expect(s.phi >= 0 && s.phi <= 1, name("phi in [0, 1]"),
@@ -140,14 +140,14 @@ class SolverLaws {
 
   void check_profiles(const SolverResult& result) {
     for (std::size_t i = 0; i < result.profiles.size(); ++i)
-      for (std::size_t j = 0; j < request_.depths.size(); ++j) {
-        const auto value = result.profiles[i].at(request_.depths[j]);
+      for (std::size_t j = 0; j < request_.heights.size(); ++j) {
+        const auto value = result.profiles[i].at(request_.heights[j]);
         const Sample& s = result.samples[index(i, j)];
         findings_.expect(
             value.phi == s.phi &&
                 std::abs(value.M - s.M) <= kMassSlack * bed_.trial.largest_height() + bed_.M_rounding(),
             name("samples are values of the profile"),
-            [&] { return at(request_.depths[j], request_.times[i]); });
+            [&] { return at(request_.heights[j], request_.times[i]); });
       }
   }
 
@@ -156,8 +156,8 @@ class SolverLaws {
     SolverRequest alone = request_;
     alone.times = {request_.times[0]};
     const SolverResult single = run<Solver>(bed_.scene.spec(), alone, options_, findings_);
-    bool same = single.summary.usable() && single.samples.size() == request_.depths.size();
-    for (std::size_t j = 0; same && j < request_.depths.size(); ++j)
+    bool same = single.summary.usable() && single.samples.size() == request_.heights.size();
+    for (std::size_t j = 0; same && j < request_.heights.size(); ++j)
       same = single.samples[j].phi == result.samples[index(0, j)].phi;
     findings_.expect(same, name("other times change nothing"), [&] { return at(0, request_.times[0]); });
     if (is_monotone<Solver>()) check_pair(result);

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
@@ -247,7 +248,7 @@ void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double
       "tracker: scaling by powers of two", [&] { return at(t); });
 
   const SceneSpec<double> mirror_spec = upside_down(bed.layered.spec());
-  if (!find_problems(mirror_spec).empty() || may_use_chords(bed)) return;
+  if (!find_complaints(mirror_spec).empty() || may_use_chords(bed)) return;
   const Scene<double> mirror(mirror_spec);
   const TrackingSetup<double> mirror_setup(mirror, resolution);
   if (mirror_setup.grid.n_levels() != setup.grid.n_levels())
@@ -293,14 +294,14 @@ void check_50_digits(const Bed& bed, const TrackingSetup<double>& setup, double 
   Tracked tracker(setup.grid, setup.pieces);
   tracker.advance_to(t);
   if (may_use_chords(bed) || tracker.n_collisions() > 300 || tracker.n_fronts_max() > 3000) return;
-  const Scene<Real50> fine = scene_cast<Real50>(bed.layered);
-  const TrackingSetup<Real50> fine_setup(fine, Real50(resolution));
-  Tracker<LevelGrid<Real50>> oracle(fine_setup.grid, fine_setup.pieces);
-  const Real50 rounding = polygon_rounding(bed, resolution) * t;
+  const Scene<Real110> fine = scene_cast<Real110>(bed.layered);
+  const TrackingSetup<Real110> fine_setup(fine, Real110(resolution));
+  Tracker<LevelGrid<Real110>> oracle(fine_setup.grid, fine_setup.pieces);
+  const Real110 rounding = polygon_rounding(bed, resolution) * t;
   oracle.advance_to(t - rounding);
-  const Profile<Real50> sooner = oracle.profile();
+  const Profile<Real110> sooner = oracle.profile();
   oracle.advance_to(t + rounding);
-  const Profile<Real50> later = oracle.profile();
+  const Profile<Real110> later = oracle.profile();
   const Profile<double> profile = tracker.profile();
   const double slack = 4 * bed.M_rounding() + kMassSlack * bed.trial.largest_height();
   for (const double z : bed.heights)

@@ -9,8 +9,8 @@
 
 namespace shearfront::support {
 
-/// A sample of any flux, alone or below another one, in up to so many layers, with or without packing and
-/// temperature, between walls, open ends or joined ones. Not all of them are valid: see find_problems.
+/// A sample of any flux, alone or below another one, in up to so many layers, with or without solid fraction and
+/// temperature, between walls, open ends or joined ones. Not all of them are valid: see find_complaints.
 inline SceneSpec<double> any_scene(SceneMaker& maker, int n_layers) {
   std::vector<Flux<double>> fluxes;
   FluxList<double>::for_each([&]<class F>() {
@@ -26,7 +26,7 @@ inline SceneSpec<double> any_scene(SceneMaker& maker, int n_layers) {
     spec.fluxes.push_back(draw());
     spec.flux_breaks = {0.4};
   }
-  if (maker.integer(0, 2) == 0) spec.packing = random_profile(maker, 0.3, 0.7);
+  if (maker.integer(0, 2) == 0) spec.solid_fraction = random_profile(maker, 0.3, 0.7);
   if (maker.integer(0, 2) == 0) spec.temperature = random_profile(maker, 0.5, 2);
   double lowest = -1e300, highest = 1e300;
   for (const auto& flux : spec.fluxes)

@@ -10,7 +10,7 @@
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "shearfront/diffusion/crank_nicolson.hpp"
 
-/// Problems with diffusion whose solutions are known, and errors of computed ones.
+/// Complaints with diffusion whose solutions are known, and errors of computed ones.
 namespace shearfront::diffusion::support {
 
 /// int over [a, b] / (b - a), Gauss with three points.

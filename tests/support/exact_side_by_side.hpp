@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 #include "support/closeness.hpp"
 
 /// The exact engine in double and in 50 digits, compared point by point.
@@ -45,7 +45,7 @@ struct ExactRun {
   Scene<Scalar> scene;
   Timeline<Scalar> timeline;
   std::vector<Sensitivities<Scalar>> values;
-  std::vector<hopf_lax::Candidate<Scalar>> paths;
+  std::vector<exact::Path<Scalar>> paths;
 
   /// Without `timeline` only the points are evaluated.
   ExactRun(const Scene<Scalar>& of, const std::vector<Point>& points, bool with_timeline = true) : scene(of) {

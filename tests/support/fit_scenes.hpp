@@ -8,7 +8,7 @@
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
-#include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/exact/solver.hpp"
 #include "shearfront/solution/observe.hpp"
 
 namespace shearfront::testing {

@@ -9,7 +9,7 @@
 #include "shearfront/scene/scene.hpp"
 #include "support/random_scene.hpp"
 
-/// Random scenes with other fluxes, packing and temperature, and a naive Godunov scheme for them.
+/// Random scenes with other fluxes, solid fraction and temperature, and a naive Godunov scheme for them.
 namespace shearfront::support {
 
 /// Which fluxes a random scene takes: one shape, because a minimum may not face a maximum.
@@ -53,7 +53,7 @@ inline SceneSpec<double> random_flux_scene(SceneMaker& make, FluxShape shape) {
     for (int i = 0; i < n; ++i) model.values.push_back(make.uniform(lo, hi));
     return model;
   };
-  if (make.integer(0, 1) == 1) spec.packing = layers(0.3, 1);
+  if (make.integer(0, 1) == 1) spec.solid_fraction = layers(0.3, 1);
   if (make.integer(0, 1) == 1) spec.temperature = layers(0.25, 4);
   double jam = 1e300;
   for (const auto& flux : spec.fluxes)
@@ -76,7 +76,7 @@ inline std::vector<double> godunov_any_scene(const Scene<double>& scene, double 
   for (std::size_t j = 0; j < n; ++j) {
     const double z = scene.bottom() + (static_cast<double>(j) + 0.5) * h;
     model[j] = &scene.flux_at(z);
-    c[j] = scene.packing_at(z);
+    c[j] = scene.solid_fraction_at(z);
     rate[j] = scene.scale() * scene.rate_at(z);
     share[j] = scene.initial_share(z);
     std::visit(

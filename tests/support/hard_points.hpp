@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "support/exact_side_by_side.hpp"
 #include "support/hard_scenes.hpp"
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
@@ -93,29 +94,29 @@ namespace shearfront::support {
 /// The scene in 50 digits with every number moved by up to the rounding of a double (2^-53 of itself, or half
 /// the least denormal number), equal numbers alike. Pure states stay pure: one kind of grain is not a rounded
 /// number.
-[[nodiscard]] inline Scene<Real50> perturbed(const Scene<double>& scene, std::uint64_t seed) {
+[[nodiscard]] inline Scene<Real110> perturbed(const Scene<double>& scene, std::uint64_t seed) {
   SceneMaker maker(seed);
-  SceneSpec<Real50> spec = scene_cast<Real50>(scene).spec();
-  std::map<Real50, Real50> moved;
-  const auto move = [&](Real50& x) {
+  SceneSpec<Real110> spec = scene_cast<Real110>(scene).spec();
+  std::map<Real110, Real110> moved;
+  const auto move = [&](Real110& x) {
     const auto [entry, is_new] = moved.try_emplace(x, x);
     if (is_new)
       entry->second +=
-          Real50(maker.uniform(-1, 1)) * std::max(Real50(x * Real50(0x1p-53)), Real50(0x1p-1074) / 2);
+          Real110(maker.uniform(-1, 1)) * std::max(Real110(x * Real110(0x1p-53)), Real110(0x1p-1074) / 2);
     x = entry->second;
   };
-  if (auto* layers = std::get_if<Piecewise<Real50>>(&spec.shear_rate)) {
-    for (Real50& x : layers->breaks) move(x);
-    for (Real50& x : layers->values) move(x);
-  } else if (auto* smooth = std::get_if<Exponential<Real50>>(&spec.shear_rate)) {
+  if (auto* layers = std::get_if<Piecewise<Real110>>(&spec.shear_rate)) {
+    for (Real110& x : layers->breaks) move(x);
+    for (Real110& x : layers->values) move(x);
+  } else if (auto* smooth = std::get_if<Exponential<Real110>>(&spec.shear_rate)) {
     move(smooth->amplitude);
     move(smooth->decay);
   }
   move(spec.scale);
-  for (Real50& x : spec.initial_breaks) move(x);
-  for (Real50& x : spec.initial_values)
+  for (Real110& x : spec.initial_breaks) move(x);
+  for (Real110& x : spec.initial_values)
     if (x > 0 && x < 1) move(x);
-  return Scene<Real50>(std::move(spec));
+  return Scene<Real110>(std::move(spec));
 }
 
 /// A scene to be tracked at a resolution, with times to look at it.

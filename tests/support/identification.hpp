@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shearfront/fit/fit.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 
 /// Identification problems: Examples 3 to 6 of Buerger, Martinez, Villada (2023), and exact data for them.
 namespace shearfront::support {
@@ -41,7 +41,7 @@ inline std::vector<double> decimals(double first, double last, double step) {
   return all;
 }
 
-inline SceneSpec<double> half_filled(ShearRate<double> rate) {
+inline SceneSpec<double> half_filled(DepthFunction<double> rate) {
   SceneSpec<double> spec;
   spec.shear_rate = std::move(rate);
   spec.initial_breaks = {0.5};

@@ -77,16 +77,16 @@ struct InterfaceRun {
   double below, above;     ///< flux through the faces next to it, in the last step
 };
 
-inline InterfaceRun godunov_run(const InterfaceProblem& problem, int n_steps) {
-  const bool minimum = has_minimum(problem.below.flux);
-  const double courant = 0.9 / std::max(problem.below.steepest(), problem.above.steepest());
+inline InterfaceRun godunov_run(const InterfaceProblem& complaint, int n_steps) {
+  const bool minimum = has_minimum(complaint.below.flux);
+  const double courant = 0.9 / std::max(complaint.below.steepest(), complaint.above.steepest());
   // Cells 0 ... n - 1 below and n ... 2 n - 1 above, as many as waves can reach; f(u) of each.
   const auto n = static_cast<std::size_t>(n_steps) + 1;
-  std::vector<double> u(2 * n, problem.below.state), f(2 * n, problem.below.value(problem.below.state));
-  std::fill(u.begin() + std::ptrdiff_t(n), u.end(), problem.above.state);
-  std::fill(f.begin() + std::ptrdiff_t(n), f.end(), problem.above.value(problem.above.state));
-  const double m[2] = {problem.below.extremum(), problem.above.extremum()};
-  const double f_m[2] = {problem.below.value(m[0]), problem.above.value(m[1])};
+  std::vector<double> u(2 * n, complaint.below.state), f(2 * n, complaint.below.value(complaint.below.state));
+  std::fill(u.begin() + std::ptrdiff_t(n), u.end(), complaint.above.state);
+  std::fill(f.begin() + std::ptrdiff_t(n), f.end(), complaint.above.value(complaint.above.state));
+  const double m[2] = {complaint.below.extremum(), complaint.above.extremum()};
+  const double f_m[2] = {complaint.below.value(m[0]), complaint.above.value(m[1])};
   std::vector<double> flux(2 * n + 1);
   InterfaceRun run{1e300, -1e300, 0, 0};
   for (std::size_t step = 1; step < n; ++step) {
@@ -109,7 +109,7 @@ inline InterfaceRun godunov_run(const InterfaceProblem& problem, int n_steps) {
       const double change = courant * (flux[j + 1] - flux[j]);
       if (change == 0) continue;
       u[j] -= change;
-      f[j] = (j < n ? problem.below : problem.above).value(u[j]);
+      f[j] = (j < n ? complaint.below : complaint.above).value(u[j]);
     }
     run.lowest = std::min(run.lowest, flux[n]);
     run.highest = std::max(run.highest, flux[n]);

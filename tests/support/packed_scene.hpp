@@ -11,7 +11,7 @@
 namespace shearfront::support {
 
 /// Layers or a table of values in [least, most].
-inline DepthProfile<double> random_profile(SceneMaker& maker, double least, double most) {
+inline DepthFunction<double> random_profile(SceneMaker& maker, double least, double most) {
   const int n = maker.integer(1, 6);
   std::vector<double> values;
   for (int i = 0; i < n + 1; ++i) values.push_back(maker.uniform(least, most));
@@ -28,7 +28,7 @@ inline DepthProfile<double> random_profile(SceneMaker& maker, double least, doub
 inline SceneSpec<double> packed_data(SceneMaker& maker, Grains grains) {
   SceneSpec<double> spec = maker.data(maker.integer(1, 4), maker.order(), 6);
   spec.fluxes = {Packed<double>{grains}};
-  spec.packing = random_profile(maker, 0.05, 0.75);
+  spec.solid_fraction = random_profile(maker, 0.05, 0.75);
   spec.temperature = random_profile(maker, 0.1, 4);
   return spec;
 }
@@ -40,9 +40,9 @@ inline double overshoot(const Scene<double>& scene, const Profile<double>& profi
   for (std::size_t i = 0; i < profile.n_cells(); ++i) {
     const double lo = profile.z()[i], hi = profile.z()[i + 1];
     const bool is_layered =
-        !scene.spec().packing || std::holds_alternative<Piecewise<double>>(*scene.spec().packing);
-    most = std::max(most, profile.below()[i] - scene.packing_at(lo));
-    most = std::max(most, profile.above()[i] - scene.packing_at(is_layered ? lo : hi));
+        !scene.spec().solid_fraction || std::holds_alternative<Piecewise<double>>(*scene.spec().solid_fraction);
+    most = std::max(most, profile.below()[i] - scene.solid_fraction_at(lo));
+    most = std::max(most, profile.above()[i] - scene.solid_fraction_at(is_layered ? lo : hi));
   }
   return most;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "shearfront/fit/shock_rows.hpp"
-#include "shearfront/hopf_lax/events.hpp"
-#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 #include "support/identification.hpp"
 #include "support/random_scene.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-/// The ten Riemann problems between beds of different packing, L below and R above, of Table 4.1 of the
+/// The ten Riemann problems between beds of different solid fraction, L below and R above, of Table 4.1 of the
 /// thesis named in docs/packing.md: f(phi) = -phi (c - phi) / c, small grains.
 namespace shearfront::support {
 

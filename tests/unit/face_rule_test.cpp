@@ -73,7 +73,7 @@ TEST(FaceRule, GodunovFluxIsTheFluxOfAFineRun) {
     spec.fluxes = {kind[std::size_t(maker.integer(0, 2))], kind[std::size_t(maker.integer(0, 2))]};
     spec.flux_breaks = spec.initial_breaks = {0.5};
     spec.shear_rate = Piecewise<double>{{0.5}, {maker.uniform(0.3, 2), maker.uniform(0.3, 2)}};
-    spec.packing = Piecewise<double>{{0.5}, {maker.uniform(0.2, 0.7), maker.uniform(0.2, 0.7)}};
+    spec.solid_fraction = Piecewise<double>{{0.5}, {maker.uniform(0.2, 0.7), maker.uniform(0.2, 0.7)}};
     spec.initial_values = {maker.uniform(0, 1), maker.uniform(0, 1)};
     spec.outside_bottom = OutsideState<double>{{}, {spec.initial_values[0]}};
     spec.outside_top = OutsideState<double>{{}, {spec.initial_values[1]}};

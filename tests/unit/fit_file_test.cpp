@@ -49,7 +49,7 @@ class FitFiles : public testing::Test {
       for (std::size_t i = all.find(prefix); i != std::string::npos; i = all.find(prefix))
         all.erase(i, prefix.size());
       EXPECT_EQ(static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n')) + 1,
-                error.problems().size());
+                error.complaints().size());
       return all;
     }
     return "accepted";
@@ -161,7 +161,7 @@ TEST_F(FitFiles, AFitAndASceneAreToldApart) {
 
 TEST_F(FitFiles, ARefusalOfTheFitIsLocatedInItsFile) {
   write(folder_ / "fit.toml", kFit + "start = [3,\n  4]\n");
-  const FileError error = located(InputError(Problems{{"unknown.start[1]", "4", "must be less"},
+  const FileError error = located(InputError(Complaints{{"unknown.start[1]", "4", "must be less"},
                                                       {"search.algorithm", "\"x\"", "must be y"}}),
                                   file());
   EXPECT_EQ(std::string(error.what()), file() + ":1:1: search.algorithm = \"x\"; must be y\n" + file() +

@@ -200,7 +200,7 @@ TEST(Shape, IsTheSameAsConstraintsAndAsBox) {
 
 TEST(SearchNames, SayWhatIsWrong) {
   const Identification problem = thinned(example_5());
-  const auto complaint = [&](const std::string& algorithm) -> std::string {
+  const auto problem = [&](const std::string& algorithm) -> std::string {
     try {
       (void)run(problem, algorithm);
     } catch (const InputError& error) {
@@ -208,9 +208,9 @@ TEST(SearchNames, SayWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_EQ(complaint("nlopt:simplex").substr(0, 58),
+  EXPECT_EQ(problem("nlopt:simplex").substr(0, 58),
             "search.algorithm = \"nlopt:simplex\"; must be one of: ceres,");
-  EXPECT_NE(complaint("nlopt:"), "");
+  EXPECT_NE(problem("nlopt:"), "");
 }
 
 TEST(SearchNames, GlobalAlgorithmsNeedABox) {

@@ -72,7 +72,7 @@ TEST(ObservationRefusals, OnlyTheFirstProblemsAreShown) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(many.begin(), many.end(), '\n')), kMostProblems);
 }
 
-/// Problems between rows are found last and belong further up.
+/// Complaints between rows are found last and belong further up.
 TEST(ObservationRefusals, ProblemsBetweenRowsCountInTheOrderOfTheFile) {
   const std::string twice = report("t,z,phi\n" + rows("0,0.5,1\n", 2) + rows("0,0.5,x\n", 30));
   EXPECT_TRUE(

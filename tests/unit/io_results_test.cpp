@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/io/results.hpp"
 
 #include <gtest/gtest.h>
@@ -86,9 +87,9 @@ TEST_F(Results, EventsAsJson) {
 }
 
 TEST_F(Results, EventsWithManyDigits) {
-  Timeline<Real50> timeline;
-  timeline.t0 = Real50(2) / Real50(3);
-  timeline.t1 = Real50("123456789012345678901234567890");
+  Timeline<Real110> timeline;
+  timeline.t0 = Real110(2) / Real110(3);
+  timeline.t1 = Real110("123456789012345678901234567890");
   const std::string text =
       written([&](OutputFile& f) { write_events_json(f, "s", "exact", timeline, {}, 30); });
   EXPECT_NE(text.find("\"t0\": 0.666666666666666666666666666667,"), std::string::npos) << text;

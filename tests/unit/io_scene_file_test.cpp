@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/io/scene_file.hpp"
 
 #include <gtest/gtest.h>
@@ -44,15 +45,15 @@ TEST(SceneFile, DoubleIsTheNearestToTheText) {
 }
 
 TEST(SceneFile, MultiprecisionTakesTheDecimalAndNotItsDouble) {
-  EXPECT_EQ(first_value<Real50>("0.31"), Real50("0.31"));
-  EXPECT_NE(first_value<Real50>("0.31"), Real50(0.31));
-  EXPECT_EQ(first_value<Real50>("31_00.00e-4"), Real50("0.31"));
+  EXPECT_EQ(first_value<Real110>("0.31"), Real110("0.31"));
+  EXPECT_NE(first_value<Real110>("0.31"), Real110(0.31));
+  EXPECT_EQ(first_value<Real110>("31_00.00e-4"), Real110("0.31"));
   const std::string digits =
       "4.2439024390243902439024390243902439024390243902439024390243902439024390243902439024390";
   EXPECT_EQ(first_value<Real110>(digits), Real110(digits));
   const std::string many = "0." + std::string(300, '3');  // longer than what the TOML parser itself accepts
   EXPECT_EQ(first_value<Real110>(many), Real110(many));
-  EXPECT_EQ(first_value<Real50>("0.00" + std::string(250, '0') + "1e255"), Real50("100"));
+  EXPECT_EQ(first_value<Real110>("0.00" + std::string(250, '0') + "1e255"), Real110("100"));
 }
 
 TEST(SceneFile, RepeatsWhatTheFileSays) {
@@ -77,7 +78,7 @@ TEST(SceneFile, DefaultsAreUnitDomainScaleOneAndTheNameOfTheFile) {
 }
 
 TEST(SceneFile, EveryModelOfTheListCanBeWritten) {
-  ShearRateList<double>::for_each([]<class Model>() {
+  DepthFunctionList<double>::for_each([]<class Model>() {
     const Model sample = Model::samples().front();
     std::string text = "[shear_rate]\nmodel = \"" + std::string(Model::kName) + "\"\n";
     Model::fields(sample, [&](const FieldInfo& info, const auto& member) {
@@ -128,17 +129,17 @@ TEST(SceneFile, ReportCarriesEveryProblem) {
     (void)parse_scene<double>(piecewise("[0.5]", "[0, -1]") + kInitial, "scene.toml");
     FAIL();
   } catch (const InputError& error) {
-    ASSERT_EQ(error.problems().size(), 2U);
-    EXPECT_EQ(error.problems()[1].key, "shear_rate.values[1]");
-    EXPECT_EQ(error.problems()[1].value, "-1");
-    EXPECT_EQ(error.problems()[1].constraint, "must be > 0");
+    ASSERT_EQ(error.complaints().size(), 2U);
+    EXPECT_EQ(error.complaints()[1].key, "shear_rate.values[1]");
+    EXPECT_EQ(error.complaints()[1].value, "-1");
+    EXPECT_EQ(error.complaints()[1].constraint, "must be > 0");
   }
 }
 
 TEST(SceneFile, ValidityDoesNotDependOnTheScalar) {
   for (const char* literal : {"1e400", "1e-400", "1e999999999999999999999", "-1", "nan", "inf", "0"}) {
     EXPECT_THROW(first_value<double>(literal), FileError) << literal;
-    EXPECT_THROW(first_value<Real50>(literal), FileError) << literal;
+    EXPECT_THROW(first_value<Real110>(literal), FileError) << literal;
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/track/level_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -87,11 +88,11 @@ TEST(LevelGrid, SpeedsOfNearlyParallelFrontsNextToOneHalfDifferByTheirStates) {
         {0, near_half()}, {0, near_half()}, {1, near_half()}, {1, 0.5}};
     const auto stack = stack_of({a, b});
     const auto built = LevelGrid<double>::exact_levels(stack, 0.1, wanted);
-    const LayerStack<Real50> stack50({Real50(0), Real50(0.5), Real50(1)}, {Real50(a), Real50(b)}, Real50(1),
+    const LayerStack<Real110> stack50({Real110(0), Real110(0.5), Real110(1)}, {Real110(a), Real110(b)}, Real110(1),
                                      {true});
-    std::vector<LayerState<Real50>> wanted50;
-    for (const auto& w : wanted) wanted50.push_back({w.layer, Real50(w.phi)});
-    const auto built50 = LevelGrid<Real50>::exact_levels(stack50, Real50(0.1), wanted50);
+    std::vector<LayerState<Real110>> wanted50;
+    for (const auto& w : wanted) wanted50.push_back({w.layer, Real110(w.phi)});
+    const auto built50 = LevelGrid<Real110>::exact_levels(stack50, Real110(0.1), wanted50);
     for (std::size_t layer = 0; layer < 2; ++layer) {
       const State middle = built.grid.bottom_state(layer) / 2;
       for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -101,7 +102,7 @@ TEST(LevelGrid, SpeedsOfNearlyParallelFrontsNextToOneHalfDifferByTheirStates) {
           if (l > top || r > top || l == r) continue;
           const auto& grid50 = built50.grid;
           const double expected =
-              to_double(Real50(grid50.rate(layer) * (grid50.phi(layer, built50.states[i]) -
+              to_double(Real110(grid50.rate(layer) * (grid50.phi(layer, built50.states[i]) -
                                                      grid50.phi(layer, built50.states[j]))));
           const double rounded = built.grid.speed(layer, l, middle) - built.grid.speed(layer, middle, r);
           const double drop = built.grid.speed_drop(layer, l, middle, r, rounded);

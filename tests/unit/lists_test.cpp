@@ -7,13 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
-#include "shearfront/flux/all.hpp"
-#include "shearfront/flux/skeleton.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/skeleton.hpp"
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/shear_rate/all.hpp"
-#include "shearfront/shear_rate/skeleton.hpp"
+#include "shearfront/model/depth/all.hpp"
+#include "shearfront/model/depth/skeleton.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/skeleton.hpp"
 #include "unit/example/linear.hpp"
@@ -51,28 +52,28 @@ void expect_good_names() {
 }
 
 TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList<double>>(); }
-TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<ShearRateList<double>>(); }
+TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<DepthFunctionList<double>>(); }
 TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
 TEST(Lists, MisfitNamesAreDistinctAndPlain) { expect_good_names<fit::MisfitList>(); }
 TEST(Lists, LossNamesAreDistinctAndPlain) { expect_good_names<fit::LossList>(); }
 
 TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
-  EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real50>>());
-  EXPECT_EQ(names_of<ShearRateList<double>>(), names_of<ShearRateList<Real110>>());
+  EXPECT_EQ(names_of<DepthFunctionList<double>>(), names_of<DepthFunctionList<Real110>>());
+  EXPECT_EQ(names_of<DepthFunctionList<double>>(), names_of<DepthFunctionList<Real110>>());
 }
 
 TEST(Lists, NamesJoinsInOrder) {
-  EXPECT_EQ(ShearRateList<double>::names(), "piecewise, exponential, table, chute");
+  EXPECT_EQ(DepthFunctionList<double>::names(), "piecewise, exponential, table, chute");
 }
 
 TEST(Lists, EveryListedTypeHasSamples) {
   FluxList<double>::for_each([]<class F>() { EXPECT_FALSE(F::samples().empty()) << F::kName; });
-  ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::samples().empty()) << A::kName; });
+  DepthFunctionList<double>::for_each([]<class A>() { EXPECT_FALSE(A::samples().empty()) << A::kName; });
 }
 
 TEST(Lists, EveryListedTypeDescribesItself) {
   FluxList<double>::for_each([]<class F>() { EXPECT_FALSE(F::kFormula.empty()) << F::kName; });
-  ShearRateList<double>::for_each([]<class A>() { EXPECT_FALSE(A::kFormula.empty()) << A::kName; });
+  DepthFunctionList<double>::for_each([]<class A>() { EXPECT_FALSE(A::kFormula.empty()) << A::kName; });
   SolverList::for_each([]<class S>() { EXPECT_FALSE(S::kDescription.empty()) << S::kName; });
   fit::MisfitList::for_each([]<class M>() { EXPECT_FALSE(M::kDescription.empty()) << M::kName; });
   fit::LossList::for_each([]<class L>() { EXPECT_FALSE(L::kDescription.empty()) << L::kName; });
@@ -89,19 +90,19 @@ Scene<double> half_and_half() {
 TEST(Skeletons, FluxWorksAsItStands) {
   using F = TypeList<SkeletonFlux<double>>::Variant;
   EXPECT_EQ(std::visit([](const auto& f) { return f.value(0.25); }, F{}), -0.75);
-  const SkeletonFlux<Real50> flux{Real50(0.25)};
-  EXPECT_EQ(flux.secant(Real50(0.25), Real50(0.25)), flux.derivative(Real50(0.25)));
-  EXPECT_EQ(flux.value(Real50(0.25)), Real50(-0.1875));
+  const SkeletonFlux<Real110> flux{Real110(0.25)};
+  EXPECT_EQ(flux.secant(Real110(0.25), Real110(0.25)), flux.derivative(Real110(0.25)));
+  EXPECT_EQ(flux.value(Real110(0.25)), Real110(-0.1875));
 }
 
 TEST(Skeletons, ShearRateWorksAsItStands) {
-  for (const auto& rate : SkeletonShearRate<double>::samples()) {
-    Problems problems;
+  for (const auto& rate : SkeletonDepthFunction<double>::samples()) {
+    Complaints complaints;
     rate.fields(rate, [&](const FieldInfo& info, const auto& x) {
-      check_number(std::string(info.key), info.range, x, problems);
+      check_number(std::string(info.key), info.range, x, complaints);
     });
-    rate.check("shear_rate.", 0.0, 1.0, problems);
-    EXPECT_TRUE(problems.empty());
+    rate.check("shear_rate.", 0.0, 1.0, complaints);
+    EXPECT_TRUE(complaints.empty());
     EXPECT_EQ(rate.harmonic_mean(0.25, 0.75), rate.value(0.5));
     EXPECT_TRUE(rate.knots().empty());
   }
@@ -110,24 +111,24 @@ TEST(Skeletons, ShearRateWorksAsItStands) {
 // The example of docs/extending.md. Reference: (hi - lo) / int dz/a by the closed form, in 50 digits.
 TEST(Skeletons, ExampleOfTheDocsIsAShearRate) {
   for (const auto& rate : Linear<double>::samples()) {
-    Problems problems;
-    rate.check("shear_rate.", 0.0, 1.0, problems);
-    EXPECT_TRUE(problems.empty());
-    const Linear<Real50> fine{Real50(rate.ground), Real50(rate.slope)};
-    const Real50 lo(0.25), hi(0.75);
-    const Real50 integral = log(fine.value(hi) / fine.value(lo)) / fine.slope;
-    EXPECT_NEAR(rate.harmonic_mean(0.25, 0.75), to_double(Real50((hi - lo) / integral)), 1e-15);
+    Complaints complaints;
+    rate.check("shear_rate.", 0.0, 1.0, complaints);
+    EXPECT_TRUE(complaints.empty());
+    const Linear<Real110> fine{Real110(rate.ground), Real110(rate.slope)};
+    const Real110 lo(0.25), hi(0.75);
+    const Real110 integral = log(fine.value(hi) / fine.value(lo)) / fine.slope;
+    EXPECT_NEAR(rate.harmonic_mean(0.25, 0.75), to_double(Real110((hi - lo) / integral)), 1e-15);
   }
-  Problems problems;
-  Linear<double>{1.0, -2.0}.check("shear_rate.", 0.0, 1.0, problems);
-  ASSERT_EQ(problems.size(), 1U);
+  Complaints complaints;
+  Linear<double>{1.0, -2.0}.check("shear_rate.", 0.0, 1.0, complaints);
+  ASSERT_EQ(complaints.size(), 1U);
   EXPECT_EQ(problems[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
 }
 
 TEST(Skeletons, SolverSaysThatItSolvesNothing) {
   SolverRequest request;
   request.times = {0.0, 1.0};
-  request.depths = {0.25, 0.75};
+  request.heights = {0.25, 0.75};
   const SolverResult result = SkeletonSolver::solve(half_and_half(), request, {});
   ASSERT_EQ(result.samples.size(), 4U);
   EXPECT_EQ(result.samples[1].phi, 1.0);

@@ -10,11 +10,11 @@ namespace {
 
 const double kLn2 = std::log(2.0);
 
-Scene<double> bed(DepthProfile<double> packing) {
+Scene<double> bed(DepthFunction<double> solid_fraction) {
   SceneSpec<double> spec;
   spec.fluxes = {Packed<double>{}};
   spec.shear_rate = Piecewise<double>{{}, {1}};
-  spec.packing = std::move(packing);
+  spec.solid_fraction = std::move(solid_fraction);
   spec.initial_values = {0.5};
   return Scene<double>(spec);
 }
@@ -27,8 +27,8 @@ Profile<double> profile_of(const Scene<double>& scene, double (*share)(double)) 
   for (int i = 0; i <= n; ++i) z.push_back(i / double(n));
   for (int i = 0; i < n; ++i) {
     const double x = share((z[std::size_t(i)] + z[std::size_t(i) + 1]) / 2);
-    below.push_back(x * scene.packing_at(z[std::size_t(i)]));
-    above.push_back(x * scene.packing_at(z[std::size_t(i) + 1]));
+    below.push_back(x * scene.solid_fraction_at(z[std::size_t(i)]));
+    above.push_back(x * scene.solid_fraction_at(z[std::size_t(i) + 1]));
   }
   return {z, below, above};
 }

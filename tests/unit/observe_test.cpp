@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/exact/solver.hpp"
 
 namespace shearfront {
 namespace {
@@ -28,7 +28,7 @@ Observations observed(const ObservationPlan& plan, const Scene<double>& scene) {
 
 std::string problems(const ObservationPlan& plan) {
   std::string all;
-  for (const Problem& problem : find_problems(plan, 0, 1)) all += problem.text() + "\n";
+  for (const Complaint& complaint : find_complaints(plan, 0, 1)) all += complaint.text() + "\n";
   return all;
 }
 
@@ -85,18 +85,18 @@ TEST(Observe, BinIsTheMeanOverItsInterval) {
 }
 
 TEST(Observe, PlansAreChecked) {
-  EXPECT_EQ(problems({{0, 1}, {0, 1}, Quantity::point, 0}), "");
-  EXPECT_EQ(problems({{-1, INFINITY}, {1.5}, Quantity::point, 0}),
+  EXPECT_EQ(complaints({{0, 1}, {0, 1}, Quantity::point, 0}), "");
+  EXPECT_EQ(complaints({{-1, INFINITY}, {1.5}, Quantity::point, 0}),
             "times[0] = -1; must be a finite number >= 0\ntimes[1] = inf; must be a finite number >= 0\n"
             "depths[0] = 1.5; must be inside the domain [0, 1]\n");
-  EXPECT_EQ(problems({{1, 2, 1}, {0.5, 0.5}, Quantity::point, 0}),
+  EXPECT_EQ(complaints({{1, 2, 1}, {0.5, 0.5}, Quantity::point, 0}),
             "times[2] = 1; must not be given twice\ndepths[1] = 0.5; must not be given twice\n");
-  EXPECT_EQ(problems({{0}, {0.95}, Quantity::bin, 0.2}),
+  EXPECT_EQ(complaints({{0}, {0.95}, Quantity::bin, 0.2}),
             "depths[0] = 0.95; must leave its bin of width 0.2 inside the domain [0, 1]\n");
-  EXPECT_EQ(problems({{0}, {0.5}, Quantity::bin, 0}), "width = 0; must be > 0\n");
-  EXPECT_EQ(problems({{0}, {0.5}, Quantity::bin, 1e-12}),
+  EXPECT_EQ(complaints({{0}, {0.5}, Quantity::bin, 0}), "width = 0; must be > 0\n");
+  EXPECT_EQ(complaints({{0}, {0.5}, Quantity::bin, 1e-12}),
             "width = 1e-12; must be at least 1e-08 of every depth\n");
-  EXPECT_EQ(problems({{0}, {0.5}, Quantity::point, 0.1}),
+  EXPECT_EQ(complaints({{0}, {0.5}, Quantity::point, 0.1}),
             "width = 0.1; must be 0 unless bins are observed\n");
   EXPECT_THROW((void)request_of({{-1}, {0.5}, Quantity::point, 0}, may()), InputError);
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/scene/input_error.hpp"
+#include "shearfront/model/complaint.hpp"
 
 /// Values of command-line options. They arrive as text and are converted here, strictly and independently of
 /// the locale, so that every refusal has the same form: `--resolution = -1; must be > 0 and <= 1`.

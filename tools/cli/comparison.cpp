@@ -64,17 +64,17 @@ std::optional<double> least(const std::vector<ComparedModel>& models,
 }  // namespace
 
 void check_comparable(const std::vector<std::string>& files, const std::vector<fit::FitSpec>& specs) {
-  Problems problems;
+  Complaints complaints;
   std::string report;
   for (std::size_t i = 1; i < specs.size(); ++i) {
     const std::string why = difference(specs.front(), specs[i]);
     if (why.empty()) continue;
     const std::string file = printable(files[i]);
     const std::string text = fmt::format("cannot be compared with {}: {}", printable(files[0]), why);
-    problems.push_back({file, "", text});
+    complaints.push_back({file, "", text});
     report += fmt::format("{}{}: {}", report.empty() ? "" : "\n", file, text);
   }
-  if (!problems.empty()) throw FileError(std::move(problems), std::move(report));
+  if (!complaints.empty()) throw FileError(std::move(complaints), std::move(report));
 }
 
 std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,

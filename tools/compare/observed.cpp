@@ -8,7 +8,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/method.hpp"
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/solution/observed_events.hpp"
 
 namespace shearfront::tools {

@@ -7,7 +7,7 @@
 
 #include "cli/method.hpp"
 #include "cli/table.hpp"
-#include "shearfront/hopf_lax/events.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::tools {

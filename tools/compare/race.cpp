@@ -7,7 +7,8 @@
 
 #include "cli/arguments.hpp"
 #include "cli/method.hpp"
-#include "shearfront/hopf_lax/l1_error.hpp"
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 
 namespace shearfront::tools {
@@ -38,7 +39,7 @@ SolverRequest request_of(const Scene<double>& scene, const Contestant& contestan
   SolverRequest request;
   request.times = {t};
   if (contestant.kind == LadderKind::points)
-    request.depths = heights(scene, rung);
+    request.heights = heights(scene, rung);
   else
     request.profiles = true;
   return request;
@@ -47,13 +48,13 @@ SolverRequest request_of(const Scene<double>& scene, const Contestant& contestan
 /// int |phi - phi with 50 digits| by means of some of the heights.
 double rounding_error(const Scene<double>& scene, double t, const std::vector<double>& z,
                       const std::vector<Sample>& samples) {
-  const ExactSolution<Real50> precise(scene_cast<Real50>(scene));
+  const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
   const std::size_t n_layers = std::max<std::size_t>(precise.n_layers(), 1);
   const std::size_t most = std::clamp(kOracleWork / n_layers, kLeastOraclePoints, kMostOraclePoints);
   const std::size_t stride = (z.size() + most - 1) / most;
   double sum = 0, n = 0;
   for (std::size_t i = stride / 2; i < z.size(); i += stride, ++n)
-    sum += std::abs(to_double(Real50(precise.phi(Real50(z[i]), Real50(t)) - samples[i].phi)));
+    sum += std::abs(to_double(Real110(precise.phi(Real110(z[i]), Real110(t)) - samples[i].phi)));
   return sum / n * (scene.top() - scene.bottom());
 }
 
@@ -109,8 +110,8 @@ class Climb {
     }
     Rung done{rung, 0, wall, summary.collisions + summary.cell_updates};
     if (contestant.kind == LadderKind::points) {
-      done.work = request.depths.size();
-      done.l1_error = rounding_error(scene_, t_, request.depths, result.samples);
+      done.work = request.heights.size();
+      done.l1_error = rounding_error(scene_, t_, request.heights, result.samples);
     } else {
       done.l1_error = errors_against(exact_, result.profiles.front(), t_).l1;
     }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
-#include "shearfront/hopf_lax/exact_solution.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/scene.hpp"
 
 namespace shearfront::tools {
@@ -48,7 +48,7 @@ struct RaceLimits {
 };
 
 /// Error against time of every method at one time. Each run starts afresh and ends at t. Errors are measured
-/// against the exact solution (hopf_lax/l1_error.hpp); for an exact method itself: mean difference of phi
+/// against the exact solution (exact/l1_error.hpp); for an exact method itself: mean difference of phi
 /// from the same engine at 50 digits, at up to 1000 heights (fewer from 20 layers on), times the height of
 /// the bed.
 [[nodiscard]] Panel race(const Scene<double>& scene, const ExactSolution<double>& exact, double t,

@@ -21,7 +21,7 @@ constexpr std::size_t kMostErrorBars = 40;  // more of them hide the points
 std::string fitted_rows(const fit::FitSpec& spec, const fit::Estimate& estimate, double t) {
   SolverRequest request;
   request.times = {t};
-  request.depths = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
+  request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
   const SolverResult result = solve_with(spec.forward.method, *estimate.scene, request, spec.forward.options);
   if (!result.summary.usable()) return "";
   std::string rows;
@@ -30,7 +30,7 @@ std::string fitted_rows(const fit::FitSpec& spec, const fit::Estimate& estimate,
       return spec.observations.quantity == Quantity::cumulative ? result.samples[i].M : result.samples[i].phi;
     };
     const bool is_inside = j > 0 && j + 1 < kHeights && value(j - 1) == value(j) && value(j) == value(j + 1);
-    if (!is_inside) rows += fmt::format("{:.6g} {:.6g}\n", value(j), request.depths[j]);
+    if (!is_inside) rows += fmt::format("{:.6g} {:.6g}\n", value(j), request.heights[j]);
   }
   return rows;
 }

@@ -21,7 +21,7 @@ constexpr std::size_t kMostLabels = 4;  // more interfaces than this get marks w
 /// fronts of a fan. A shock smaller than `least` looks like a front of a fan.
 std::size_t width_of(const FrontSegment<double>& front, const Scene<double>& scene, double least) {
   const double jump = std::abs(front.phi_above - front.phi_below);
-  const double z = front.z_begin + (front.z_end - front.z_begin) / 2, c = scene.packing_at(z);
+  const double z = front.z_begin + (front.z_end - front.z_begin) / 2, c = scene.solid_fraction_at(z);
   const bool is_shock = std::visit(
       [&](const auto& f) { return f.derivative(front.phi_below / c) > f.derivative(front.phi_above / c); },
       scene.flux_at(z));

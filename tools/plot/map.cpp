@@ -24,13 +24,13 @@ int draw_map(const std::string& path, const Scene<double>& scene, std::string_vi
              const SolverOptions& options) {
   SolverRequest request;
   request.times = equally_spaced(0, t_end, kTimes);
-  request.depths = equally_spaced(scene.bottom(), scene.top(), kHeights);
+  request.heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
   const SolverResult result = solve_with(method, scene, request, options);
   if (!result.summary.usable()) return report_unusable(result.summary);
   std::string rows;
   for (std::size_t i = 0; i < kTimes; ++i) {
     for (std::size_t j = 0; j < kHeights; ++j)
-      rows += fmt::format("{:.6g} {:.6g} {:.4g}\n", request.times[i], request.depths[j],
+      rows += fmt::format("{:.6g} {:.6g} {:.4g}\n", request.times[i], request.heights[j],
                           result.samples[i * kHeights + j].phi);
     rows += '\n';
   }

@@ -37,7 +37,7 @@ void add_profiles(Gnuplot& plot, std::string_view prefix, const SolverRequest& r
                   const SolverResult& result) {
   for (std::size_t i = 0; i < request.times.size(); ++i)
     plot.add_data(fmt::format("{}{}", prefix, i),
-                  rows(request.depths, result.samples.data() + i * request.depths.size()));
+                  rows(request.heights, result.samples.data() + i * request.heights.size()));
 }
 
 void add_frame(Gnuplot& plot, const Scene<double>& scene) {
@@ -66,7 +66,7 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, std::stri
                   const std::vector<double>& times, const SolverOptions& options) {
   SolverRequest request;
   request.times = times;
-  request.depths = equally_spaced(scene.bottom(), scene.top(), kHeights);
+  request.heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
   const SolverResult result = solve_with(method, scene, request, options);
   const bool compare = !guarantees_of(method).exact;
   const SolverResult exact = compare ? ExactSolver::solve(scene, request, options) : SolverResult{};

@@ -15,7 +15,7 @@ namespace shearfront::fit {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-DiffusionForward::DiffusionForward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+DiffusionForward::DiffusionForward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
                                    std::vector<Point> points)
     : parameters_(parameters),
       options_(forward.options),
@@ -90,7 +90,7 @@ void DiffusionForward::read(const diffusion::Problem& problem, const diffusion::
   const auto numbers = [&](const Profile<double>& profile, auto&& put) {
     const auto values = profile.at(row.heights);
     for (std::size_t k = 0; k < values.size(); ++k)
-      put(row.places[k], field_ == Field::phi ? values[k].phi : values[k].M);
+      put(row.places[k], field_ == Observable::phi ? values[k].phi : values[k].M);
   };
   numbers(diffusion::profile_of(problem, engine.states()),
           [&](Index place, double value) { prediction.values[place] = value; });

@@ -28,7 +28,7 @@ class DiffusionForward final : public Forward {
   static constexpr double kReach = 0.01;
 
   /// phi or M at the points.
-  DiffusionForward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+  DiffusionForward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
                    std::vector<Point> points);
 
   [[nodiscard]] bool has_derivatives() const override { return has_derivatives_; }
@@ -57,7 +57,7 @@ class DiffusionForward final : public Forward {
 
   Parameters parameters_;
   SolverOptions options_;
-  Field field_;
+  Observable field_;
   Eigen::Index n_points_;
   std::vector<Row> rows_;  ///< by ascending time
   bool has_derivatives_ = true;

@@ -22,7 +22,7 @@
 namespace shearfront::fit {
 namespace {
 
-using detail::ProblemReport;
+using detail::ComplaintReport;
 using detail::TableReader;
 using detail::TomlSource;
 using Need = TableReader::Need;
@@ -50,11 +50,11 @@ std::vector<std::string> names_in() {
 }
 
 /// Puts a problem where its entry stands in the file, with the number as it is written there.
-void add_located(const TomlSource& source, ProblemReport& report, Problem problem) {
-  const TomlSource::Found found = source.find(problem.key);
-  if (found.is_exact && found.node->is_number()) problem.value = source.shown(*found.node);
+void add_located(const TomlSource& source, ComplaintReport& report, Complaint complaint) {
+  const TomlSource::Found found = source.find(complaint.key);
+  if (found.is_exact && found.node->is_number()) complaint.value = source.shown(*found.node);
   report.add(TomlSource::position(*found.node), TomlSource::shown_position(*found.node, found.around),
-             std::move(problem));
+             std::move(complaint));
 }
 
 class FitReader {
@@ -214,7 +214,7 @@ class FitReader {
     try {
       read();
     } catch (const FileError& error) {
-      const Problem& first = error.problems().front();
+      const Complaint& first = error.complaints().front();
       if (first.key != printable(path) || !first.value.empty())
         others_.push_back(error);
       else
@@ -231,12 +231,12 @@ class FitReader {
     try {
       (void)Parameters(*scene_, unknown);
     } catch (const InputError& error) {
-      for (Problem problem : error.problems()) {
-        if (report_.is_spoiled(problem.key)) continue;
-        if (has_bad_numbers_ && problem.key.find("unknown.parameters") == std::string::npos) continue;
-        if (problem.key.starts_with("unknown.start") && unknown.start.empty())
-          problem.constraint += "; without start it is the value of the scene";
-        add(std::move(problem));
+      for (Complaint complaint : error.complaints()) {
+        if (report_.is_spoiled(complaint.key)) continue;
+        if (has_bad_numbers_ && complaint.key.find("unknown.parameters") == std::string::npos) continue;
+        if (complaint.key.starts_with("unknown.start") && unknown.start.empty())
+          complaint.constraint += "; without start it is the value of the scene";
+        add(std::move(complaint));
       }
     }
   }
@@ -251,10 +251,10 @@ class FitReader {
   }
 
   void throw_if_any() {
-    Problems problems;
+    Complaints complaints;
     std::string text;
     const auto take = [&](const FileError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
       text += (text.empty() ? "" : "\n") + std::string(error.what());
     };
     try {
@@ -263,13 +263,13 @@ class FitReader {
       take(error);
     }
     for (const FileError& error : others_) take(error);
-    if (!problems.empty()) throw FileError(std::move(problems), std::move(text));
+    if (!complaints.empty()) throw FileError(std::move(complaints), std::move(text));
   }
 
-  void add(Problem problem) { add_located(source_, report_, std::move(problem)); }
+  void add(Complaint complaint) { add_located(source_, report_, std::move(complaint)); }
 
   const TomlSource& source_;
-  ProblemReport report_;
+  ComplaintReport report_;
   std::vector<FileError> others_;  ///< of the scene and of the observations
   std::optional<Scene<double>> scene_;
   std::optional<Observations> data_;
@@ -304,13 +304,13 @@ std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path) 
 FileError located(const InputError& error, const std::string& path) {
   try {
     const TomlSource source(detail::TextSource::read(path));
-    ProblemReport report(path);
-    for (const Problem& problem : error.problems()) add_located(source, report, problem);
+    ComplaintReport report(path);
+    for (const Complaint& complaint : error.complaints()) add_located(source, report, complaint);
     report.throw_if_any();
   } catch (const FileError& with_places) {
     return with_places;
   }
-  return {error.problems(), error.what()};
+  return {error.complaints(), error.what()};
 }
 
 }  // namespace shearfront::fit

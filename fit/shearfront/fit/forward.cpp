@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "shearfront/fit/diffusion_forward.hpp"
-#include "shearfront/hopf_lax/refusal.hpp"
-#include "shearfront/hopf_lax/sensitivities.hpp"
+#include "shearfront/exact/refusal.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/observation.hpp"
@@ -33,20 +33,20 @@ std::span<const double> part_of(const Gradient<double>& gradient, std::string_vi
 
 class ForwardModel : public Forward {
  public:
-  ForwardModel(const Parameters& parameters, Field field, std::vector<Point> points)
+  ForwardModel(const Parameters& parameters, Observable field, std::vector<Point> points)
       : parameters_(parameters), field_(field), points_(std::move(points)) {}
 
  protected:
   [[nodiscard]] Index n_points() const { return static_cast<Index>(points_.size()); }
 
   Parameters parameters_;
-  Field field_;
+  Observable field_;
   std::vector<Point> points_;
 };
 
 class ExactForward final : public ForwardModel {
  public:
-  ExactForward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+  ExactForward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
                std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), layers_(forward.options.layers) {
     const ExactSolution<double> solution(parameters.scene(), {layers_});
@@ -67,7 +67,7 @@ class ExactForward final : public ForwardModel {
     const auto found = parameters_.scene_at(values, prediction.failure);
     if (!found) return prediction;
     const Scene<double>& scene = *found;
-    if (std::string reason = hopf_lax::refusal(scene); !reason.empty()) {
+    if (std::string reason = exact::refusal(scene); !reason.empty()) {
       prediction.failure = std::move(reason);
       return prediction;
     }
@@ -78,12 +78,12 @@ class ExactForward final : public ForwardModel {
       const Point& point = points_[static_cast<std::size_t>(i)];
       if (!with_derivatives) {
         const auto at = solution.at(point.z, point.t);
-        prediction.values[i] = field_ == Field::phi ? at.phi : at.M;
+        prediction.values[i] = field_ == Observable::phi ? at.phi : at.M;
         continue;
       }
       const auto at = sensitivities(solution, point.z, point.t);
-      prediction.values[i] = field_ == Field::phi ? at.value.phi : at.value.M;
-      const Gradient<double>& gradient = field_ == Field::phi ? at.phi : at.M;
+      prediction.values[i] = field_ == Observable::phi ? at.value.phi : at.value.M;
+      const Gradient<double>& gradient = field_ == Observable::phi ? at.phi : at.M;
       Index column = 0;
       for (const Parameter& p : parameters_)
         prediction.derivatives(i, column++) = part_of(gradient, p.entry.field)[p.entry.index];
@@ -112,7 +112,7 @@ class BedHeightForward final : public ForwardModel {
  public:
   BedHeightForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, bool is_exact,
                    std::vector<Point> points)
-      : ForwardModel(parameters, Field::bed_height, std::move(points)),
+      : ForwardModel(parameters, Observable::bed_height, std::move(points)),
         solve_(solve),
         options_(forward.options),
         is_exact_(is_exact) {
@@ -153,21 +153,21 @@ class BedHeightForward final : public ForwardModel {
 
 class SolverForward final : public ForwardModel {
  public:
-  SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Field field,
+  SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Observable field,
                 std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), solve_(solve), options_(forward.options) {
     // M of the states themselves is of second order and varies more smoothly than M of the lines through
     // them.
-    if (field == Field::M) options_.reconstruct = Reconstruction::constant;
+    if (field == Observable::M) options_.reconstruct = Reconstruction::constant;
     for (const Point& point : points_) {
       request_.times.push_back(point.t);
-      request_.depths.push_back(point.z);
+      request_.heights.push_back(point.z);
     }
     keep_distinct(request_.times);
-    keep_distinct(request_.depths);
+    keep_distinct(request_.heights);
     for (const Point& point : points_)
-      samples_.push_back(position(request_.times, point.t) * request_.depths.size() +
-                         position(request_.depths, point.z));
+      samples_.push_back(position(request_.times, point.t) * request_.heights.size() +
+                         position(request_.heights, point.z));
   }
 
   [[nodiscard]] bool has_derivatives() const override { return false; }
@@ -185,7 +185,7 @@ class SolverForward final : public ForwardModel {
     prediction.values.resize(n_points());
     for (Index i = 0; i < n_points(); ++i) {
       const Sample& sample = result.samples[samples_[static_cast<std::size_t>(i)]];
-      prediction.values[i] = field_ == Field::phi ? sample.phi : sample.M;
+      prediction.values[i] = field_ == Observable::phi ? sample.phi : sample.M;
     }
     return prediction;
   }
@@ -199,9 +199,9 @@ class SolverForward final : public ForwardModel {
 
 }  // namespace
 
-std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward, Field field,
+std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
                                       std::vector<Point> points) {
-  if (field == Field::bed_height)
+  if (field == Observable::bed_height)
     if (const std::string reason = BedHeight::refusal(parameters.scene()); !reason.empty())
       throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),
                        "must suit the scene: " + reason);
@@ -210,9 +210,9 @@ std::unique_ptr<Forward> make_forward(const Parameters& parameters, const Forwar
     if (forward.method != S::kName) return;
     constexpr bool kIsExact = std::is_same_v<S, ExactSolver>;
     if constexpr (kIsExact)
-      if (const std::string reason = hopf_lax::refusal(parameters.scene()); !reason.empty())
+      if (const std::string reason = exact::refusal(parameters.scene()); !reason.empty())
         throw InputError("forward.method", quoted_text(forward.method), "must suit the scene: " + reason);
-    if (field == Field::bed_height)
+    if (field == Observable::bed_height)
       model = std::make_unique<BedHeightForward>(parameters, forward, &S::solve, kIsExact, std::move(points));
     else if constexpr (kIsExact)
       model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));

@@ -18,7 +18,7 @@ struct Point {
 
 /// What the observations are made of. The height of the bed has no place in it: z of its points does not
 /// matter.
-enum class Field { phi, M, bed_height };
+enum class Observable { phi, M, bed_height };
 
 /// Values at the points and, if asked for, their derivatives: row = point, column = parameter.
 struct Prediction {
@@ -46,7 +46,7 @@ class Forward {
 /// (numeric_step.hpp).
 /// Errors: InputError if there is no solver of this name. Cost of predict(): one run of the solver.
 [[nodiscard]] std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward,
-                                                    Field field, std::vector<Point> points);
+                                                    Observable field, std::vector<Point> points);
 
 /// Names of the solvers a fit may use.
 [[nodiscard]] std::vector<std::string> forward_names();

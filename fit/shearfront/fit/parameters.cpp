@@ -37,22 +37,22 @@ std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entri
 
 Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
     : scene_(scene), shape_(unknown.shape) {
-  Problems problems;
-  resolve(unknown, problems);
-  if (problems.empty()) set_defaults();
-  if (problems.empty()) set_numbers(unknown, problems);
-  if (problems.empty()) check_shape(problems);
-  if (problems.empty())
-    for (const Problem& problem : find_problems(scene_with(start())))
-      problems.push_back({"unknown.start", "", "makes an invalid scene: " + problem.text()});
-  if (!problems.empty()) throw InputError(std::move(problems));
+  Complaints complaints;
+  resolve(unknown, complaints);
+  if (complaints.empty()) set_defaults();
+  if (complaints.empty()) set_numbers(unknown, complaints);
+  if (complaints.empty()) check_shape(complaints);
+  if (complaints.empty())
+    for (const Complaint& complaint : find_complaints(scene_with(start())))
+      complaints.push_back({"unknown.start", "", "makes an invalid scene: " + complaint.text()});
+  if (!complaints.empty()) throw InputError(std::move(complaints));
 }
 
-void Parameters::resolve(const UnknownSpec& unknown, Problems& problems) {
+void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
   const std::vector<Entry> all = entries(scene_.spec());
   std::set<std::size_t> taken;
   if (unknown.parameters.empty())
-    problems.push_back({"unknown.parameters", count_text(0),
+    complaints.push_back({"unknown.parameters", count_text(0),
                         "must name at least one entry of the scene: " + joined(field_names(all))});
   for (std::size_t i = 0; i < unknown.parameters.size(); ++i) {
     const std::string& name = unknown.parameters[i];
@@ -67,13 +67,13 @@ void Parameters::resolve(const UnknownSpec& unknown, Problems& problems) {
       if (all[k].field == "diffusion.D") parameters_.back().entry.range = Range::positive;
     }
     const std::string key = element("unknown.parameters", i);
-    if (twice) problems.push_back({key, quoted_text(name), "must not name an entry twice"});
+    if (twice) complaints.push_back({key, quoted_text(name), "must not name an entry twice"});
     if (found) continue;
     std::string constraint = "must be one of: " + joined(field_names(all)) + ", or one entry such as " +
                              (all.empty() ? "" : all[0].name());
     if (const auto meant = nearest_name(name, field_names(all)))
       constraint += " (did you mean " + *meant + "?)";
-    problems.push_back({key, quoted_text(name), constraint});
+    complaints.push_back({key, quoted_text(name), constraint});
   }
 }
 
@@ -91,11 +91,11 @@ void Parameters::set_defaults() {
   }
 }
 
-void Parameters::set_numbers(const UnknownSpec& unknown, Problems& problems) {
+void Parameters::set_numbers(const UnknownSpec& unknown, Complaints& complaints) {
   const auto take = [&](const char* key, const std::vector<double>& numbers, double Parameter::*member) {
     if (numbers.empty()) return;
     if (numbers.size() != size()) {
-      problems.push_back({key, count_text(numbers.size()),
+      complaints.push_back({key, count_text(numbers.size()),
                           "must have one number per unknown (" + std::to_string(size()) + ")"});
       return;
     }
@@ -109,26 +109,26 @@ void Parameters::set_numbers(const UnknownSpec& unknown, Problems& problems) {
   }
   take("unknown.lower", unknown.lower, &Parameter::lower);
   take("unknown.upper", unknown.upper, &Parameter::upper);
-  if (!problems.empty()) return;
+  if (!complaints.empty()) return;
   for (std::size_t i = 0; i < size(); ++i) {
     const Parameter& p = parameters_[i];
     if (p.entry.range == Range::positive && !(p.start > 0))
-      problems.push_back(
+      complaints.push_back(
           {element("unknown.start", i), number_text(p.start), "must be > 0 (" + p.name() + ")"});
     else if (p.entry.range == Range::positive && !(p.lower > 0))
-      problems.push_back(
+      complaints.push_back(
           {element("unknown.lower", i), number_text(p.lower), "must be > 0 (" + p.name() + ")"});
     else if (!(p.lower < p.upper))
-      problems.push_back({element("unknown.lower", i), number_text(p.lower),
+      complaints.push_back({element("unknown.lower", i), number_text(p.lower),
                           "must be less than upper (" + number_text(p.upper) + ")"});
     else if (!(p.start >= p.lower && p.start <= p.upper))
-      problems.push_back(
+      complaints.push_back(
           {element("unknown.start", i), number_text(p.start),
            "must be between lower (" + number_text(p.lower) + ") and upper (" + number_text(p.upper) + ")"});
   }
 }
 
-void Parameters::check_shape(Problems& problems) const {
+void Parameters::check_shape(Complaints& complaints) const {
   if (shape_ == Shape::none) return;
   const std::string name = shape_ == Shape::decreasing ? "\"decreasing\"" : "\"convex\"";
   std::size_t n_values = 0;
@@ -137,13 +137,13 @@ void Parameters::check_shape(Problems& problems) const {
   for (const Parameter& p : parameters_)
     if (p.entry.field == "shear_rate.values") {
       if (p.entry.index != values.size()) {
-        problems.push_back({"unknown.shape", name, "needs shear_rate.values in the order of the scene"});
+        complaints.push_back({"unknown.shape", name, "needs shear_rate.values in the order of the scene"});
         return;
       }
       values.push_back(p.start);
     }
   if (n_values == 0 || values.size() != n_values) {
-    problems.push_back({"unknown.shape", name, "needs all of shear_rate.values among the unknowns"});
+    complaints.push_back({"unknown.shape", name, "needs all of shear_rate.values among the unknowns"});
     return;
   }
   // Decimal start values with equal steps (3.3, 2.5, 1.7) are not exactly so in binary.
@@ -152,7 +152,7 @@ void Parameters::check_shape(Problems& problems) const {
     const double step = values[i - 1] - values[i];
     const bool shrinks = shape_ != Shape::convex || i < 2 || step <= values[i - 2] - values[i - 1] + slack;
     if (!(step >= -slack) || !shrinks) {
-      problems.push_back(
+      complaints.push_back(
           {"unknown.start", "", "must have the shape " + name + " (value " + std::to_string(i) + ")"});
       return;
     }
@@ -184,8 +184,8 @@ SceneSpec<double> Parameters::scene_with(const Eigen::VectorXd& values) const {
 
 std::optional<Scene<double>> Parameters::scene_at(const Eigen::VectorXd& values, std::string& failure) const {
   SceneSpec<double> spec = scene_with(values);
-  if (const Problems problems = find_problems(spec); !problems.empty()) {
-    failure = problems.front().text();
+  if (const Complaints complaints = find_complaints(spec); !complaints.empty()) {
+    failure = complaints.front().text();
     return std::nullopt;
   }
   return Scene<double>(std::move(spec));

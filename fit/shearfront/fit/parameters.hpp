@@ -49,10 +49,10 @@ class Parameters {
                                                       std::string& failure) const;
 
  private:
-  void resolve(const UnknownSpec& unknown, Problems& problems);
+  void resolve(const UnknownSpec& unknown, Complaints& complaints);
   void set_defaults();
-  void set_numbers(const UnknownSpec& unknown, Problems& problems);
-  void check_shape(Problems& problems) const;
+  void set_numbers(const UnknownSpec& unknown, Complaints& complaints);
+  void check_shape(Complaints& complaints) const;
 
   Scene<double> scene_;
   std::vector<Parameter> parameters_;

@@ -47,7 +47,7 @@ class Moved {
     Eigen::VectorXd moved = values_;
     moved[column_] += by;
     SceneSpec<double> spec = parameters_.scene_with(moved);
-    if (!find_problems(spec).empty()) return {};
+    if (!find_complaints(spec).empty()) return {};
     return diffusion::problem_of(Scene<double>(std::move(spec)), n_cells_);
   }
 

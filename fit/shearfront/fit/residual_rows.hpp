@@ -30,7 +30,7 @@ struct ResidualRows {
     std::vector<Term> data;   ///< d_ik, index into the observations
     double target = 0, weight = 1;
   };
-  Field field = Field::phi;
+  Observable field = Observable::phi;
   std::vector<Point> points;
   std::vector<Row> rows;
 
@@ -46,7 +46,7 @@ struct ResidualRows {
 /// Puts rows together; every place is asked of the solver once.
 class RowBuilder {
  public:
-  RowBuilder(const Observations& observations, Field field) : observations_(&observations) {
+  RowBuilder(const Observations& observations, Observable field) : observations_(&observations) {
     rows_.field = field;
   }
 

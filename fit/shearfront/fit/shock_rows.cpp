@@ -58,7 +58,7 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
     ends.push_back({here.t, here.high});
   }
   if (ends.empty()) return keep;
-  const Prediction at_ends = make_forward(parameters, forward, Field::phi, ends)->predict(values, false);
+  const Prediction at_ends = make_forward(parameters, forward, Observable::phi, ends)->predict(values, false);
   if (!at_ends.is_valid()) return keep;
   std::vector<Neighbourhood> steep;
   std::vector<Point> inside;
@@ -71,7 +71,7 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
           {near[i].t, near[i].low + (near[i].high - near[i].low) * static_cast<double>(part) / kParts});
   }
   if (inside.empty()) return keep;
-  const Prediction at = make_forward(parameters, forward, Field::phi, inside)->predict(values, false);
+  const Prediction at = make_forward(parameters, forward, Observable::phi, inside)->predict(values, false);
   if (!at.is_valid()) return keep;
   for (std::size_t i = 0; i < steep.size(); ++i) {
     keep[steep[i].row] =

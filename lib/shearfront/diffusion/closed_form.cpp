@@ -35,7 +35,7 @@ bool has_constant_coefficients(const Scene<double>& scene) {
 
 Result uniform_start(const Scene<double>& scene, double rate) {
   const auto& values = scene.initial_values();
-  if (scene.spec().initial_profile || !scene.has_walls() ||
+  if (scene.spec().initial_state || !scene.has_walls() ||
       std::any_of(values.begin(), values.end(), [&](double phi) { return phi != values.front(); }))
     return std::string("only beds that start uniform between walls, and kinks, have a closed form") + kOther;
   const auto form = std::make_shared<UniformStart<double>>(
@@ -63,8 +63,8 @@ Result travelling_kink(const Scene<double>& scene, const KinkInitial<double>& ki
 }
 
 Result periodic_burgers(const Scene<double>& scene, double rate) {
-  const auto* sine = scene.spec().initial_profile
-                         ? std::get_if<SineInitial<double>>(&*scene.spec().initial_profile)
+  const auto* sine = scene.spec().initial_state
+                         ? std::get_if<SineInitial<double>>(&*scene.spec().initial_state)
                          : nullptr;
   const double height = scene.top() - scene.bottom();
   const double waves = sine ? height / sine->wavelength : 0;
@@ -89,7 +89,7 @@ Result periodic_burgers(const Scene<double>& scene, double rate) {
 Result closed_form(const Scene<double>& scene) {
   if (!scene.has_diffusion())
     return std::string("grains do not diffuse in this bed (no D > 0); use exact or front-tracking");
-  if (scene.fluxes().size() > 1 || scene.spec().packing || !has_constant_coefficients(scene))
+  if (scene.fluxes().size() > 1 || scene.spec().solid_fraction || !has_constant_coefficients(scene))
     return std::string("a closed form needs one flux, c = 1, and constant s a(z), T(z) and D(z)") + kOther;
   const double rate = scene.scale() * scene.rate_at(scene.bottom());
   const Flux<double>& flux = scene.fluxes()[0];
@@ -99,8 +99,8 @@ Result closed_form(const Scene<double>& scene) {
   if (!packed && !std::holds_alternative<Quadratic<double>>(flux))
     return std::string("no closed form is known for this flux with diffusion") + kOther;
   const double signed_rate = packed && packed->grains == Grains::large ? -rate : rate;
-  if (scene.spec().initial_profile)
-    if (const auto* kink = std::get_if<KinkInitial<double>>(&*scene.spec().initial_profile))
+  if (scene.spec().initial_state)
+    if (const auto* kink = std::get_if<KinkInitial<double>>(&*scene.spec().initial_state))
       return travelling_kink(scene, *kink, signed_rate);
   return uniform_start(scene, signed_rate);
 }

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <utility>
 
+#include "shearfront/numeric/instantiated.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront::diffusion {
@@ -173,8 +174,6 @@ BurgersPoint<Scalar> PeriodicBurgers<Scalar>::at(const Scalar& x, const Scalar& 
           speed_ * wave_number_ * e.gradient};
 }
 
-template class PeriodicBurgers<double>;
-template class PeriodicBurgers<Real50>;
-template class PeriodicBurgers<Real110>;
+template class PeriodicBurgers<Instantiated>;
 
 }  // namespace shearfront::diffusion

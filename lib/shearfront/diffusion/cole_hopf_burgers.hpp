@@ -55,7 +55,5 @@ class PeriodicBurgers {
 };
 
 extern template class PeriodicBurgers<double>;
-extern template class PeriodicBurgers<Real50>;
-extern template class PeriodicBurgers<Real110>;
 
 }  // namespace shearfront::diffusion

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "shearfront/diffusion/logistic.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::diffusion {
 
@@ -30,8 +31,6 @@ ColeHopfPoint<Scalar> Kink<Scalar>::at(const Scalar& z, const Scalar& t) const {
   return point;
 }
 
-template class Kink<double>;
-template class Kink<Real50>;
-template class Kink<Real110>;
+template class Kink<Instantiated>;
 
 }  // namespace shearfront::diffusion

@@ -31,7 +31,5 @@ class Kink {
 };
 
 extern template class Kink<double>;
-extern template class Kink<Real50>;
-extern template class Kink<Real110>;
 
 }  // namespace shearfront::diffusion

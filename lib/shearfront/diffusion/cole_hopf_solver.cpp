@@ -42,7 +42,7 @@ SolverResult ColeHopfSolver::solve(const Scene<double>& scene, const SolverReque
       result.samples.clear(), result.integrals.clear();
       break;
     }
-    for (const double z : request.depths) {
+    for (const double z : request.heights) {
       const diffusion::ClosedFormValue at = form(z, t);
       result.samples.push_back({at.phi, at.M});
     }

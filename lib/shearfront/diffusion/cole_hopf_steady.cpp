@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shearfront/diffusion/logistic.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::diffusion {
 
@@ -41,8 +42,6 @@ ColeHopfPoint<Scalar> SteadyState<Scalar>::at(const Scalar& z) const {
   return point;
 }
 
-template class SteadyState<double>;
-template class SteadyState<Real50>;
-template class SteadyState<Real110>;
+template class SteadyState<Instantiated>;
 
 }  // namespace shearfront::diffusion

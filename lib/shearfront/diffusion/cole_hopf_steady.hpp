@@ -32,7 +32,5 @@ class SteadyState {
 };
 
 extern template class SteadyState<double>;
-extern template class SteadyState<Real50>;
-extern template class SteadyState<Real110>;
 
 }  // namespace shearfront::diffusion

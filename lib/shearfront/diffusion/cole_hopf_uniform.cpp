@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shearfront/diffusion/cole_hopf_steady.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 #include "shearfront/numeric/scaled_erfc.hpp"
 #include "shearfront/numeric/scaled_sum.hpp"
 
@@ -200,8 +201,6 @@ ColeHopfPoint<Scalar> UniformStart<Scalar>::at(const Scalar& z, const Scalar& t)
   return point;
 }
 
-template class UniformStart<double>;
-template class UniformStart<Real50>;
-template class UniformStart<Real110>;
+template class UniformStart<Instantiated>;
 
 }  // namespace shearfront::diffusion

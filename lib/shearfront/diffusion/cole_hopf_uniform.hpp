@@ -67,7 +67,5 @@ class UniformStart {
 };
 
 extern template class UniformStart<double>;
-extern template class UniformStart<Real50>;
-extern template class UniformStart<Real110>;
 
 }  // namespace shearfront::diffusion

@@ -89,7 +89,7 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
     follow(refinement.emplace(scene, options.cells, options.cell_tolerance), own);
   diffusion::CrankNicolson engine(
       refinement ? refinement->start() : diffusion::problem_of(scene, options.cells), own);
-  const std::size_t n = request.depths.size();
+  const std::size_t n = request.heights.size();
   std::vector<std::size_t> order(request.times.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -103,7 +103,7 @@ SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const Solver
     status = march(engine, request.times[i]);
     if (!is_usable()) break;
     Profile<double> profile = diffusion::profile_of(engine.problem(), engine.states());
-    const auto values = profile.at(request.depths);
+    const auto values = profile.at(request.heights);
     for (std::size_t j = 0; j < n; ++j) result.samples[i * n + j] = {values[j].phi, values[j].M};
     if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
     if (request.profiles) result.profiles[i] = std::move(profile);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "shearfront/flux/all.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 namespace shearfront::diffusion {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/flux/all.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 namespace shearfront::diffusion {
 

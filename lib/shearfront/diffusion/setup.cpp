@@ -119,7 +119,7 @@ std::string refusal(const Scene<double>& scene) {
   if (!scene.has_diffusion())
     return "grains do not diffuse in this bed (no D > 0); use exact, front-tracking or a finite-volume "
            "method";
-  if (scene.spec().packing) return "packing and diffusion together are not covered";
+  if (scene.spec().solid_fraction) return "packing and diffusion together are not covered";
   if (scene.spec().outside_bottom || scene.spec().outside_top)
     return "states beyond open ends are not covered with diffusion; boundary.neumann and boundary.periodic "
            "are";

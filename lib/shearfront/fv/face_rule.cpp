@@ -27,7 +27,7 @@ double engquist_osher(const FaceSide& below, const FaceSide& above, double coeff
 double upwind(const FaceSide& below, const FaceSide& above) {
   const double from_below = below.coefficient * below.flux->value(below.x);
   const double from_above = above.coefficient * above.flux->value(above.x);
-  const bool rises = below.packing * below.x <= above.packing * above.x;
+  const bool rises = below.solid_fraction * below.x <= above.solid_fraction * above.x;
   return rises ? std::min(from_below, from_above) : std::max(from_below, from_above);
 }
 
@@ -35,7 +35,7 @@ double classical_godunov(const FaceSide& below, const FaceSide& above) {
   const double flux = upwind(below, above);
   const bool is_minimum = below.flux->is_minimum;
   const double lower = is_minimum ? below.x : above.x, upper = is_minimum ? above.x : below.x;
-  const bool rises = below.packing * below.x <= above.packing * above.x;
+  const bool rises = below.solid_fraction * below.x <= above.solid_fraction * above.x;
   if (rises != is_minimum || !(lower < below.flux->extremum() && below.flux->extremum() < upper)) return flux;
   const double extremum = below.flux->turn_values[1];  // the same f on both sides, not the same k
   const double largest = std::max(below.coefficient, above.coefficient) * extremum;
@@ -44,8 +44,8 @@ double classical_godunov(const FaceSide& below, const FaceSide& above) {
 
 }  // namespace
 
-FaceSide face_side(const FluxBranches& flux, double coefficient, double packing, double x) {
-  FaceSide side{&flux, coefficient, packing, x, 0, 0};
+FaceSide face_side(const FluxBranches& flux, double coefficient, double solid_fraction, double x) {
+  FaceSide side{&flux, coefficient, solid_fraction, x, 0, 0};
   if (!flux.has_one_extremum()) {
     const auto [rise, fall] = flux.parts(x);
     side.upward = rise;

@@ -25,13 +25,13 @@ enum class FaceRule { godunov, engquist_osher, classical_godunov, upwind };
 struct FaceSide {
   const FluxBranches* flux;
   double coefficient;  ///< k
-  double packing;      ///< c
+  double solid_fraction;      ///< c
   double x;
   double upward, downward;  ///< f(max(x, m)) and f(min(x, m)), or rise and fall
 };
 
 /// Fills in the branches of f.
-[[nodiscard]] FaceSide face_side(const FluxBranches& flux, double coefficient, double packing, double x);
+[[nodiscard]] FaceSide face_side(const FluxBranches& flux, double coefficient, double solid_fraction, double x);
 
 [[nodiscard]] double face_flux(FaceRule rule, const FaceSide& below, const FaceSide& above,
                                double face_coefficient);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/flux/all.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 namespace shearfront::fv {
 

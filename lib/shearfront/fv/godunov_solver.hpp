@@ -9,7 +9,7 @@ namespace shearfront {
 ///   F = max( s a_l f(max(u_l, m)), s a_r f(min(u_r, m)) ),   f(m) the minimum of f,
 ///
 /// the exact flux of the Riemann problem between the two cells, also where a jumps, up or down. a_l, a_r are
-/// the harmonic means of a over the cells. With packing or granular temperature the states are phi / c and a
+/// the harmonic means of a over the cells. With solid fraction or granular temperature the states are phi / c and a
 /// stands for a sqrt(T) c (fv/grid.hpp): the modified Godunov method, without overshoot, phi <= c(z) exactly.
 /// Different fluxes, open and periodic ends: fv/plain_march.hpp; the mass then changes by what enters.
 /// Guaranteed under the Courant condition: the mass is kept exactly, phi stays in the range of the flux, L1

@@ -46,15 +46,15 @@ class MeanRate {
   std::size_t next_ = 0;
 };
 
-/// Mean of c over intervals, ascending as above; 1 in a scene without packing.
+/// Mean of c over intervals, ascending as above; 1 in a scene without solid fraction.
 class MeanPacking {
  public:
   explicit MeanPacking(const Scene<double>& scene) : scene_(scene) {
-    if (scene.spec().packing) knots_ = scene.knots();
+    if (scene.spec().solid_fraction) knots_ = scene.knots();
   }
 
   double operator()(double begin, double end) {
-    if (!scene_.spec().packing) return 1;
+    if (!scene_.spec().solid_fraction) return 1;
     double solid = 0, mean = 0;
     std::size_t n_pieces = 0;
     for_pieces(knots_, next_, begin, end, [&](double lo, double hi) {
@@ -95,26 +95,26 @@ Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells) {
 
 std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> averages(grid.n_cells);
-  MeanPacking packing(scene);
+  MeanPacking solid_fraction(scene);
   std::size_t next = 0;
   for (std::size_t j = 0; j < grid.n_cells; ++j) {
     const double begin = grid.edge(j), end = grid.edge(j + 1);
     CompensatedSum<double> sum, solid;
     double least = scene.initial_share(begin), most = least;
     for_pieces(scene.initial_breaks(), next, begin, end, [&](double lo, double hi) {
-      const double share = scene.initial_share(lo), weight = (hi - lo) * packing(lo, hi);
+      const double share = scene.initial_share(lo), weight = (hi - lo) * solid_fraction(lo, hi);
       sum += weight * share;
       solid += weight;
       least = std::min(least, share), most = std::max(most, share);
     });
-    const double weight = scene.spec().packing ? solid.value() : end - begin;
+    const double weight = scene.spec().solid_fraction ? solid.value() : end - begin;
     averages[j] = std::clamp(sum.value() / weight, least, most);  // exact where the cell is all one state
   }
   return averages;
 }
 
 std::vector<double> cell_packings(const Scene<double>& scene, const Grid& grid) {
-  if (!scene.spec().packing) return {};
+  if (!scene.spec().solid_fraction) return {};
   std::vector<double> packings(grid.n_cells);
   MeanPacking mean(scene);
   for (std::size_t j = 0; j < grid.n_cells; ++j) packings[j] = mean(grid.edge(j), grid.edge(j + 1));
@@ -132,25 +132,25 @@ std::vector<double> capacities(const Scene<double>& scene, const Grid& grid) {
 std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells);
   MeanRate mean(scene);
-  MeanPacking packing(scene);
+  MeanPacking solid_fraction(scene);
   for (std::size_t j = 0; j < grid.n_cells; ++j)
-    rates[j] = mean(grid.edge(j), grid.edge(j + 1)) * packing(grid.edge(j), grid.edge(j + 1));
+    rates[j] = mean(grid.edge(j), grid.edge(j + 1)) * solid_fraction(grid.edge(j), grid.edge(j + 1));
   return rates;
 }
 
 std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells + 1, 0.0);
   MeanRate mean(scene);
-  MeanPacking packing(scene);
+  MeanPacking solid_fraction(scene);
   for (std::size_t j = 1; j < grid.n_cells; ++j)
-    rates[j] = mean(grid.middle(j - 1), grid.middle(j)) * packing(grid.middle(j - 1), grid.middle(j));
+    rates[j] = mean(grid.middle(j - 1), grid.middle(j)) * solid_fraction(grid.middle(j - 1), grid.middle(j));
   return rates;
 }
 
 std::vector<double> face_values(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> rates(grid.n_cells + 1, 0.0);
   for (std::size_t j = 1; j < grid.n_cells; ++j)
-    rates[j] = scene.scale() * scene.rate_at(grid.edge(j)) * scene.packing_at(grid.edge(j));
+    rates[j] = scene.scale() * scene.rate_at(grid.edge(j)) * scene.solid_fraction_at(grid.edge(j));
   return rates;
 }
 

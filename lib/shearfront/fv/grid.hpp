@@ -38,16 +38,16 @@ struct Grid {
 /// Cost: O(n_cells + jumps + knots).
 [[nodiscard]] std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid);
 
-/// Mean of c over every cell; empty for a scene without packing. Cost: O(n_cells + knots).
+/// Mean of c over every cell; empty for a scene without solid fraction. Cost: O(n_cells + knots).
 [[nodiscard]] std::vector<double> cell_packings(const Scene<double>& scene, const Grid& grid);
 
 /// int c dz of every cell; empty where all are equal to the bit. Cost: as above.
 [[nodiscard]] std::vector<double> capacities(const Scene<double>& scene, const Grid& grid);
 
-// With x = phi / c the law is (c x)_t + (s a sqrt(T) c f(x))_z = 0: a cell of width w and packing c is a cell
+// With x = phi / c the law is (c x)_t + (s a sqrt(T) c f(x))_z = 0: a cell of width w and solid fraction c is a cell
 // of width w c for x, and a rate counts times c. In what follows a stands for a sqrt(T).
 
-/// s times the harmonic mean of a over every cell, times its packing: result[j] belongs to cell j.
+/// s times the harmonic mean of a over every cell, times its solid fraction: result[j] belongs to cell j.
 ///
 /// The harmonic mean (width / int dz / a) keeps the travel time of pure grains (phi = 0 or 1) across a cell
 /// exact. For smooth a it is a(middle) up to O(width^2); in a cell cut by an interface it depends

@@ -16,7 +16,7 @@ namespace shearfront {
 /// reconstruction: phi linear, M quadratic in every cell. Guaranteed up to a Courant number of 1/2
 /// (options.cfl = 1): the mass is kept exactly, phi stays in the range of the flux, at jumps of a too. A
 /// steady shock takes one mixed cell, and steady states are kept forever. One flux with one extremum, between
-/// walls; with packing see GodunovSolver; where c varies inside cells what comes out has no slopes but those
+/// walls; with solid fraction see GodunovSolver; where c varies inside cells what comes out has no slopes but those
 /// of c. Error: O(dz^2) in fans, O(dz) in L1 past shocks. Source: van Leer (1979), J. Comput. Phys. 32,
 /// 101-136; Shu & Osher (1988), J. Comput. Phys. 77, 439-471.
 struct MusclSolver {

@@ -40,17 +40,17 @@ Profile<double> profile_of_cells(const Grid& grid, const CellStates& cells) {
 }
 
 CellOutput::CellOutput(const Scene<double>& scene, const Grid& grid)
-    : grid_(grid), has_packing_(scene.spec().packing.has_value()), is_layered_(false) {
+    : grid_(grid), has_packing_(scene.spec().solid_fraction.has_value()), is_layered_(false) {
   if (!has_packing_) return;
-  const auto& packing = *scene.spec().packing;
-  is_layered_ = std::visit([](const auto& model) { return model.kIsLayered; }, packing);
-  const std::vector<double> knots = std::visit([](const auto& model) { return model.knots(); }, packing);
+  const auto& solid_fraction = *scene.spec().solid_fraction;
+  is_layered_ = std::visit([](const auto& model) { return model.kIsLayered; }, solid_fraction);
+  const std::vector<double> knots = std::visit([](const auto& model) { return model.knots(); }, solid_fraction);
   std::size_t next = 0;
   for (std::size_t j = 0; j < grid.n_cells; ++j) {
     double lo = grid.edge(j);
     const auto add = [&](double hi) {
       // A chord of c has the mean of c only where c is linear.
-      const double below = scene.packing_at(lo), above = is_layered_ ? below : scene.packing_at(hi);
+      const double below = scene.solid_fraction_at(lo), above = is_layered_ ? below : scene.solid_fraction_at(hi);
       const double mean = scene.mean_packing(lo, hi), half = (above - below) / 2;
       pieces_.push_back({lo, std::min(below, mean - half), std::min(above, mean + half), j});
       lo = hi;

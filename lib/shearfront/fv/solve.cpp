@@ -89,7 +89,7 @@ SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& 
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
-  const std::size_t n = request.depths.size();
+  const std::size_t n = request.heights.size();
   result.samples.resize(request.times.size() * n);
   if (request.profiles) result.profiles.resize(request.times.size());
   if (request.integrand) result.integrals.resize(request.times.size());
@@ -97,7 +97,7 @@ SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& 
     const CellStates cells = run.at(request.times[i], status);
     if (status == Status::ok && !is_finite(cells)) status = Status::diverged;
     if (status != Status::ok) break;
-    const auto samples = output.samples(cells, request.depths);
+    const auto samples = output.samples(cells, request.heights);
     std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
     if (!request.integrand && !request.profiles) continue;
     Profile<double> profile = output.profile(cells);

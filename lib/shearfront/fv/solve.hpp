@@ -29,7 +29,7 @@ namespace shearfront::fv {
 /// The mass is that of the scene to the bit of 2^-53 per cell on equal cells, to rounding on others, where
 /// what rounding leaves of a flux waits at the face between two widths.
 ///
-/// Scenes with packing: the schemes advance the share x = phi / c (fv/grid.hpp); what comes out is c x
+/// Scenes with solid fraction: the schemes advance the share x = phi / c (fv/grid.hpp); what comes out is c x
 /// (CellOutput). Several fluxes, open or periodic ends, and fluxes that do not vanish at the ends of their
 /// range or have several extrema or none are left to the plain march (fv/plain_march.hpp): godunov and
 /// engquist-osher only, without local steps. There dt is shortened to end at the times where a state outside
@@ -37,7 +37,7 @@ namespace shearfront::fv {
 /// more than 2^-50.
 ///
 /// Outcomes: unsupported (no cells or too many, cfl outside (0, 1], a flux with other than one
-/// extremum between cells of unequal rate or packing),
+/// extremum between cells of unequal rate or solid_fraction),
 /// interrupted (options.progress said so), not_converged (the rates differ so much that rounding stopped the
 /// slow cells; no rest after 1000 steps per cell), budget_reached (1e15 cell updates).
 /// Cost: cells * (t / dt) cell updates, with local steps each cell by its own dt; tests/bench/fv_bench.cpp.

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "shearfront/flux/all.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 namespace shearfront::fv {
 

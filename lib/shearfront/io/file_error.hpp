@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "shearfront/scene/input_error.hpp"
+#include "shearfront/model/complaint.hpp"
 
 namespace shearfront {
 
@@ -14,8 +14,8 @@ namespace shearfront {
 /// Lines and columns count from 1, columns in characters (Unicode code points), not bytes.
 class FileError : public InputError {
  public:
-  FileError(Problems problems, std::string report)
-      : InputError(std::move(problems)), report_(std::move(report)) {}
+  FileError(Complaints complaints, std::string report)
+      : InputError(std::move(complaints)), report_(std::move(report)) {}
 
   [[nodiscard]] const char* what() const noexcept override { return report_.c_str(); }
 

@@ -60,7 +60,7 @@ std::string heading_text(std::string_view name, std::string_view unit) {
 }
 
 ObservationColumns::ObservationColumns(const TextSource& source, std::size_t offset,
-                                       const std::vector<CsvField>& fields, ProblemReport& report)
+                                       const std::vector<CsvField>& fields, ComplaintReport& report)
     : file_(source.name()), report_(&report) {
   if (fields.size() > kMostColumns) {
     report.add(source.position(offset), {"header", fmt::format("({} columns)", fields.size()),

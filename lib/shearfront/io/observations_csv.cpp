@@ -22,7 +22,7 @@ using detail::Column;
 using detail::CsvField;
 using detail::ObservationColumns;
 using detail::Position;
-using detail::ProblemReport;
+using detail::ComplaintReport;
 using detail::TextSource;
 
 constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent
@@ -260,7 +260,7 @@ class ObservationsReader {
   static constexpr std::size_t kLongestShown = 40;
 
   const TextSource& source_;
-  ProblemReport report_;
+  ComplaintReport report_;
   double bottom_, top_;
   std::optional<ObservationColumns> columns_;
   std::vector<CsvField> fields_;  ///< of the line that is being read

@@ -10,7 +10,7 @@
 /// Files of observations (CSV; the format is described in docs/formats).
 namespace shearfront {
 
-/// Problems of a file that are printed; of the others only the number is.
+/// Complaints of a file that are printed; of the others only the number is.
 inline constexpr std::size_t kMostProblems = 20;
 
 /// Reads observations: columns t, z and phi (with width: means over bins) or M (cumulative), optional sigma,

@@ -47,9 +47,5 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
 
 extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
                                        const Timeline<double>&, const Summary&, int);
-extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
-                                       const Timeline<Real50>&, const Summary&, int);
-extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
-                                       const Timeline<Real110>&, const Summary&, int);
 
 }  // namespace shearfront

@@ -3,6 +3,7 @@
 
 #include "shearfront/io/detail/json_text.hpp"
 #include "shearfront/io/results.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
 namespace {
@@ -85,11 +86,7 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
                          summary_text(summary)));
 }
 
-template void write_events_json(OutputFile&, std::string_view, std::string_view, const Timeline<double>&,
-                                const Summary&, int);
-template void write_events_json(OutputFile&, std::string_view, std::string_view, const Timeline<Real50>&,
-                                const Summary&, int);
-template void write_events_json(OutputFile&, std::string_view, std::string_view, const Timeline<Real110>&,
-                                const Summary&, int);
+template void write_events_json(OutputFile&, std::string_view, std::string_view,
+                                const Timeline<Instantiated>&, const Summary&, int);
 
 }  // namespace shearfront

@@ -9,18 +9,19 @@
 
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
 namespace {
 
+using detail::ComplaintReport;
 using detail::Position;
-using detail::ProblemReport;
 using detail::TableReader;
 using detail::TomlSource;
 using Need = TableReader::Need;
 
 /// A number of entries in parentheses stands for a length, not for the text of a value.
-bool is_length(const Problem& problem) { return problem.value.ends_with(" entries)"); }
+bool is_length(const Complaint& complaint) { return complaint.value.ends_with(" entries)"); }
 
 /// "shear_rate" of "shear_rate.values", "flux[1]" of "flux[1].gamma".
 std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
@@ -37,8 +38,8 @@ class SceneReader {
     fluxes(root.tables("flux", Need::optional, "must be a table with model, or an array of such tables"));
     if (auto table = root.table("shear_rate", Need::required, "must be a table with model and its entries"))
       shear_rate(*table);
-    optional_model<ShearRateList<S>>(root, "packing", spec_.packing);
-    optional_model<ShearRateList<S>>(root, "temperature", spec_.temperature);
+    optional_model<DepthFunctionList<S>>(root, "packing", spec_.solid_fraction);
+    optional_model<DepthFunctionList<S>>(root, "temperature", spec_.temperature);
     optional_model<ClosePackingList<S>>(root, "close_packing", spec_.close_packing);
     if (auto table = root.table("diffusion", Need::optional, "must be a table with D")) diffusion(*table);
     if (auto table = root.table("initial", Need::required, "must be a table with breaks and values"))
@@ -74,7 +75,7 @@ class SceneReader {
   }
 
   void shear_rate(TableReader& table) {
-    using List = ShearRateList<S>;
+    using List = DepthFunctionList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table.text("model", Need::required, what);
     const bool is_known = model && model_by_name<List>(table, *model, what, spec_.shear_rate);
@@ -104,7 +105,7 @@ class SceneReader {
     if (!table.node("model")) return table.finish();
     if (diffusion.follows_shear_rate)
       table.add(*table.node("model"), table.path("model"), "must not stand beside proportional_to");
-    using List = ShearRateList<S>;
+    using List = DepthFunctionList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table.text("model", Need::required, what);
     if (model && model_by_name<List>(table, *model, what, diffusion.profile.emplace()))
@@ -119,10 +120,10 @@ class SceneReader {
       table.number("values", Need::required, spec_.initial_values);
       return table.finish();
     }
-    using List = InitialProfileList<S>;
+    using List = InitialStateList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table.text("model", Need::required, what);
-    if (model && model_by_name<List>(table, *model, what, spec_.initial_profile.emplace()))
+    if (model && model_by_name<List>(table, *model, what, spec_.initial_state.emplace()))
       table.finish();
     else
       unknown_.emplace_back("initial");
@@ -169,22 +170,22 @@ class SceneReader {
 
   /// Adds what is wrong with the values, unless it only repeats or follows from what is reported already.
   void check() {
-    for (Problem& problem : find_problems(spec_)) {
-      const std::string table = table_of(problem.key);
-      if (report_.is_spoiled(problem.key)) continue;
-      if (is_length(problem) && report_.is_spoiled(TableReader::lengths(table))) continue;
+    for (Complaint& complaint : find_complaints(spec_)) {
+      const std::string table = table_of(complaint.key);
+      if (report_.is_spoiled(complaint.key)) continue;
+      if (is_length(complaint) && report_.is_spoiled(TableReader::lengths(table))) continue;
       const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
-      if (is_unknown && problem.key != "shear_rate.scale") continue;
-      const TomlSource::Found found = source_.find(problem.key);
+      if (is_unknown && complaint.key != "shear_rate.scale") continue;
+      const TomlSource::Found found = source_.find(complaint.key);
       if (found.is_exact && (found.node->is_number() || found.node->is_string()))
-        problem.value = source_.shown(*found.node);
+        complaint.value = source_.shown(*found.node);
       report_.add(TomlSource::position(*found.node), TomlSource::shown_position(*found.node, found.around),
-                  std::move(problem));
+                  std::move(complaint));
     }
   }
 
   const TomlSource& source_;
-  ProblemReport report_;
+  ComplaintReport report_;
   SceneSpec<S> spec_;
   std::vector<std::string> unknown_;  ///< tables whose model is missing or unknown
 };
@@ -201,11 +202,7 @@ Scene<S> read_scene(const std::string& path) {
   return SceneReader<S>(TomlSource(detail::TextSource::read(path))).read();
 }
 
-template Scene<double> read_scene(const std::string&);
-template Scene<Real50> read_scene(const std::string&);
-template Scene<Real110> read_scene(const std::string&);
-template Scene<double> parse_scene(std::string, const std::string&);
-template Scene<Real50> parse_scene(std::string, const std::string&);
-template Scene<Real110> parse_scene(std::string, const std::string&);
+template Scene<Instantiated> read_scene(const std::string&);
+template Scene<Instantiated> parse_scene(std::string, const std::string&);
 
 }  // namespace shearfront

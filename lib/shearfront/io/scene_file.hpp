@@ -9,9 +9,9 @@ namespace shearfront {
 
 /// Reads a scene file (TOML; the format is described in docs/formats).
 ///
-/// Models are looked up in FluxList and ShearRateList and their entries read through fields(), so a new model
+/// Models are looked up in FluxList and DepthFunctionList and their entries read through fields(), so a new model
 /// needs no change here. Guaranteed:
-///   (1) numbers are read in the scalar from their text in the file: in Real50, 0.31 is the decimal 0.31;
+///   (1) numbers are read in the scalar from their text in the file: in Real110, 0.31 is the decimal 0.31;
 ///   (2) every problem of the file is reported, one line each in the order of the file, with line and column;
 ///   (3) a file is valid or not whatever the scalar, except for what rounding to the scalar decides.
 /// A scene without a name gets that of the file. Errors: FileError (an InputError).
@@ -24,10 +24,6 @@ template <Real S>
 [[nodiscard]] Scene<S> parse_scene(std::string text, const std::string& file);
 
 extern template Scene<double> read_scene(const std::string&);
-extern template Scene<Real50> read_scene(const std::string&);
-extern template Scene<Real110> read_scene(const std::string&);
 extern template Scene<double> parse_scene(std::string, const std::string&);
-extern template Scene<Real50> parse_scene(std::string, const std::string&);
-extern template Scene<Real110> parse_scene(std::string, const std::string&);
 
 }  // namespace shearfront

@@ -38,7 +38,7 @@ TextSource::TextSource(std::string name, std::string text) : name_(std::move(nam
   const std::size_t nul = text_.find('\0'), bad = first_bad_utf8(text_);
   if (nul == std::string::npos && bad == text_.size()) return;
   const std::size_t where = std::min(nul, bad);
-  ProblemReport report(name_);
+  ComplaintReport report(name_);
   const auto byte = static_cast<unsigned char>(text_[where]);
   if (byte == 0)
     report.add(position(where), {"NUL byte", "", "must not occur in a text file"});
@@ -89,20 +89,20 @@ Position TextSource::position(std::size_t offset) const {
           static_cast<std::uint32_t>(characters + 1)};
 }
 
-void ProblemReport::sort(std::vector<Located>& located) {
+void ComplaintReport::sort(std::vector<Located>& located) {
   std::stable_sort(located.begin(), located.end(),
                    [](const Located& a, const Located& b) { return a.position < b.position; });
 }
 
-void ProblemReport::add(Position position, Position shown, Problem problem) {
-  located_.push_back({position, shown, std::move(problem)});
+void ComplaintReport::add(Position position, Position shown, Complaint complaint) {
+  located_.push_back({position, shown, std::move(complaint)});
   if (located_.size() / 2 < most_) return;
   sort(located_);
   n_dropped_ += located_.size() - most_;
   located_.resize(most_);
 }
 
-bool ProblemReport::is_spoiled(std::string_view key) const {
+bool ComplaintReport::is_spoiled(std::string_view key) const {
   while (!key.empty()) {
     if (spoiled_.contains(key)) return true;
     const std::size_t cut = key.find_last_of(".[");
@@ -111,27 +111,27 @@ bool ProblemReport::is_spoiled(std::string_view key) const {
   return false;
 }
 
-void ProblemReport::throw_if_any() const {
+void ComplaintReport::throw_if_any() const {
   if (located_.empty()) return;
   std::vector<Located> order = located_;
   sort(order);
   const std::string name = printable(file_);
   std::string report, last;
-  Problems problems;
+  Complaints complaints;
   std::size_t n_more = n_dropped_;
   for (Located& l : order) {
-    std::string line = fmt::format("{}:{}:{}: {}", name, l.shown.line, l.shown.column, l.problem.text());
+    std::string line = fmt::format("{}:{}:{}: {}", name, l.shown.line, l.shown.column, l.complaint.text());
     if (line == last) continue;
-    if (problems.size() == most_) {
+    if (complaints.size() == most_) {
       ++n_more;
       continue;
     }
     report += (report.empty() ? "" : "\n") + line;
-    problems.push_back(std::move(l.problem));
+    complaints.push_back(std::move(l.complaint));
     last = std::move(line);
   }
   if (n_more > 0) report += fmt::format("\n{}: and {} more problem{}", name, n_more, n_more == 1 ? "" : "s");
-  throw FileError(std::move(problems), std::move(report));
+  throw FileError(std::move(complaints), std::move(report));
 }
 
 }  // namespace shearfront::detail

@@ -21,7 +21,7 @@ toml::table parse(const TextSource& text) {
     if (what.starts_with("in string: unescaped control") &&
         text.text().substr(place, 1).find_first_of("\r\n") == 0)
       what = "in string: must end with a quotation mark on the same line";
-    ProblemReport report(text.name());
+    ComplaintReport report(text.name());
     report.add(TomlSource::position(error.source()), {"syntax error", "", printable(what)});
     report.throw_if_any();
     throw;

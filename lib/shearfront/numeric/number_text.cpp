@@ -3,8 +3,6 @@
 
 #include <array>
 #include <charconv>
-#include <ios>
-#include <limits>
 
 namespace shearfront {
 
@@ -14,21 +12,11 @@ std::string number_text(double x) {
   return {buffer.data(), end};
 }
 
-std::string number_text(const Real50& x) {
-  return x.str(std::numeric_limits<Real50>::digits10, std::ios_base::fmtflags{});
-}
-std::string number_text(const Real110& x) {
-  return x.str(std::numeric_limits<Real110>::digits10, std::ios_base::fmtflags{});
-}
-
 std::string number_text(double x, int digits) {
   std::array<char, 400> buffer;
   const auto end =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, digits).ptr;
   return {buffer.data(), end};
 }
-
-std::string number_text(const Real50& x, int digits) { return x.str(digits, std::ios_base::showpoint); }
-std::string number_text(const Real110& x, int digits) { return x.str(digits, std::ios_base::showpoint); }
 
 }  // namespace shearfront

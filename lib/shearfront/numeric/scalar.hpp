@@ -2,31 +2,23 @@
 #pragma once
 #include <concepts>
 #include <limits>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <type_traits>
-
-#include "shearfront/numeric/multiprecision.hpp"
 
 /// Scalar types of the engines.
 ///
-/// Every engine is a template over one of three scalars: `double` is what users run, `Real50` (50 significant
-/// decimal digits) is the oracle that shows what rounding does, and `Real110` serves printing of up to 100
-/// digits. All three are binary, so scaling by powers of two is exact in each.
+/// Every engine is a template over a binary floating-point scalar: `double` is what users run, a multiprecision number
+/// (digits/real110.hpp) prints many digits and is the oracle that shows what rounding does. Both are binary, so
+/// scaling by powers of two is exact in each.
 namespace shearfront {
 
 template <class S>
-concept Real = std::same_as<S, double> || std::same_as<S, Real50> || std::same_as<S, Real110>;
+concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer &&
+               std::numeric_limits<S>::radix == 2 && std::numeric_limits<S>::digits >= 53;
 
 /// The nearest double. Exact for double.
 template <Real S>
 [[nodiscard]] double to_double(const S& x) {
-  if constexpr (std::same_as<S, double>) {
-    return x;
-  } else {
-    return x.template convert_to<double>();
-  }
+  return static_cast<double>(x);
 }
 
 template <Real S>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 #include <cmath>
 
@@ -11,8 +12,8 @@ LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene, const std::vector<
   material.fluxes = scene.fluxes();
   for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
     if (scene.fluxes().size() > 1) material.flux_index.push_back(scene.flux_index(boundaries[k]));
-    if (scene.spec().packing)
-      material.packing.push_back(scene.mean_packing(boundaries[k], boundaries[k + 1]));
+    if (scene.spec().solid_fraction)
+      material.solid_fraction.push_back(scene.mean_packing(boundaries[k], boundaries[k + 1]));
   }
   return material;
 }
@@ -37,7 +38,7 @@ LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
   std::vector<Scalar> cuts{scene.bottom()};
   std::vector<bool> is_break;
   for (const Scalar& z : scene.knots()) cuts.push_back(z);
-  if (scene.spec().packing) {
+  if (scene.spec().solid_fraction) {
     cuts.insert(cuts.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
     std::sort(cuts.begin(), cuts.end());
     cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
@@ -64,14 +65,9 @@ LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
   return {std::move(boundaries), std::move(rates), scene.scale(), std::move(is_break), std::move(material)};
 }
 
-template LayerMaterial<double> material_of(const Scene<double>&, const std::vector<double>&);
-template LayerStack<double> exact_layers(const Scene<double>&);
-template LayerStack<double> staircase(const Scene<double>&, std::size_t);
-template LayerMaterial<Real50> material_of(const Scene<Real50>&, const std::vector<Real50>&);
-template LayerStack<Real50> exact_layers(const Scene<Real50>&);
-template LayerStack<Real50> staircase(const Scene<Real50>&, std::size_t);
-template LayerMaterial<Real110> material_of(const Scene<Real110>&, const std::vector<Real110>&);
-template LayerStack<Real110> exact_layers(const Scene<Real110>&);
-template LayerStack<Real110> staircase(const Scene<Real110>&, std::size_t);
+template LayerMaterial<Instantiated> material_of(const Scene<Instantiated>&,
+                                                 const std::vector<Instantiated>&);
+template LayerStack<Instantiated> exact_layers(const Scene<Instantiated>&);
+template LayerStack<Instantiated> staircase(const Scene<Instantiated>&, std::size_t);
 
 }  // namespace shearfront

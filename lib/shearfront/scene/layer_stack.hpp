@@ -13,16 +13,16 @@
 
 namespace shearfront {
 
-/// What a layer has besides its shear rate, where it is not one quadratic flux in a bed of packing 1.
+/// What a layer has besides its shear rate, where it is not one quadratic flux in a bed of solid fraction 1.
 template <Real Scalar>
 struct LayerMaterial {
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};
   std::vector<std::size_t> flux_index;  ///< per layer; empty: the first flux everywhere
-  std::vector<Scalar> packing;          ///< c per layer; empty: 1 everywhere
+  std::vector<Scalar> solid_fraction;          ///< c per layer; empty: 1 everywhere
 };
 
-/// A stack of layers with constant shear rate, packing and flux: layer k occupies [boundary(k),
-/// boundary(k+1)], and its flux is rate(k) packing(k) f(phi / packing(k)).
+/// A stack of layers with constant shear rate, solid fraction and flux: layer k occupies [boundary(k),
+/// boundary(k+1)], and its flux is rate(k) solid_fraction(k) f(phi / solid_fraction(k)).
 ///
 /// Invariant: at least one layer, boundaries strictly increasing, shear rates and packings positive and
 /// finite.
@@ -40,7 +40,7 @@ class LayerStack {
         material_(std::move(material)) {
     const auto fits = [&](std::size_t n) { return n == 0 || n == shear_rates_.size(); };
     SHEARFRONT_EXPECTS(!shear_rates_.empty() && boundaries_.size() == shear_rates_.size() + 1 &&
-                           is_break_.size() + 1 == shear_rates_.size() && fits(material_.packing.size()) &&
+                           is_break_.size() + 1 == shear_rates_.size() && fits(material_.solid_fraction.size()) &&
                            fits(material_.flux_index.size()),
                        "sizes of a layer stack");
   }
@@ -52,20 +52,20 @@ class LayerStack {
   [[nodiscard]] const std::vector<Scalar>& boundaries() const { return boundaries_; }
   [[nodiscard]] const Scalar& shear_rate(std::size_t k) const { return shear_rates_[k]; }
   [[nodiscard]] const Scalar& scale() const { return scale_; }
-  /// s a_k sqrt(T_k): the speed of a state is rate(k) f'(phi / packing(k)).
+  /// s a_k sqrt(T_k): the speed of a state is rate(k) f'(phi / solid_fraction(k)).
   [[nodiscard]] Scalar rate(std::size_t k) const { return scale_ * shear_rates_[k]; }
-  /// c_k: states are phi = packing(k) times a state of flux(k).
-  [[nodiscard]] Scalar packing(std::size_t k) const {
-    return material_.packing.empty() ? Scalar(1) : material_.packing[k];
+  /// c_k: states are phi = solid_fraction(k) times a state of flux(k).
+  [[nodiscard]] Scalar solid_fraction(std::size_t k) const {
+    return material_.solid_fraction.empty() ? Scalar(1) : material_.solid_fraction[k];
   }
   [[nodiscard]] std::size_t flux_index(std::size_t k) const {
     return material_.flux_index.empty() ? 0 : material_.flux_index[k];
   }
   [[nodiscard]] const Flux<Scalar>& flux(std::size_t k) const { return material_.fluxes[flux_index(k)]; }
   [[nodiscard]] const std::vector<Flux<Scalar>>& fluxes() const { return material_.fluxes; }
-  /// One quadratic flux in a bed of packing 1: everything but the shear rates is the same in all layers.
+  /// One quadratic flux in a bed of solid fraction 1: everything but the shear rates is the same in all layers.
   [[nodiscard]] bool is_plain() const {
-    return material_.fluxes.size() == 1 && material_.packing.empty() &&
+    return material_.fluxes.size() == 1 && material_.solid_fraction.empty() &&
            std::holds_alternative<Quadratic<Scalar>>(material_.fluxes[0]);
   }
   /// Whether the interface below layer k (1 <= k < n_layers) belongs to the scene itself.
@@ -84,7 +84,7 @@ class LayerStack {
   LayerMaterial<Scalar> material_;
 };
 
-/// Flux and packing of the layers between `boundaries`, which must include every knot of the scene.
+/// Flux and solid fraction of the layers between `boundaries`, which must include every knot of the scene.
 template <Real Scalar>
 [[nodiscard]] LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene,
                                                 const std::vector<Scalar>& boundaries);
@@ -97,7 +97,7 @@ template <Real Scalar>
 /// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
 /// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
-/// order 3/2 where paths do (a falling along them), phi first order. With a packing, layers also end at the
+/// order 3/2 where paths do (a falling along them), phi first order. With a solid fraction, layers also end at the
 /// initial jumps: the layers, each with the mean of c, then hold what the bed does. Cost: O(n_layers +
 /// knots).
 template <Real Scalar>
@@ -106,11 +106,5 @@ template <Real Scalar>
 extern template LayerMaterial<double> material_of(const Scene<double>&, const std::vector<double>&);
 extern template LayerStack<double> exact_layers(const Scene<double>&);
 extern template LayerStack<double> staircase(const Scene<double>&, std::size_t);
-extern template LayerMaterial<Real50> material_of(const Scene<Real50>&, const std::vector<Real50>&);
-extern template LayerStack<Real50> exact_layers(const Scene<Real50>&);
-extern template LayerStack<Real50> staircase(const Scene<Real50>&, std::size_t);
-extern template LayerMaterial<Real110> material_of(const Scene<Real110>&, const std::vector<Real110>&);
-extern template LayerStack<Real110> exact_layers(const Scene<Real110>&);
-extern template LayerStack<Real110> staircase(const Scene<Real110>&, std::size_t);
 
 }  // namespace shearfront

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/scene/scene.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
 
-template class Scene<double>;
-template class Scene<Real50>;
-template class Scene<Real110>;
+template class Scene<Instantiated>;
 
 }  // namespace shearfront

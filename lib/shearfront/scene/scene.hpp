@@ -12,12 +12,12 @@
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/sum.hpp"
-#include "shearfront/scene/scene_problems.hpp"
+#include "shearfront/scene/scene_complaints.hpp"
 #include "shearfront/scene/scene_spec.hpp"
 
 namespace shearfront {
 
-/// A bed of mixed grains: flux, shear rate a(z), scale s, packing c(z), granular temperature T(z), initial
+/// A bed of mixed grains: flux, shear rate a(z), scale s, solid fraction c(z), granular temperature T(z), initial
 /// concentration phi(z, 0), and what lies at its ends.
 ///
 ///     phi_t + (s a(z) sqrt(T(z)) c(z) f(phi / c(z)))_z = 0 on bottom < z < top.
@@ -25,13 +25,13 @@ namespace shearfront {
 /// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. With diffusion the right side
 /// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
-/// Class invariant: find_problems(spec()) is empty. Immutable after construction.
+/// Class invariant: find_complaints(spec()) is empty. Immutable after construction.
 /// Errors: the constructor throws InputError that carries every problem.
 template <Real Scalar>
 class Scene {
  public:
   explicit Scene(SceneSpec<Scalar> spec) : spec_(std::move(spec)) {
-    if (Problems problems = find_problems(spec_); !problems.empty()) throw InputError(std::move(problems));
+    if (Complaints complaints = find_complaints(spec_); !complaints.empty()) throw InputError(std::move(complaints));
   }
 
   [[nodiscard]] const SceneSpec<Scalar>& spec() const { return spec_; }
@@ -39,7 +39,7 @@ class Scene {
   [[nodiscard]] const std::vector<Flux<Scalar>>& fluxes() const { return spec_.fluxes; }
   /// Heights between the fluxes, one less.
   [[nodiscard]] const std::vector<Scalar>& flux_breaks() const { return spec_.flux_breaks; }
-  [[nodiscard]] const ShearRate<Scalar>& shear_rate() const { return spec_.shear_rate; }
+  [[nodiscard]] const DepthFunction<Scalar>& shear_rate() const { return spec_.shear_rate; }
   [[nodiscard]] const Scalar& scale() const { return spec_.scale; }
   [[nodiscard]] const Scalar& bottom() const { return spec_.bottom; }
   [[nodiscard]] const Scalar& top() const { return spec_.top; }
@@ -56,13 +56,13 @@ class Scene {
   /// The states allowed at z: those of the flux times c(z).
   [[nodiscard]] StateRange<Scalar> range_at(const Scalar& z) const {
     const StateRange<Scalar> range = std::visit([](const auto& flux) { return flux.range(); }, flux_at(z));
-    const Scalar c = packing_at(z);
+    const Scalar c = solid_fraction_at(z);
     return {c * range.lowest, c * range.highest};
   }
   /// Whether all of the scene is the model of May, Shearer & Daniels: one quadratic flux, c = T = 1, walls.
   [[nodiscard]] bool is_plain() const {
     return spec_.fluxes.size() == 1 && std::holds_alternative<Quadratic<Scalar>>(spec_.fluxes[0]) &&
-           !spec_.packing && !spec_.temperature && has_walls() && !has_diffusion();
+           !spec_.solid_fraction && !spec_.temperature && has_walls() && !has_diffusion();
   }
   /// Whether no grain can leave or come in.
   [[nodiscard]] bool has_walls() const {
@@ -79,15 +79,15 @@ class Scene {
 
   /// True if flux, a, c and T are constant between the knots().
   [[nodiscard]] bool is_layered() const {
-    const auto layered = [](const DepthProfile<Scalar>& profile) {
+    const auto layered = [](const DepthFunction<Scalar>& profile) {
       return std::visit([](const auto& model) { return model.kIsLayered; }, profile);
     };
-    return layered(spec_.shear_rate) && (!spec_.packing || layered(*spec_.packing)) &&
+    return layered(spec_.shear_rate) && (!spec_.solid_fraction || layered(*spec_.solid_fraction)) &&
            (!spec_.temperature || layered(*spec_.temperature));
   }
   /// Heights inside the domain where the flux, a, c, T or one of their slopes jumps; ascending.
   [[nodiscard]] std::vector<Scalar> knots() const {
-    std::vector<Scalar> all = profile_knots(spec_);
+    std::vector<Scalar> all = depth_knots(spec_);
     all.insert(all.end(), spec_.flux_breaks.begin(), spec_.flux_breaks.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -96,7 +96,7 @@ class Scene {
 
   /// Whether the flux, a, c or T jumps at z: there the scene has an interface of its own.
   [[nodiscard]] bool jumps_at(const Scalar& z) const {
-    const auto jumps = [&](const DepthProfile<Scalar>& profile) {
+    const auto jumps = [&](const DepthFunction<Scalar>& profile) {
       return std::visit(
           [&](const auto& model) {
             if (!model.kIsLayered) return false;
@@ -106,14 +106,14 @@ class Scene {
           profile);
     };
     return std::binary_search(spec_.flux_breaks.begin(), spec_.flux_breaks.end(), z) ||
-           jumps(spec_.shear_rate) || (spec_.packing && jumps(*spec_.packing)) ||
+           jumps(spec_.shear_rate) || (spec_.solid_fraction && jumps(*spec_.solid_fraction)) ||
            (spec_.temperature && jumps(*spec_.temperature));
   }
 
   /// a(z), without the scale s and the temperature.
   [[nodiscard]] Scalar shear_rate_at(const Scalar& z) const { return value(spec_.shear_rate, z); }
-  [[nodiscard]] Scalar packing_at(const Scalar& z) const {
-    return spec_.packing ? value(*spec_.packing, z) : Scalar(1);
+  [[nodiscard]] Scalar solid_fraction_at(const Scalar& z) const {
+    return spec_.solid_fraction ? value(*spec_.solid_fraction, z) : Scalar(1);
   }
   /// a(z) sqrt(T(z)): what moves the grains, without the scale s.
   [[nodiscard]] Scalar rate_at(const Scalar& z) const {
@@ -125,7 +125,7 @@ class Scene {
   /// a layered one, else by quadrature (7 points of Gauss).
   [[nodiscard]] Scalar mean_rate(const Scalar& lo, const Scalar& hi) const {
     using std::sqrt;
-    const auto mean = [&](const DepthProfile<Scalar>& profile) {
+    const auto mean = [&](const DepthFunction<Scalar>& profile) {
       return std::visit([&](const auto& model) { return Scalar(model.harmonic_mean(lo, hi)); }, profile);
     };
     if (!spec_.temperature) return mean(spec_.shear_rate);
@@ -136,10 +136,10 @@ class Scene {
   }
   /// Mean of c over [lo, hi], which must not contain a knot inside.
   [[nodiscard]] Scalar mean_packing(const Scalar& lo, const Scalar& hi) const {
-    if (!spec_.packing) return Scalar(1);
-    if (std::visit([](const auto& model) { return model.kIsLayered; }, *spec_.packing))
-      return value(*spec_.packing, lo);
-    return mean_of([&](const Scalar& z) { return value(*spec_.packing, z); }, lo, hi);
+    if (!spec_.solid_fraction) return Scalar(1);
+    if (std::visit([](const auto& model) { return model.kIsLayered; }, *spec_.solid_fraction))
+      return value(*spec_.solid_fraction, lo);
+    return mean_of([&](const Scalar& z) { return value(*spec_.solid_fraction, z); }, lo, hi);
   }
 
   /// phi(z, 0) / c(z) of data that are constant in pieces; at a jump the value above it. Cost: O(log jumps).
@@ -150,14 +150,14 @@ class Scene {
   }
   /// phi(z, 0); at a jump the value above it. Cost: O(log jumps).
   [[nodiscard]] Scalar initial_phi(const Scalar& z) const {
-    if (spec_.initial_profile)
-      return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, *spec_.initial_profile);
+    if (spec_.initial_state)
+      return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, *spec_.initial_state);
     const Scalar& share = initial_share(z);
-    return spec_.packing ? packing_at(z) * share : share;
+    return spec_.solid_fraction ? solid_fraction_at(z) * share : share;
   }
   /// Amount of small grains, int phi(z, 0) dz (compensated sum). Constant in time between walls.
   [[nodiscard]] Scalar mass() const {
-    if (spec_.initial_profile) return initial_amount(spec_.bottom, spec_.top);
+    if (spec_.initial_state) return initial_amount(spec_.bottom, spec_.top);
     CompensatedSum<Scalar> sum;
     const auto& breaks = spec_.initial_breaks;
     for (std::size_t i = 0; i < spec_.initial_values.size(); ++i) {
@@ -172,9 +172,9 @@ class Scene {
   }
   /// int_lo^hi phi(z, 0) dz. Cost: O(jumps, or points of the profile).
   [[nodiscard]] Scalar initial_amount(const Scalar& lo, const Scalar& hi) const {
-    if (spec_.initial_profile)
+    if (spec_.initial_state)
       return std::visit([&](const auto& model) { return Scalar(model.integral(lo, hi)); },
-                        *spec_.initial_profile);
+                        *spec_.initial_state);
     CompensatedSum<Scalar> sum;
     Scalar from = lo;
     for (const Scalar& z : spec_.initial_breaks) {
@@ -217,23 +217,23 @@ class Scene {
     }
     return sum.value();
   }
-  /// int_lo^hi c dz; hi - lo without packing. Cost: O(knots) with one.
+  /// int_lo^hi c dz; hi - lo without solid fraction. Cost: O(knots) with one.
   [[nodiscard]] Scalar solid(const Scalar& lo, const Scalar& hi) const {
-    if (!spec_.packing) return hi - lo;
+    if (!spec_.solid_fraction) return hi - lo;
     CompensatedSum<Scalar> sum;
     Scalar from = lo;
     const auto add = [&](const Scalar& to) {
       sum += mean_packing(from, to) * (to - from);
       from = to;
     };
-    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, *spec_.packing))
+    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction))
       if (z > from && z < hi) add(z);
     add(hi);
     return sum.value();
   }
 
  private:
-  [[nodiscard]] static Scalar value(const DepthProfile<Scalar>& profile, const Scalar& z) {
+  [[nodiscard]] static Scalar value(const DepthFunction<Scalar>& profile, const Scalar& z) {
     return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, profile);
   }
   template <class Function>
@@ -248,7 +248,5 @@ class Scene {
 };
 
 extern template class Scene<double>;
-extern template class Scene<Real50>;
-extern template class Scene<Real110>;
 
 }  // namespace shearfront

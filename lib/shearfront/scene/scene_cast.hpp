@@ -77,12 +77,12 @@ template <Real To, Real From>
   for (const Flux<From>& flux : from.fluxes)
     to.fluxes.push_back(std::visit([](const auto& f) -> Flux<To> { return model_cast<To>(f); }, flux));
   to.flux_breaks = numbers_cast<To>(from.flux_breaks);
-  const auto profile = [](const DepthProfile<From>& model) {
-    return std::visit([](const auto& m) -> DepthProfile<To> { return model_cast<To>(m); }, model);
+  const auto profile = [](const DepthFunction<From>& model) {
+    return std::visit([](const auto& m) -> DepthFunction<To> { return model_cast<To>(m); }, model);
   };
   to.shear_rate = profile(from.shear_rate);
   to.scale = number_cast<To>(from.scale);
-  if (from.packing) to.packing = profile(*from.packing);
+  if (from.solid_fraction) to.solid_fraction = profile(*from.solid_fraction);
   if (from.temperature) to.temperature = profile(*from.temperature);
   if (from.diffusion) {
     to.diffusion.emplace();
@@ -90,9 +90,9 @@ template <Real To, Real From>
     if (from.diffusion->profile) to.diffusion->profile = profile(*from.diffusion->profile);
     to.diffusion->follows_shear_rate = from.diffusion->follows_shear_rate;
   }
-  if (from.initial_profile)
-    to.initial_profile = std::visit(
-        [](const auto& model) -> InitialProfile<To> { return model_cast<To>(model); }, *from.initial_profile);
+  if (from.initial_state)
+    to.initial_state = std::visit(
+        [](const auto& model) -> InitialState<To> { return model_cast<To>(model); }, *from.initial_state);
   if (from.close_packing)
     to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
                                   *from.close_packing);
@@ -111,8 +111,5 @@ template <Real To, Real From>
   to.is_periodic = from.is_periodic;
   return Scene<To>(std::move(to));
 }
-
-extern template Scene<Real50> scene_cast(const Scene<double>&);
-extern template Scene<double> scene_cast(const Scene<Real50>&);
 
 }  // namespace shearfront

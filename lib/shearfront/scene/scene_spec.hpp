@@ -6,18 +6,18 @@
 #include <variant>
 #include <vector>
 
-#include "shearfront/close_packing/all.hpp"
-#include "shearfront/flux/all.hpp"
-#include "shearfront/initial/all.hpp"
+#include "shearfront/model/close_packing/all.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/start/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
-#include "shearfront/scene/field.hpp"
-#include "shearfront/shear_rate/all.hpp"
+#include "shearfront/model/field.hpp"
+#include "shearfront/model/depth/all.hpp"
 
 namespace shearfront {
 
 /// A positive quantity as a function of height: the models of the shear rate serve for all of them.
 template <Real Scalar>
-using DepthProfile = ShearRate<Scalar>;
+using DepthFunction = DepthFunction<Scalar>;
 
 /// What lies beyond an open end of the bed: the state outside, piecewise constant in time.
 template <Real Scalar>
@@ -31,7 +31,7 @@ struct OutsideState {
 template <Real Scalar>
 struct Diffusion {
   Scalar D{0};                                  ///< 0: none
-  std::optional<DepthProfile<Scalar>> profile;  ///< 1 if not given
+  std::optional<DepthFunction<Scalar>> profile;  ///< 1 if not given
   bool follows_shear_rate = false;              ///< profile(z) = a(z), without the scale s
 };
 
@@ -41,14 +41,14 @@ struct SceneSpec {
   std::string name;
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
   std::vector<Scalar> flux_breaks;                        ///< heights between them; one less
-  ShearRate<Scalar> shear_rate;
+  DepthFunction<Scalar> shear_rate;
   Scalar scale{1};                                  ///< s, 1/time if a is dimensionless
-  std::optional<DepthProfile<Scalar>> packing;      ///< c(z); 1 if not given
-  std::optional<DepthProfile<Scalar>> temperature;  ///< T(z); 1 if not given
+  std::optional<DepthFunction<Scalar>> solid_fraction;      ///< c(z); 1 if not given
+  std::optional<DepthFunction<Scalar>> temperature;  ///< T(z); 1 if not given
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
   std::optional<Diffusion<Scalar>> diffusion;
-  std::optional<InitialProfile<Scalar>> initial_profile;  ///< smooth; breaks and values are then empty
+  std::optional<InitialState<Scalar>> initial_state;  ///< smooth; breaks and values are then empty
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
   std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z
@@ -59,14 +59,14 @@ struct SceneSpec {
 
 /// Heights inside the domain where a, c, T, D or one of their slopes jumps, in no order.
 template <Real Scalar>
-[[nodiscard]] std::vector<Scalar> profile_knots(const SceneSpec<Scalar>& spec) {
+[[nodiscard]] std::vector<Scalar> depth_knots(const SceneSpec<Scalar>& spec) {
   std::vector<Scalar> all;
-  const auto take = [&](const DepthProfile<Scalar>& profile) {
+  const auto take = [&](const DepthFunction<Scalar>& profile) {
     for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
       if (z > spec.bottom && z < spec.top) all.push_back(z);
   };
   take(spec.shear_rate);
-  if (spec.packing) take(*spec.packing);
+  if (spec.solid_fraction) take(*spec.solid_fraction);
   if (spec.temperature) take(*spec.temperature);
   if (spec.diffusion && spec.diffusion->profile) take(*spec.diffusion->profile);
   return all;
@@ -97,7 +97,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   const auto profile = [&](auto& optional, const std::string& prefix) {
     if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
   };
-  profile(spec.packing, "packing.");
+  profile(spec.solid_fraction, "packing.");
   profile(spec.temperature, "temperature.");
   profile(spec.close_packing, "close_packing.");
   if (spec.diffusion) {
@@ -106,8 +106,8 @@ void visit_fields(Spec& spec, Visit&& visit) {
           spec.diffusion->D);
     profile(spec.diffusion->profile, "diffusion.");
   }
-  profile(spec.initial_profile, "initial.");
-  if (!spec.initial_profile) {
+  profile(spec.initial_state, "initial.");
+  if (!spec.initial_state) {
     visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
     visit(std::string("initial.values"), Range::any, spec.initial_values);
   }

@@ -30,18 +30,18 @@ std::string BedHeight::refusal(const Scene<double>& scene) {
 BedHeight::BedHeight(const Scene<double>& scene) {
   const auto law = scene.spec().close_packing.value_or(PackingPolynomial<double>{});
   const bool is_large = counts_large_grains(scene);
-  const auto packing = [law, is_large](double x) {
+  const auto close = [law, is_large](double x) {
     const double share = std::clamp(x, 0.0, 1.0);
     return std::visit([&](const auto& model) { return model.value(is_large ? 1 - share : share); }, law);
   };
-  integrand_.value = [packing](double x) { return 1 / packing(x); };
+  integrand_.value = [close](double x) { return 1 / close(x); };
   integrand_.kinks = std::visit([](const auto& model) { return model.kinks(); }, law);
   if (is_large) {
     for (double& x : integrand_.kinks) x = 1 - x;
     std::reverse(integrand_.kinks.begin(), integrand_.kinks.end());
   }
   const double mass = scene.mass(), solid = scene.solid(scene.bottom(), scene.top());
-  scale_ = (scene.top() - scene.bottom()) / (mass / packing(1) + (solid - mass) / packing(0));
+  scale_ = (scene.top() - scene.bottom()) / (mass / close(1) + (solid - mass) / close(0));
 }
 
 }  // namespace shearfront

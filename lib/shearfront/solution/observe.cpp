@@ -40,13 +40,13 @@ double shortest_near(double x, double rounding) {
 }
 
 /// Every number that has occurred before, at its later place.
-void find_repeated(std::string_view key, const std::vector<double>& xs, Problems& problems) {
+void find_repeated(std::string_view key, const std::vector<double>& xs, Complaints& complaints) {
   std::vector<std::size_t> order(xs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return xs[a] < xs[b]; });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (xs[order[i]] == xs[order[i - 1]])
-      problems.push_back({element(key, order[i]), number_text(xs[order[i]]), "must not be given twice"});
+      complaints.push_back({element(key, order[i]), number_text(xs[order[i]]), "must not be given twice"});
 }
 
 std::uint64_t splitmix64(std::uint64_t state) {
@@ -58,10 +58,10 @@ std::uint64_t splitmix64(std::uint64_t state) {
 
 }  // namespace
 
-Problems find_problems(const ObservationPlan& plan, double bottom, double top) {
-  Problems problems;
+Complaints find_complaints(const ObservationPlan& plan, double bottom, double top) {
+  Complaints complaints;
   const auto add = [&](std::string key, double x, std::string constraint) {
-    problems.push_back({std::move(key), number_text(x), std::move(constraint)});
+    complaints.push_back({std::move(key), number_text(x), std::move(constraint)});
   };
   const std::string domain = "inside the domain [" + number_text(bottom) + ", " + number_text(top) + "]";
   for (std::size_t i = 0; i < plan.times.size(); ++i)
@@ -78,14 +78,14 @@ Problems find_problems(const ObservationPlan& plan, double bottom, double top) {
     else if (is_bin && is_width_good && !is_bin_inside(z, plan.width, bottom, top))
       add(element("depths", i), z, "must leave its bin of width " + number_text(plan.width) + " " + domain);
   }
-  if (!problems.empty()) return problems;
+  if (!complaints.empty()) return complaints;
   const auto is_too_narrow = [&](double z) { return !is_bin_resolved(z, plan.width); };
   if (is_bin && is_width_good && std::any_of(plan.depths.begin(), plan.depths.end(), is_too_narrow))
     add("width", plan.width, "must be at least " + number_text(kLeastBinWidth) + " of every depth");
   if (!is_width_good) add("width", plan.width, is_bin ? "must be > 0" : "must be 0 unless bins are observed");
-  find_repeated("times", plan.times, problems);
-  find_repeated("depths", plan.depths, problems);
-  return problems;
+  find_repeated("times", plan.times, complaints);
+  find_repeated("depths", plan.depths, complaints);
+  return complaints;
 }
 
 std::optional<double> equal_spacing(std::vector<double> depths) {
@@ -100,8 +100,8 @@ std::optional<double> equal_spacing(std::vector<double> depths) {
 }
 
 SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene) {
-  if (Problems problems = find_problems(plan, scene.bottom(), scene.top()); !problems.empty())
-    throw InputError(std::move(problems));
+  if (Complaints complaints = find_complaints(plan, scene.bottom(), scene.top()); !complaints.empty())
+    throw InputError(std::move(complaints));
   SolverRequest request;
   request.times = plan.times;
   if (plan.quantity == Quantity::bed_height) {
@@ -109,13 +109,13 @@ SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene
     return request;
   }
   if (plan.quantity != Quantity::bin) {
-    request.depths = plan.depths;
+    request.heights = plan.depths;
     return request;
   }
   for (const double z : plan.depths) {
     const BinEdges edges = bin_edges(z, plan.width, scene.bottom(), scene.top());
-    request.depths.push_back(edges.below);
-    request.depths.push_back(edges.above);
+    request.heights.push_back(edges.below);
+    request.heights.push_back(edges.above);
   }
   return request;
 }

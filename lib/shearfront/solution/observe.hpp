@@ -26,7 +26,7 @@ struct ObservationPlan {
 /// What is wrong with a plan; empty if nothing is. Keys: times[i], depths[i], width. Times must be finite and
 /// >= 0, depths inside the domain, neither twice, bins inside the domain (is_bin_inside()).
 /// Cost: O(n log n) in the number of times and of depths.
-[[nodiscard]] Problems find_problems(const ObservationPlan& plan, double bottom, double top);
+[[nodiscard]] Complaints find_complaints(const ObservationPlan& plan, double bottom, double top);
 
 /// The spacing of the depths, in whatever order, if it is the same everywhere up to the rounding of the
 /// depths; nothing otherwise and for fewer than two depths. Of the numbers that rounding leaves possible it
@@ -35,7 +35,7 @@ struct ObservationPlan {
 
 /// What a solver has to compute: the depths of the plan, for bins their edges; the integral of
 /// BedHeight(scene) for heights of the bed.
-/// Errors: InputError with find_problems(). Precondition: BedHeight::refusal(scene) is empty if the quantity
+/// Errors: InputError with find_complaints(). Precondition: BedHeight::refusal(scene) is empty if the quantity
 /// is the height of the bed.
 [[nodiscard]] SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene);
 

@@ -22,15 +22,15 @@ double integral_of(const Scene<double>& scene, const Piece& piece, const ShareFu
     return piece.phi_lo + (piece.phi_hi - piece.phi_lo) * ((z - piece.lo) / width);
   };
   const bool is_layered =
-      !scene.spec().packing ||
-      std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().packing);
+      !scene.spec().solid_fraction ||
+      std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
   const double mean = scene.mean_packing(piece.lo, piece.hi);
   if (is_layered && piece.phi_lo == piece.phi_hi) return g.value(piece.phi_lo / mean) * (mean * width);
   constexpr unsigned kMostHalvings = 5;
   constexpr double kTolerance = 1e-10;
   return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
       [&](double z) {
-        const double c = is_layered ? mean : scene.packing_at(z);
+        const double c = is_layered ? mean : scene.solid_fraction_at(z);
         return g.value(phi_at(z) / c) * c;
       },
       piece.lo, piece.hi, kMostHalvings, kTolerance);
@@ -40,8 +40,8 @@ double integral_of(const Scene<double>& scene, const Piece& piece, const ShareFu
 
 double share_integral(const Scene<double>& scene, const Profile<double>& profile, const ShareFunction& g) {
   std::vector<double> knots;
-  if (scene.spec().packing)
-    knots = std::visit([](const auto& model) { return model.knots(); }, *scene.spec().packing);
+  if (scene.spec().solid_fraction)
+    knots = std::visit([](const auto& model) { return model.knots(); }, *scene.spec().solid_fraction);
   CompensatedSum<double> sum;
   std::size_t next = 0;
   for (std::size_t i = 0; i < profile.n_cells(); ++i) {

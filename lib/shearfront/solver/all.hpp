@@ -7,7 +7,7 @@
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/fv/muscl_solver.hpp"
 #include "shearfront/fv/upwind_solver.hpp"
-#include "shearfront/hopf_lax/solver.hpp"
+#include "shearfront/exact/solver.hpp"
 #include "shearfront/numeric/type_list.hpp"
 #include "shearfront/solver/solver.hpp"
 #include "shearfront/track/solver.hpp"

@@ -83,7 +83,7 @@ struct Scope {
               },
               f);
         });
-    return (is_one || are_parabolas) && !scene.spec().packing && !scene.spec().outside_bottom &&
+    return (is_one || are_parabolas) && !scene.spec().solid_fraction && !scene.spec().outside_bottom &&
            !scene.spec().outside_top;
   }
   template <class Model>

@@ -14,7 +14,7 @@ struct SkeletonSolver {
   static SolverResult solve(const Scene<double>& scene, const SolverRequest& request, const SolverOptions&) {
     SolverResult result;
     for (std::size_t i = 0; i < request.times.size(); ++i)
-      for (const double z : request.depths) result.samples.push_back({scene.initial_phi(z), 0.0});
+      for (const double z : request.heights) result.samples.push_back({scene.initial_phi(z), 0.0});
     result.summary.status = Status::unsupported;
     result.summary.message = "the skeleton solves nothing; use front-tracking";
     return result;

@@ -58,11 +58,11 @@ struct SolverOptions {
   std::function<bool(double, std::uint64_t)> progress;
 };
 
-/// What to compute. Times in any order, >= 0; +infinity asks for the steady state. Depths in any order,
+/// What to compute. Times in any order, >= 0; +infinity asks for the steady state. Heights in any order,
 /// inside the domain.
 struct SolverRequest {
   std::vector<double> times;
-  std::vector<double> depths;
+  std::vector<double> heights;
   bool timeline = false;      ///< event times wanted
   bool fronts = false;        ///< front segments wanted (solvers that have fronts)
   bool profiles = false;      ///< phi over the whole domain wanted (solvers that have profiles)
@@ -75,7 +75,7 @@ struct Sample {
 };
 
 struct SolverResult {
-  std::vector<Sample> samples;  ///< samples[i * depths.size() + j] belongs to times[i], depths[j]
+  std::vector<Sample> samples;  ///< samples[i * heights.size() + j] belongs to times[i], heights[j]
   std::optional<Timeline<double>> timeline;
   std::vector<FrontSegment<double>> fronts;
   std::vector<Profile<double>> profiles;  ///< profiles[i] belongs to times[i]; the samples are its values

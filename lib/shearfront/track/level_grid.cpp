@@ -6,6 +6,7 @@
 #include <optional>
 #include <variant>
 
+#include "shearfront/numeric/instantiated.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront {
@@ -244,12 +245,12 @@ void LevelGrid<S>::set_classes(const LayerStack<S>& stack) {
     const S depth = std::visit([](const auto& flux) { return Scalar(flux.value(flux.extrema().front())); },
                                stack.flux(k));
     is_reversed_ = depth > S(0);
-    capacities[k] = stack.rate(k) * stack.packing(k) * (is_reversed_ ? depth : S(-depth));
+    capacities[k] = stack.rate(k) * stack.solid_fraction(k) * (is_reversed_ ? depth : S(-depth));
   }
   if (!stack.is_plain())
     for (std::size_t k = 0; k < capacities.size(); ++k) {
       const StateRange<S> range = std::visit([](const auto& flux) { return flux.range(); }, stack.flux(k));
-      ranges_.push_back({stack.packing(k) * range.lowest, stack.packing(k) * range.highest});
+      ranges_.push_back({stack.solid_fraction(k) * range.lowest, stack.solid_fraction(k) * range.highest});
     }
   std::vector<S> distinct = capacities;
   std::sort(distinct.begin(), distinct.end());
@@ -373,7 +374,6 @@ typename LevelGrid<S>::Built LevelGrid<S>::singular_mapping(const LayerStack<S>&
   return built;
 }
 
-template class LevelGrid<double>;
-template class LevelGrid<Real50>;
+template class LevelGrid<Instantiated>;
 
 }  // namespace shearfront

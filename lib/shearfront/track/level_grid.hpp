@@ -19,7 +19,7 @@ namespace shearfront {
 /// Grids of states for layers whose fluxes are parabolas, built on flux LEVELS shared by all layers: the
 /// quadratic flux r_k phi (phi - 1), r_k = s a_k, and its affine images.
 ///
-/// What follows is said of the quadratic flux. A layer with states from lo to hi (packing included) and
+/// What follows is said of the quadratic flux. A layer with states from lo to hi (solid fraction included) and
 /// extremum F_m has the states phi = lo + (hi - lo) u, u a state of the quadratic flux of capacity c_k =
 /// |F_m|. If the extrema are maxima, phi = hi - (hi - lo) u: the state index then counts phi downwards, and
 /// everything else, which goes by the index, stays as it is.
@@ -292,6 +292,5 @@ struct LevelGrid<S>::Built {
 };
 
 extern template class LevelGrid<double>;
-extern template class LevelGrid<Real50>;
 
 }  // namespace shearfront

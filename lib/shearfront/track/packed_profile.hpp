@@ -14,8 +14,8 @@ namespace shearfront {
 /// Whether c varies inside the layers that stand for it.
 template <Real Scalar>
 [[nodiscard]] bool has_smooth_packing(const Scene<Scalar>& scene) {
-  return scene.spec().packing &&
-         !std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().packing);
+  return scene.spec().solid_fraction &&
+         !std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
 }
 
 /// Height in [lo, hi], where c is smooth, below which the bed holds as much as `share` of [lo, hi] holds.
@@ -28,7 +28,7 @@ template <Real Scalar>
   Scalar z = std::clamp(Scalar(lo + share * height), lo, hi);
   for (int i = 0; i < kMostSteps && z > lo && z < hi; ++i) {
     const Scalar excess = scene.mean_packing(lo, z) * (z - lo) - wanted;
-    const Scalar next = std::clamp(Scalar(z - excess / scene.packing_at(z)), lo, hi);
+    const Scalar next = std::clamp(Scalar(z - excess / scene.solid_fraction_at(z)), lo, hi);
     if (next == z) break;
     z = next;
   }
@@ -58,10 +58,10 @@ template <class AnyTracker>
   }
   for (std::size_t i = 0; i < n_cells; ++i) {
     const std::size_t k = snapshot.layer[i];
-    const Scalar share = tracker.grid().phi(k, snapshot.state[i]) / stack.packing(k);
+    const Scalar share = tracker.grid().phi(k, snapshot.state[i]) / stack.solid_fraction(k);
     const Scalar& lo = snapshot.z[i];
     const Scalar& hi = snapshot.z[i + 1] = std::max(snapshot.z[i + 1], lo);
-    const Scalar at_lo = scene.packing_at(lo), at_hi = scene.packing_at(hi);
+    const Scalar at_lo = scene.solid_fraction_at(lo), at_hi = scene.solid_fraction_at(hi);
     // A chord of c has the mean of c only where c is linear.
     const Scalar mean = hi > lo ? scene.mean_packing(lo, hi) : at_lo, half = (at_hi - at_lo) / Scalar(2);
     below[i] = share * std::min(at_lo, Scalar(mean - half));

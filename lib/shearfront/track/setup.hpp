@@ -30,7 +30,7 @@ template <Real Scalar>
   constexpr double kMaxLayers = 1e6;
   double variation = 0;
   const auto at = [&](const Scalar& z) {
-    return std::array{std::log(to_double(scene.rate_at(z))), std::log(to_double(scene.packing_at(z)))};
+    return std::array{std::log(to_double(scene.rate_at(z))), std::log(to_double(scene.solid_fraction_at(z)))};
   };
   auto last = at(scene.bottom());
   for (int i = 1; i <= kSamples; ++i) {

@@ -112,7 +112,7 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
-  result.samples.resize(request.times.size() * request.depths.size());
+  result.samples.resize(request.times.size() * request.heights.size());
   const RunLimits limits{options.max_collisions, options.progress};
   Status status = Status::ok;
   const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
@@ -122,9 +122,9 @@ SolverResult track(const Scene<double>& scene, const SolverRequest& request, con
     status = tracker.advance_to(request.times[i], limits);
     if (!is_usable()) break;
     Profile<double> profile = profile_of(tracker, scene, setup.stack, options.reconstruct);
-    const auto values = profile.at(request.depths);
+    const auto values = profile.at(request.heights);
     for (std::size_t j = 0; j < values.size(); ++j)
-      result.samples[i * request.depths.size() + j] = {values[j].phi, values[j].M};
+      result.samples[i * request.heights.size() + j] = {values[j].phi, values[j].M};
     if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
     if (request.profiles) result.profiles[i] = std::move(profile);
   }

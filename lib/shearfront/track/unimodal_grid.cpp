@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
 namespace {
@@ -337,11 +338,11 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
   grid.is_reversed_ = has_maximum<S>(stack.fluxes().front());
   std::map<std::pair<std::size_t, S>, std::uint32_t> ids;
   for (std::size_t k = 0; k < stack.n_layers(); ++k) {
-    const S strength = stack.rate(k) * stack.packing(k);
+    const S strength = stack.rate(k) * stack.solid_fraction(k);
     const auto [it, is_new] =
         ids.try_emplace({stack.flux_index(k), strength}, static_cast<std::uint32_t>(grid.classes_.size()));
     if (is_new) grid.classes_.push_back({stack.flux_index(k), strength, 0, {}, {}, {}, {}, {}, {}});
-    grid.layers_.push_back({stack.rate(k), stack.packing(k), it->second});
+    grid.layers_.push_back({stack.rate(k), stack.solid_fraction(k), it->second});
   }
   built.states = Draft(grid, resolution).build(wanted);
 
@@ -367,7 +368,6 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
   return built;
 }
 
-template class UnimodalGrid<double>;
-template class UnimodalGrid<Real50>;
+template class UnimodalGrid<Instantiated>;
 
 }  // namespace shearfront

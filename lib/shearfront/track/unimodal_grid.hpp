@@ -29,7 +29,7 @@ namespace shearfront {
 /// Guaranteed: equal levels have bitwise equal flux; speed() has the accuracy of Flux::secant, over more
 /// than 1/8 of the range that of a difference of fluxes (128 roundings of the largest chord); states inside a
 /// straight piece of a flux are no vertices, and all chords within it have bitwise equal speed. Memory: 48
-/// to 64 bytes per level and class of layers (same flux, same rate times packing); cost of building: two root
+/// to 64 bytes per level and class of layers (same flux, same rate times solid_fraction); cost of building: two root
 /// searches of some four evaluations per level and class.
 template <Real S>
 class UnimodalGrid {
@@ -51,7 +51,7 @@ class UnimodalGrid {
   [[nodiscard]] State bottom_state(std::size_t layer) const { return top(layer); }
 
   [[nodiscard]] S phi(std::size_t layer, State i) const {
-    return layers_[layer].packing * class_of(layer).share[index(i)];
+    return layers_[layer].solid_fraction * class_of(layer).share[index(i)];
   }
   [[nodiscard]] S flux(std::size_t layer, State i) const {
     const S& h = levels_[index(level(layer, i))];
@@ -98,7 +98,7 @@ class UnimodalGrid {
   /// Layers with the same levels at the same shares phi / c.
   struct Class {
     std::size_t flux;
-    S strength;  ///< rate times packing: the flux of a layer is strength f(share)
+    S strength;  ///< rate times solid fraction: the flux of a layer is strength f(share)
     State top = 0;
     std::vector<S> share;                      ///< of every state
     std::vector<S> slope;                      ///< secant of f from every state to the next one
@@ -106,7 +106,7 @@ class UnimodalGrid {
     std::vector<State> convex_to, concave_to;  ///< how far up it bends one way; empty: convex everywhere
   };
   struct Layer {
-    S rate, packing;
+    S rate, solid_fraction;
     std::uint32_t id;  ///< of its class
   };
   class Draft;                          // levels under construction
@@ -136,6 +136,5 @@ struct UnimodalGrid<S>::Built {
 };
 
 extern template class UnimodalGrid<double>;
-extern template class UnimodalGrid<Real50>;
 
 }  // namespace shearfront

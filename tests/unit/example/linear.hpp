@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shearfront/numeric/scalar.hpp"
-#include "shearfront/scene/field.hpp"
+#include "shearfront/model/field.hpp"
 
 namespace shearfront {
 
@@ -26,10 +26,10 @@ struct Linear {
     visit(FieldInfo{"ground"}, self.ground);
     visit(FieldInfo{"slope"}, self.slope);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Problems& problems) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
     for (const Scalar& z : {bottom, top})
       if (!(value(z) > 0))
-        problems.push_back(
+        complaints.push_back(
             {prefix + "slope", number_text(slope),
              "must keep a(z) positive (a(" + number_text(z) + ") = " + number_text(value(z)) + ")"});
   }

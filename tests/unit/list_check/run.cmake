@@ -1,7 +1,7 @@
 # Configures a copy of the lists, with one more file `forgotten` if given, and compares CMake's message with `expected`.
 file(REMOVE_RECURSE ${work})
-file(GLOB_RECURSE headers RELATIVE ${source}/lib ${source}/lib/shearfront/flux/*.hpp
-     ${source}/lib/shearfront/shear_rate/*.hpp ${source}/lib/shearfront/*solver.hpp
+file(GLOB_RECURSE headers RELATIVE ${source}/lib ${source}/lib/shearfront/model/flux/*.hpp
+     ${source}/lib/shearfront/model/depth/*.hpp ${source}/lib/shearfront/*solver.hpp
      ${source}/lib/shearfront/solver/all.hpp)
 foreach(header IN LISTS headers)
   configure_file(${source}/lib/${header} ${work}/${header} COPYONLY)

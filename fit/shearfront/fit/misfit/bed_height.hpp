@@ -20,7 +20,7 @@ struct BedHeightMisfit {
     return observations.quantity == Quantity::bed_height ? "" : "needs heights of the bed (column H)";
   }
   static ResidualRows rows(const Observations& observations, double /*bottom*/, double /*top*/) {
-    RowBuilder builder(observations, Field::bed_height);
+    RowBuilder builder(observations, Observable::bed_height);
     for (std::size_t k = 0; k < observations.rows.size(); ++k) {
       builder.model(observations.rows[k].t, observations.rows[k].z, 1);
       builder.data(k, 1);

@@ -28,7 +28,7 @@ struct BinMisfit {
   /// Moving means over `n` neighbouring bins of a time, gaps left out; nothing for times with fewer bins.
   /// Precondition: bins.
   static ResidualRows wide_rows(const Observations& observations, double bottom, double top, std::size_t n) {
-    RowBuilder builder(observations, Field::M);
+    RowBuilder builder(observations, Observable::M);
     for (const MeasuredProfile& profile : measured_profiles(observations)) {
       for (std::size_t first = 0; first + n <= profile.rows.size(); ++first) {
         const std::size_t end = first + n;
@@ -51,7 +51,7 @@ struct BinMisfit {
   }
 
   static ResidualRows rows(const Observations& observations, double bottom, double top) {
-    RowBuilder builder(observations, Field::M);
+    RowBuilder builder(observations, Observable::M);
     const auto mean = [&](double t, double lo, double hi) {
       builder.model(t, hi, 1 / (hi - lo));
       builder.model(t, lo, -1 / (hi - lo));

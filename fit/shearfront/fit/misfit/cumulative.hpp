@@ -26,7 +26,7 @@ struct CumulativeMisfit {
   }
 
   static ResidualRows rows(const Observations& observations, double bottom, double top) {
-    RowBuilder builder(observations, Field::M);
+    RowBuilder builder(observations, Observable::M);
     for (const MeasuredProfile& profile : measured_profiles(observations)) {
       if (observations.quantity == Quantity::bin)
         add_bins(builder, observations, profile, bottom, top);

@@ -19,7 +19,7 @@ struct SkeletonMisfit {
     return observations.quantity == Quantity::point ? "" : "needs point data";
   }
   static ResidualRows rows(const Observations& observations, double /*bottom*/, double /*top*/) {
-    RowBuilder builder(observations, Field::phi);
+    RowBuilder builder(observations, Observable::phi);
     for (std::size_t k = 0; k < observations.rows.size(); ++k) {
       builder.model(observations.rows[k].t, observations.rows[k].z, 1);
       builder.data(k, 1);

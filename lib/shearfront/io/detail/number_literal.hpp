@@ -7,7 +7,7 @@
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
-/// Numbers of a TOML file, read from their text: in Real50 "0.31" is the decimal 0.31 and not its double.
+/// Numbers of a TOML file, read from their text: in Real110 "0.31" is the decimal 0.31 and not its double.
 namespace shearfront::detail {
 
 /// A decimal number without its decoration: 0.significand * 10^exponent.

@@ -31,9 +31,9 @@ struct Heading {
 /// What the header of a file of observations says.
 class ObservationColumns {
  public:
-  /// Problems go into the report; with any, the result must not be used. `offset` is that of the line.
+  /// Complaints go into the report; with any, the result must not be used. `offset` is that of the line.
   ObservationColumns(const TextSource& source, std::size_t offset, const std::vector<CsvField>& fields,
-                     ProblemReport& report);
+                     ComplaintReport& report);
 
   [[nodiscard]] bool has(Column column) const { return at_[index(column)].has_value(); }
   /// The number of the field. Precondition: has(column).
@@ -63,7 +63,7 @@ class ObservationColumns {
   void refuse_header(std::string constraint);
 
   std::string file_;
-  ProblemReport* report_;
+  ComplaintReport* report_;
   std::vector<Heading> headings_;
   std::vector<Position> positions_;
   std::array<std::optional<std::size_t>, kColumnNames.size()> at_;

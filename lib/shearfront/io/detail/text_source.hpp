@@ -47,14 +47,14 @@ class TextSource {
 
 /// Collects the problems of one file and reports them in the order of the file: all of them, or the first
 /// `most` and how many more there are. Memory: O(most).
-class ProblemReport {
+class ComplaintReport {
  public:
-  explicit ProblemReport(std::string file, std::size_t most = std::numeric_limits<std::size_t>::max())
+  explicit ComplaintReport(std::string file, std::size_t most = std::numeric_limits<std::size_t>::max())
       : file_(std::move(file)), most_(most) {}
 
-  void add(Position position, Problem problem) { add(position, position, std::move(problem)); }
+  void add(Position position, Complaint complaint) { add(position, position, std::move(complaint)); }
   /// Ordered by `position` and printed with `shown`.
-  void add(Position position, Position shown, Problem problem);
+  void add(Position position, Position shown, Complaint complaint);
   /// Remembers that an entry could not be read, so that what only follows from this is not reported.
   void spoil(std::string key) { spoiled_.insert(std::move(key)); }
   /// Whether this entry or a table or array around it could not be read.
@@ -66,7 +66,7 @@ class ProblemReport {
  private:
   struct Located {
     Position position, shown;
-    Problem problem;
+    Complaint complaint;
   };
   static void sort(std::vector<Located>& located);
 

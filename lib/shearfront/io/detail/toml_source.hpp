@@ -46,7 +46,7 @@ class TomlSource {
 /// with it; finish() notes the entries nobody asked for.
 class TableReader {
  public:
-  TableReader(const TomlSource& source, ProblemReport& report, std::string path, const toml::table& table)
+  TableReader(const TomlSource& source, ComplaintReport& report, std::string path, const toml::table& table)
       : source_(&source), report_(&report), path_(std::move(path)), table_(&table) {}
 
   enum class Need { optional, required };
@@ -133,7 +133,7 @@ class TableReader {
   }
 
   const TomlSource* source_;
-  ProblemReport* report_;
+  ComplaintReport* report_;
   std::string path_;
   const toml::table* table_;
   std::vector<std::string> known_;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/profile.hpp"
+
+namespace shearfront::exact {
+
+/// A scene whose fluxes are all convex (or all concave), in the coordinates in which every flux is convex
+/// with the states 0 .. 1 and solid fraction 1.
+///
+/// With the states of layer k between c lo and c hi, w = hi - lo, put
+///
+///     u = (phi / c - lo) / w   for convex fluxes,   u = (hi - phi / c) / w   for concave ones,   dy = c w
+///     dz:
+///
+/// then u_t + (rate_k c_k g_k(u))_y = 0 with g_k(u) = +-f_k <= 0, and int u dy = +-(int phi dz - int c lo dz)
+/// (int c hi dz for concave ones). The capacity rate_k c_k |f_k(m_k)| of a layer is that of the quadratic
+/// flux with the shear rate 4 c_k |f_k(m_k)| a_k sqrt(T_k): these are the shear rates of image(). A parabola
+/// (quadratic, packed, lwr) thereby IS the quadratic flux, and image() a plain scene with the same solution
+/// u(y, t).
+///
+/// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
+/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. A smooth
+/// scene is represented by the layers it is given, unless only a(z) varies in a bed of one parabola: then
+/// image() has the same kind of shear rate (keeps_model()). Precondition: refusal(scene) is empty.
+template <Real Scalar>
+class CanonicalForm {
+ public:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  /// `layers`: about how many for a smooth scene.
+  CanonicalForm(const Scene<Scalar>& scene, std::size_t layers);
+
+  [[nodiscard]] const Scene<Scalar>& image() const { return image_; }
+  [[nodiscard]] bool is_concave() const { return is_concave_; }
+  /// Whether all fluxes are parabolas.
+  [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
+  [[nodiscard]] bool keeps_model() const { return keeps_model_; }
+  /// Layers in the heights of the scene; one if keeps_model() and a is smooth.
+  [[nodiscard]] const LayerStack<Scalar>& layers() const { return layers_; }
+  [[nodiscard]] std::size_t n_layers() const { return layers_.n_layers(); }
+
+  /// dy / dz in layer k.
+  [[nodiscard]] const Scalar& stretch(std::size_t k) const { return stretch_[k]; }
+  /// Shear rate of image() in layer k over a: the factor 4 c |f(m)| (times sqrt(T)).
+  [[nodiscard]] const Scalar& rate_factor(std::size_t k) const { return rate_factor_[k]; }
+  /// +1 for convex fluxes, -1 for concave ones: the sign of d(int phi dz) / d(int u dy).
+  [[nodiscard]] Scalar sign() const { return Scalar(is_concave_ ? -1 : 1); }
+  /// d(phi / c) / du in layer k.
+  [[nodiscard]] Scalar state_slope(std::size_t k) const { return sign() * width_[layers_.flux_index(k)]; }
+  /// u of the share phi / c in layer k, and back.
+  [[nodiscard]] Scalar state_of(const Scalar& share, std::size_t k) const;
+  [[nodiscard]] Scalar share_of(const Scalar& u, std::size_t k) const;
+  /// Piece of the scene's initial data to which piece j of the image's belongs.
+  [[nodiscard]] std::size_t initial_piece(std::size_t j) const { return initial_piece_[j]; }
+  /// Lowest layer of piece j of the image's initial data; all of its layers have the same flux.
+  [[nodiscard]] std::size_t initial_layer(std::size_t j) const { return initial_layer_[j]; }
+  /// Initial jump of the scene that jump j of the image's data is; kNone where only the range of states
+  /// jumps.
+  [[nodiscard]] std::size_t initial_break(std::size_t j) const { return initial_break_[j]; }
+
+  [[nodiscard]] Scalar image_of(const Scalar& z) const;
+  [[nodiscard]] Scalar height_of(const Scalar& y) const;
+  [[nodiscard]] Scalar phi_of(const Scalar& z, const Scalar& u) const;
+  /// int_bottom^z phi for int u dy = `amount`.
+  [[nodiscard]] Scalar amount_of(const Scalar& z, const Scalar& amount) const;
+  /// phi as a profile of u over y, cut at the interfaces. Cost: O(cells + layers).
+  [[nodiscard]] Profile<Scalar> image_of(const Profile<Scalar>& profile) const;
+
+ private:
+  [[nodiscard]] static LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers);
+  [[nodiscard]] Scene<Scalar> make_image();
+  void set_initial_data(SceneSpec<Scalar>& spec);
+
+  Scene<Scalar> scene_;
+  bool is_concave_, is_parabolic_, keeps_model_;
+  LayerStack<Scalar> layers_;
+  std::vector<Scalar> lowest_, highest_, width_;  ///< per flux
+  std::vector<Scalar> stretch_, rate_factor_;     ///< per layer
+  std::vector<Scalar> y_, least_,
+      most_;  ///< per boundary: image, int c lo dz and int c hi dz from the bottom
+  std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
+  Scene<Scalar> image_;
+};
+
+extern template class CanonicalForm<double>;
+
+}  // namespace shearfront::exact

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/exact/exact_share_integral.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "shearfront/exact/smooth_pieces.hpp"
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/sum.hpp"
+
+namespace shearfront {
+namespace {
+
+using Node = exact::PathNode<double>;
+
+/// c g(x) dz in the coordinates of the solution without a canonical form: g(share of u) times d(solid) / dy.
+class Integrand {
+ public:
+  Integrand(const ExactSolution<double>& exact, const ShareFunction& g)
+      : form_(exact.canonical_form()), g_(&g) {}
+
+  /// The layer that holds [lo, hi]; a staircase of the solution may have more of them than the canonical form.
+  void set_layer(double lo, double hi) {
+    if (!form_) return;
+    layer_ = form_->n_layers() == 1 ? 0 : form_->layers().layer_at(form_->height_of(lo + (hi - lo) / 2));
+    solid_ = 1 / std::abs(form_->state_slope(layer_));
+  }
+  [[nodiscard]] double operator()(double u) const {
+    return g_->value(form_ ? form_->share_of(u, layer_) : u) * solid_;
+  }
+  /// The states u where the slope of g jumps, in any order.
+  [[nodiscard]] std::vector<double> kinks() const {
+    std::vector<double> all = g_->kinks;
+    if (form_)
+      for (double& x : all) x = form_->state_of(x, layer_);
+    return all;
+  }
+
+ private:
+  const exact::CanonicalForm<double>* form_;
+  const ShareFunction* g_;
+  std::size_t layer_ = 0;
+  double solid_ = 1;
+};
+
+class ShareIntegral {
+ public:
+  /// `exact` has no canonical form itself; `is_staircase`: a rule of low order will do.
+  ShareIntegral(const ExactSolution<double>& exact, Integrand integrand, double t, bool is_staircase)
+      : exact_(exact), integrand_(integrand), t_(t), is_staircase_(is_staircase) {}
+
+  double run() {
+    const bool is_initial = t_ == 0;
+    if (is_initial || !std::isfinite(t_)) return at_rest(exact::profile_at_rest(exact_, is_initial));
+    const exact::SmoothPieces<double> pieces(exact_, t_);
+    const std::vector<double>& z = pieces.boundaries();
+    for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+      integrand_.set_layer(z[k], z[k + 1]);
+      kinks_ = integrand_.kinks();
+      const bool is_top = k + 2 == z.size();
+      pieces.split(
+          pieces.node(z[k]), is_top ? pieces.node(z[k + 1]) : pieces.below(z[k + 1]),
+          [&](const Node& a, const Node& b) { add_smooth(a, b); },
+          [&](const Node& a, const Node& b) { add_gap(a, b); });
+    }
+    return sum_.value();
+  }
+
+ private:
+  double at_rest(const Profile<double>& profile) {
+    const exact::SmoothPieces<double> pieces(exact_, 1);
+    const std::vector<double>& z = pieces.boundaries();
+    std::size_t i = 0;
+    for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+      integrand_.set_layer(z[k], z[k + 1]);
+      double lo = z[k];
+      while (i < profile.n_cells()) {
+        const double hi = std::min(z[k + 1], profile.z()[i + 1]);
+        if (hi > lo) sum_ += (hi - lo) * integrand_(profile.below()[i]);
+        lo = std::max(lo, hi);
+        if (profile.z()[i + 1] > z[k + 1]) break;
+        ++i;
+      }
+    }
+    return sum_.value();
+  }
+
+  void add_gap(const Node& a, const Node& b) {
+    sum_ += (b.z - a.z) * ((integrand_(a.phi) + integrand_(b.phi)) / 2);
+  }
+
+  /// A piece on which phi does not decrease: cut at the kinks of g.
+  void add_smooth(const Node& a, const Node& b) {
+    if (!(b.z > a.z)) return;
+    double lo = a.z;
+    if (b.phi > a.phi) {
+      std::vector<double> cuts;
+      for (const double kink : kinks_)
+        if (kink > a.phi && kink < b.phi) cuts.push_back(height_of(kink, a, b));
+      std::sort(cuts.begin(), cuts.end());
+      for (const double z : cuts) {
+        add(lo, z);
+        lo = z;
+      }
+    }
+    if (b.phi == a.phi)
+      sum_ += (b.z - lo) * integrand_(a.phi);
+    else
+      add(lo, b.z);
+  }
+
+  [[nodiscard]] double height_of(double phi, const Node& a, const Node& b) const {
+    std::uintmax_t n = 100;
+    const auto [lo, hi] = boost::math::tools::toms748_solve(
+        [&](double z) { return exact_.phi(z, t_) - phi; }, a.z, b.z, a.phi - phi, b.phi - phi,
+        [&](double x, double y) { return y - x <= 1e-13 * (b.z - a.z); }, n);
+    return lo + (hi - lo) / 2;
+  }
+
+  void add(double lo, double hi) {
+    if (!(hi > lo)) return;
+    const auto value = [&](double z) { return integrand_(exact_.phi(z, t_)); };
+    if (is_staircase_) {
+      // Inside, for the ends may belong to the next piece.
+      const double middle = lo + (hi - lo) / 2, half = (hi - lo) / 2 * std::sqrt(0.6);
+      sum_ += (hi - lo) * ((5 * value(middle - half) + 8 * value(middle) + 5 * value(middle + half)) / 18);
+      return;
+    }
+    // Relative to the whole bed: in a short piece the rounding of phi would be taken for structure.
+    constexpr unsigned kMostHalvings = 8;
+    const double tolerance = 1e-12 * ((exact_.scene().top() - exact_.scene().bottom()) / (hi - lo));
+    sum_ += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(value, lo, hi, kMostHalvings,
+                                                                          std::min(tolerance, 1e-3));
+  }
+
+  const ExactSolution<double>& exact_;
+  Integrand integrand_;
+  double t_;
+  bool is_staircase_;
+  std::vector<double> kinks_;
+  CompensatedSum<double> sum_;
+};
+
+}  // namespace
+
+double share_integral(const ExactSolution<double>& exact, double t, const ShareFunction& g) {
+  SHEARFRONT_EXPECTS(t >= 0 && g, "a time and a function");
+  const ExactSolution<double>& image = exact.image() ? *exact.image() : exact;
+  return ShareIntegral(image, Integrand(exact, g), t, !exact.is_exact()).run();
+}
+
+}  // namespace shearfront

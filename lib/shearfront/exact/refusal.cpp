@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/exact/refusal.hpp"
+#include "shearfront/numeric/instantiated.hpp"
+
+#include <type_traits>
+#include <variant>
+
+namespace shearfront::exact {
+
+namespace {
+
+constexpr const char* kOthers = ": only front tracking and finite volumes apply";
+
+/// "cubic with gamma = 0.9".
+template <class Model>
+std::string description(const Model& flux) {
+  std::string text(Model::kName);
+  const char* glue = " with ";
+  Model::fields(flux, [&](const FieldInfo& info, const auto& member) {
+    if constexpr (Real<std::remove_cvref_t<decltype(member)>>) {
+      text += glue + std::string(info.key) + " = " + number_text(member);
+      glue = ", ";
+    }
+  });
+  return text;
+}
+
+template <class Model>
+std::string refusal_of(const Model& flux) {
+  const auto range = flux.range();
+  const std::size_t extrema = flux.extrema().size();
+  if (flux.curvature() == Curvature::mixed)
+    return description(flux) + " is neither convex nor concave" + kOthers;
+  if (!(flux.value(range.lowest) == 0) || !(flux.value(range.highest) == 0))
+    return description(flux) + " does not vanish at both ends of its range" + kOthers;
+  if (extrema != 1)
+    return description(flux) + " has " + std::to_string(extrema) + " extrema instead of one" + kOthers;
+  return {};
+}
+
+}  // namespace
+
+template <Real Scalar>
+std::string refusal(const Scene<Scalar>& scene) {
+  if (scene.is_plain()) return {};
+  if (scene.has_diffusion())
+    return "grains diffuse in this bed: crank-nicolson applies, cole-hopf where it has a closed form";
+  const auto curvature = [](const Flux<Scalar>& flux) {
+    return std::visit([](const auto& f) { return f.curvature(); }, flux);
+  };
+  for (const Flux<Scalar>& flux : scene.fluxes()) {
+    if (std::string text = std::visit([](const auto& f) { return refusal_of(f); }, flux); !text.empty())
+      return text;
+    if (curvature(flux) != curvature(scene.fluxes().front()))
+      return std::string("a convex flux beside a concave one has no exact solution") + kOthers;
+  }
+  if (!scene.has_walls()) return std::string("open and periodic ends have no exact solution") + kOthers;
+  return {};
+}
+
+template std::string refusal<Instantiated>(const Scene<Instantiated>&);
+
+}  // namespace shearfront::exact

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/general_medium.hpp"
+#include "shearfront/exact/medium.hpp"
+
+namespace shearfront::exact {
+
+/// The exact solution at a height, approached from above or from below, and how its path begins.
+template <Real Scalar>
+struct PathNode {
+  Scalar z, M, phi;
+  PathKind kind;
+  bool upward;
+  std::size_t source, interface;
+
+  [[nodiscard]] bool is_of_family(const PathNode& other) const {
+    return kind == other.kind && upward == other.upward && source == other.source &&
+           interface == other.interface;
+  }
+};
+
+/// Where the exact solution at one time is smooth in z: between the interfaces, cut at shocks and kinks.
+///
+/// A cut lies where the minimising path begins in another way. Optimal paths do not cross, so the heights
+/// served by one source in one way are an interval, and its ends are found by bisection (where phi jumps
+/// down, sped up by intersecting the values of M of both sides). Between the cuts phi does not decrease.
+/// Precondition: 0 < t < +infinity, and no canonical form (use exact.image()). Cost of a cut: about 20 queries
+/// for a shock, 50 for a kink.
+template <Real Scalar>
+class SmoothPieces {
+ public:
+  using Node = PathNode<Scalar>;
+
+  SmoothPieces(const ExactSolution<Scalar>& exact, const Scalar& t) : exact_(&exact), t_(t) {
+    const Scene<Scalar>& scene = exact.scene();
+    const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
+    narrow_ = Scalar(4) * unit_roundoff<Scalar>() *
+              std::max({Scalar(scene.top() - scene.bottom()), size(scene.top()), size(scene.bottom())});
+    if (const auto* layered = dynamic_cast<const LayeredMedium<Scalar>*>(&exact.medium()))
+      boundaries_ = layered->layers().boundaries();
+    else if (const auto* general = dynamic_cast<const GeneralMedium<Scalar>*>(&exact.medium()))
+      boundaries_ = general->layers().boundaries();
+    else
+      boundaries_ = {scene.bottom(), scene.top()};
+  }
+
+  /// Bottom, interfaces, top.
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const { return boundaries_; }
+
+  [[nodiscard]] Node node(const Scalar& z) const {
+    const auto path = exact_->path(z, t_);
+    const auto value = exact_->value_of(path, z, t_);
+    return {z, value.M, value.phi, path.kind, path.upward, path.source, path.interface};
+  }
+  /// The limit from below at an interface.
+  [[nodiscard]] Node below(const Scalar& z) const {
+    Node n = node(Scalar(z - narrow_ / Scalar(2)));
+    n.M = exact_->M(z, t_);
+    n.z = z;
+    return n;
+  }
+
+  /// Cuts [a.z, b.z], which must lie in one layer: smooth(low, high) for every piece, gap(low, high) for the
+  /// rounding error between the two sides of a cut.
+  template <class Smooth, class Gap>
+  void split(const Node& a, const Node& b, const Smooth& smooth, const Gap& gap) const {
+    if (!(b.z > a.z)) return;
+    if (a.is_of_family(b)) return smooth(a, b);
+    Node low = a, high = b;
+    Scalar margin = Scalar(1) / Scalar(16);
+    bool is_low = true;  // side of the intersection that is tried next
+    for (int n = 0; high.z - low.z > narrow_; ++n) {
+      const Scalar width = high.z - low.z;
+      Scalar z = low.z + width / Scalar(2);
+      const bool is_bisection = n % 4 == 3;
+      if (!is_bisection) {
+        const Scalar part = intersection(low, high) + (is_low ? Scalar(-margin) : margin);
+        if (part > 0 && part < 1) z = low.z + width * part;
+      }
+      if (!(z > low.z && z < high.z)) z = low.z + width / Scalar(2);
+      if (!(z > low.z && z < high.z)) break;
+      const Node middle = node(z);
+      const bool is_below = middle.is_of_family(low);
+      if (!is_below && !middle.is_of_family(high)) {
+        smooth(a, low);
+        split(low, middle, smooth, gap);
+        split(middle, high, smooth, gap);
+        return smooth(high, b);
+      }
+      if (!is_bisection) adapt(is_below == is_low, margin, is_low);
+      (is_below ? low : high) = middle;
+    }
+    smooth(a, low);
+    gap(low, high);
+    smooth(high, b);
+  }
+
+ private:
+  /// Where the lines of M through both ends cross, as a part of the way; 1/2 if phi does not jump down.
+  static Scalar intersection(const Node& a, const Node& b) {
+    const Scalar jump = a.phi - b.phi, width = b.z - a.z;
+    if (!(jump > Scalar(1e-3))) return Scalar(0.5);
+    return ((b.M - a.M) - b.phi * width) / (jump * width);
+  }
+  /// Intersections converge quadratically; after a miss more room is left.
+  static void adapt(bool is_hit, Scalar& margin, bool& is_low) {
+    using std::sqrt;
+    if (!is_hit)
+      margin = std::min(Scalar(0.25), Scalar(sqrt(margin)));
+    else if (!is_low)
+      margin = std::max(Scalar(margin * margin), Scalar(unit_roundoff<Scalar>()));
+    if (is_hit) is_low = !is_low;
+  }
+
+  const ExactSolution<Scalar>* exact_;
+  Scalar t_, narrow_;
+  std::vector<Scalar> boundaries_;
+};
+
+/// The exact solution where it is constant in pieces: at t = 0 and in the steady state. Precondition: no
+/// canonical form.
+template <Real Scalar>
+[[nodiscard]] Profile<Scalar> profile_at_rest(const ExactSolution<Scalar>& exact, bool is_initial) {
+  const Scene<Scalar>& scene = exact.scene();
+  std::vector<Scalar> z{scene.bottom()}, phi;
+  if (is_initial) {
+    phi = scene.initial_values();
+    z.insert(z.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
+  } else {
+    phi = {Scalar(1), Scalar(0)};
+    z.push_back(exact.steady_height());
+  }
+  z.push_back(scene.top());
+  return {std::move(z), phi, phi};
+}
+
+}  // namespace shearfront::exact

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/field.hpp"
+
+namespace shearfront {
+
+/// What every law of random close packing offers: the largest part of the volume that a random mixture of
+/// small and large grains can fill, as a function of the share x of small grains in it.
+///
+///   value(x)   c_rcp(x), positive and continuous for x in [0, 1]
+///   kinks      where its slope jumps, ascending
+template <class Law, class Scalar>
+concept ClosePackingLaw = Real<Scalar> && requires(const Law& law, const Scalar& x) {
+  { Law::kName } -> std::convertible_to<std::string_view>;
+  { Law::kFormula } -> std::convertible_to<std::string_view>;
+  { law.value(x) } -> std::convertible_to<Scalar>;
+  { law.kinks() } -> std::same_as<std::vector<Scalar>>;
+};
+
+/// Random close packing of equal spheres.
+template <Real Scalar>
+[[nodiscard]] Scalar packing_of_spheres() {
+  return Scalar(633) / Scalar(1000);
+}
+
+/// Adds a problem if the solid fraction of one kind of grains is not below `limit`.
+template <Real Scalar>
+void check_pure_packing(const std::string& prefix, const Scalar& pure, const Scalar& limit,
+                        Complaints& complaints) {
+  if (is_finite(pure) && !(pure < limit))
+    complaints.push_back({prefix + "pure", number_text(pure), "must be < " + number_text(limit)});
+}
+
+}  // namespace shearfront

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "shearfront/numeric/type_list.hpp"
+#include "shearfront/model/depth/chute.hpp"
+#include "shearfront/model/depth/exponential.hpp"
+#include "shearfront/model/depth/piecewise.hpp"
+#include "shearfront/model/depth/table.hpp"
+
+namespace shearfront {
+
+/// Every shear-rate model a(z). To add one: copy skeleton.hpp, include it here, and name it in the list.
+template <Real Scalar>
+using DepthFunctionList = TypeList<Piecewise<Scalar>, Exponential<Scalar>, Table<Scalar>, Chute<Scalar>>;
+
+template <Real Scalar>
+using DepthFunction = typename DepthFunctionList<Scalar>::Variant;
+
+}  // namespace shearfront

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/field.hpp"
+
+namespace shearfront {
+
+/// Copy this file to shear_rate/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// shear_rate/all.hpp. Say here: the formula, the domain and unit of every entry, the source.
+/// This copy is a constant rate, so that it compiles and passes the laws of shear rates as it stands.
+template <Real Scalar>
+struct SkeletonDepthFunction {
+  static constexpr std::string_view kName = "skeleton";  ///< shear_rate.model in scene files
+  static constexpr std::string_view kFormula = "rate";   ///< for `shearfront list`
+  static constexpr bool kIsLayered = false;              ///< true: constant between knots()
+
+  Scalar rate{1};
+
+  /// Entries of the [shear_rate] table, in the order of a scene file. Members: Scalar or std::vector<Scalar>.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(FieldInfo{"rate", Range::positive}, self.rate);
+  }
+  /// Whatever must hold between entries (lengths, order, domain); single numbers are checked by their Range.
+  void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,
+             Complaints&) const {}
+
+  [[nodiscard]] Scalar value(const Scalar& /*z*/) const { return rate; }
+  /// (hi - lo) / int_lo^hi dz / a(z) for an interval without a knot inside.
+  [[nodiscard]] Scalar harmonic_mean(const Scalar& /*lo*/, const Scalar& /*hi*/) const { return rate; }
+  /// Heights where a or its slope jumps.
+  [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
+
+  static std::vector<SkeletonDepthFunction> samples() { return {{Scalar(1)}, {Scalar(3)}}; }
+};
+
+}  // namespace shearfront

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/field.hpp"
+
+namespace shearfront {
+
+/// A smooth step: phi = below + (above - below) / (1 + exp(-(z - centre) / width)).
+///
+/// Domain: width > 0, the height over which phi approaches its ends by e; any centre. With width =
+/// D / (s a |above - below|) and below > above it is a kink that travels without changing its shape.
+template <Real Scalar>
+struct KinkInitial {
+  static constexpr std::string_view kName = "kink";
+  static constexpr std::string_view kFormula = "below + (above - below) / (1 + exp(-(z - centre) / width))";
+
+  Scalar below{1}, above{0}, centre{0}, width{1};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(FieldInfo{"below"}, self.below);
+    visit(FieldInfo{"above"}, self.above);
+    visit(FieldInfo{"centre"}, self.centre);
+    visit(FieldInfo{"width", Range::positive}, self.width);
+  }
+  static void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,
+                    Complaints&) {}
+  [[nodiscard]] Scalar lowest() const { return std::min(below, above); }
+  [[nodiscard]] Scalar highest() const { return std::max(below, above); }
+
+  [[nodiscard]] Scalar value(const Scalar& z) const {
+    using std::tanh;
+    const Scalar part = (Scalar(1) + tanh(Scalar((z - centre) / (Scalar(2) * width)))) / Scalar(2);
+    return below + (above - below) * part;
+  }
+  /// int_lo^hi phi dz: width ln(1 + e^x) is the primitive of the step.
+  [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
+    return below * (hi - lo) + (above - below) * width * (softplus(hi) - softplus(lo));
+  }
+
+  static std::vector<KinkInitial> samples() {
+    return {{Scalar(0.75), Scalar(0), Scalar(0.5), Scalar(0.02)},
+            {Scalar(0.2), Scalar(0.9), Scalar(0.3), Scalar(0.1)}};
+  }
+
+ private:
+  /// ln(1 + e^x) at x = (z - centre) / width, for any x.
+  [[nodiscard]] Scalar softplus(const Scalar& z) const {
+    using std::exp;
+    using std::log1p;
+    const Scalar x = (z - centre) / width;
+    return x > 0 ? Scalar(x + log1p(Scalar(exp(Scalar(-x))))) : Scalar(log1p(Scalar(exp(x))));
+  }
+};
+
+}  // namespace shearfront

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/field.hpp"
+
+namespace shearfront {
+
+/// A wave: phi = mean + amplitude sin(2 pi (z - origin) / wavelength). Domain: wavelength > 0.
+template <Real Scalar>
+struct SineInitial {
+  static constexpr std::string_view kName = "sine";
+  static constexpr std::string_view kFormula = "mean + amplitude sin(2 pi (z - origin) / wavelength)";
+
+  Scalar mean{0}, amplitude{1}, wavelength{1}, origin{0};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(FieldInfo{"mean", Range::any, true}, self.mean);
+    visit(FieldInfo{"amplitude"}, self.amplitude);
+    visit(FieldInfo{"wavelength", Range::positive}, self.wavelength);
+    visit(FieldInfo{"origin", Range::any, true}, self.origin);
+  }
+  static void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,
+                    Complaints&) {}
+  [[nodiscard]] Scalar lowest() const { return mean - size(); }
+  [[nodiscard]] Scalar highest() const { return mean + size(); }
+
+  [[nodiscard]] Scalar value(const Scalar& z) const {
+    using std::sin;
+    return mean + amplitude * sin(angle(z));
+  }
+  /// int_lo^hi phi dz, free of cancellation for short intervals.
+  [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
+    using std::sin;
+    const Scalar half = (angle(hi) - angle(lo)) / Scalar(2), middle = angle(lo) + half;
+    const Scalar sinc = half == 0 ? Scalar(1) : Scalar(sin(half) / half);
+    return (hi - lo) * (mean + amplitude * (sin(middle) * sinc));
+  }
+
+  static std::vector<SineInitial> samples() {
+    return {{Scalar(0.5), Scalar(0.25), Scalar(1), Scalar(0)},
+            {Scalar(0.5), Scalar(-0.5), Scalar(0.5), Scalar(0.1)}};
+  }
+
+ private:
+  [[nodiscard]] Scalar size() const { return amplitude < 0 ? Scalar(-amplitude) : amplitude; }
+  [[nodiscard]] Scalar angle(const Scalar& z) const {
+    return boost::math::constants::two_pi<Scalar>() * ((z - origin) / wavelength);
+  }
+};
+
+}  // namespace shearfront

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/field.hpp"
+
+namespace shearfront {
+
+/// A measured profile: linear between the points (z[i], values[i]).
+///
+/// Domain: at least two points, z strictly increasing, z.front() <= bottom and z.back() >= top.
+template <Real Scalar>
+struct TableInitial {
+  static constexpr std::string_view kName = "table";
+  static constexpr std::string_view kFormula = "linear between the points (z[i], values[i])";
+
+  std::vector<Scalar> z, values;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(FieldInfo{"z"}, self.z);
+    visit(FieldInfo{"values"}, self.values);
+  }
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+    check_points(prefix, z, values.size(), bottom, top, complaints);
+  }
+  [[nodiscard]] Scalar lowest() const { return *std::min_element(values.begin(), values.end()); }
+  [[nodiscard]] Scalar highest() const { return *std::max_element(values.begin(), values.end()); }
+
+  [[nodiscard]] Scalar value(const Scalar& height) const {
+    const std::size_t i = segment(height);
+    const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
+    return values[i] + w * (values[i + 1] - values[i]);
+  }
+  /// int_lo^hi phi dz. Cost: O(points in between).
+  [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
+    Scalar sum(0), from = lo;
+    for (std::size_t i = segment(lo) + 1; i + 1 < z.size() && z[i] < hi; ++i) {
+      sum += (z[i] - from) * ((value(from) + values[i]) / Scalar(2));
+      from = z[i];
+    }
+    return sum + (hi - from) * ((value(from) + value(hi)) / Scalar(2));
+  }
+
+  static std::vector<TableInitial> samples() {
+    return {
+        {{Scalar(0), Scalar(1)}, {Scalar(0.25), Scalar(0.75)}},
+        {{Scalar(0), Scalar(0.3), Scalar(0.6), Scalar(1)}, {Scalar(0), Scalar(0.5), Scalar(0.4), Scalar(1)}}};
+  }
+
+ private:
+  [[nodiscard]] std::size_t segment(const Scalar& height) const {
+    const auto it = std::upper_bound(z.begin() + 1, z.end() - 1, height);
+    return static_cast<std::size_t>(it - z.begin()) - 1;
+  }
+};
+
+}  // namespace shearfront
