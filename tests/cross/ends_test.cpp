@@ -49,7 +49,7 @@ TEST(Ends, APeriodicBedIsTheMiddleOfManyCopies) {
       const int n = 11;
       SolverRequest request{{0.4, 2.5}, {}, false, false, false}, many = request;
       for (int i = 0; i < 50; ++i) request.heights.push_back((i + 0.31) / 50);
-      for (const double z : request.heights) many.depths.push_back(z + 5);
+      for (const double z : request.heights) many.heights.push_back(z + 5);
       SolverOptions options;
       options.resolution = 0.05;
       const auto periodic = FrontTrackingSolver::solve(Scene<double>(spec), request, options);

@@ -200,17 +200,17 @@ TEST(Shape, IsTheSameAsConstraintsAndAsBox) {
 
 TEST(SearchNames, SayWhatIsWrong) {
   const Identification problem = thinned(example_5());
-  const auto problem = [&](const std::string& algorithm) -> std::string {
+  const auto message = [&](const std::string& algorithm) -> std::string {
     try {
       (void)run(problem, algorithm);
     } catch (const InputError& error) {
-      return error.problems().front().text();
+      return error.complaints().front().text();
     }
     return "";
   };
-  EXPECT_EQ(problem("nlopt:simplex").substr(0, 58),
+  EXPECT_EQ(message("nlopt:simplex").substr(0, 58),
             "search.algorithm = \"nlopt:simplex\"; must be one of: ceres,");
-  EXPECT_NE(problem("nlopt:"), "");
+  EXPECT_NE(message("nlopt:"), "");
 }
 
 TEST(SearchNames, GlobalAlgorithmsNeedABox) {

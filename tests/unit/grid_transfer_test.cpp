@@ -18,13 +18,13 @@ using support::SceneMaker;
 using support::seed_of;
 
 /// A bed [-1, 2] after some rounds of random splits and merges.
-Complaint random_grid(SceneMaker& maker, RefinedCells& cells) {
+Problem random_grid(SceneMaker& maker, RefinedCells& cells) {
   for (int round = 0; round < 4; ++round) {
     std::vector<double> wanted(cells.size());
     for (double& width : wanted) width = std::pow(2, maker.uniform(-7, 1));
     cells.apply(cells.changes_towards(wanted));
   }
-  Complaint p;
+  Problem p;
   p.bottom = -1;
   p.top = 2;
   p.faces = cells.faces();
@@ -74,7 +74,7 @@ TEST(GridTransfer, ParabolasAndCubicsStayWhatTheyAre) {
   for (std::uint64_t number = 0; number < 200; ++number) {
     SceneMaker maker(seed_of(30 + number));
     RefinedCells cells(-1, 2, 6);
-    const Complaint before = random_grid(maker, cells);
+    const Problem before = random_grid(maker, cells);
     const std::array<double, 3> c{0.5, maker.uniform(-0.1, 0.1), maker.uniform(-0.05, 0.05)};
     const auto cubic = [&](double z) { return c[0] - z * (c[1] + z * (c[2] + 0.7 * z)); };
     std::vector<double> means, fluxes, wanted;
@@ -101,7 +101,7 @@ TEST(GridTransfer, RoughStatesKeepTheirMassAndRange) {
   for (std::uint64_t number = 0; number < 200; ++number) {
     SceneMaker maker(seed_of(300 + number));
     RefinedCells cells(-1, 2, 6);
-    const Complaint before = random_grid(maker, cells);
+    const Problem before = random_grid(maker, cells);
     std::vector<double> means, wanted;
     double mass = 0, moved_mass = 0;
     for (std::size_t j = 0; j < before.n_cells; ++j) {
@@ -122,9 +122,9 @@ TEST(GridTransfer, RoughStatesKeepTheirMassAndRange) {
 
 TEST(CellRise, EqualCellsGivenByTheirFacesRiseAlike) {
   SceneMaker maker(seed_of(5));
-  Complaint equal;
+  Problem equal;
   equal.n_cells = 8;
-  Complaint given = equal;
+  Problem given = equal;
   for (std::size_t i = 0; i <= 8; ++i) given.faces.push_back(equal.face(i));
   std::vector<double> means;
   for (int j = 0; j < 8; ++j) means.push_back(maker.uniform(0, 1));

@@ -26,7 +26,7 @@ Observations observed(const ObservationPlan& plan, const Scene<double>& scene) {
   return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
 }
 
-std::string problems(const ObservationPlan& plan) {
+std::string complaints(const ObservationPlan& plan) {
   std::string all;
   for (const Complaint& complaint : find_complaints(plan, 0, 1)) all += complaint.text() + "\n";
   return all;

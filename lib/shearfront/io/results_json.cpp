@@ -18,6 +18,7 @@ std::string summary_text(const Summary& s) {
       json_text(name_of(s.status)), json_text(s.message));
 }
 
+#ifndef SHEARFRONT_DIGITS
 std::string array(const std::vector<double>& xs) {
   std::string all = "[";
   for (const double x : xs) {
@@ -40,8 +41,10 @@ void write_matrix(OutputFile& file, std::string_view name, const std::vector<Sam
   file.write("\n  ],\n");
 }
 
+#endif
 }  // namespace
 
+#ifndef SHEARFRONT_DIGITS
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
                         const std::vector<Sample>& samples, const Summary& summary) {
@@ -64,6 +67,7 @@ void write_time_table_json(OutputFile& file, std::string_view scene, std::string
   if (!extra.empty()) file.write(fmt::format("  {},\n", extra));
   file.write(fmt::format("  \"summary\": {}\n}}\n", summary_text(summary)));
 }
+#endif
 
 template <Real S>
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
