@@ -95,10 +95,14 @@ Result closed_form(const Scene<double>& scene) {
   const Flux<double>& flux = scene.fluxes()[0];
   if (const auto* burgers = std::get_if<Burgers<double>>(&flux); burgers)
     return periodic_burgers(scene, rate);
-  const auto* packed = std::get_if<Packed<double>>(&flux);
-  if (!packed && !std::holds_alternative<Quadratic<double>>(flux))
-    return std::string("no closed form is known for this flux with diffusion") + kOther;
-  const double signed_rate = packed && packed->grains == Grains::large ? -rate : rate;
+  const double parabola = std::visit(
+      [](const auto& f) {
+        const StateRange<double> range = f.range();
+        return f.kIsParabola && range.lowest == 0 && range.highest == 1 ? f.value(f.extrema().front()) : 0.0;
+      },
+      flux);
+  if (parabola == 0) return std::string("no closed form is known for this flux with diffusion") + kOther;
+  const double signed_rate = -4 * parabola * rate;
   if (scene.spec().initial_state)
     if (const auto* kink = std::get_if<KinkInitial<double>>(&*scene.spec().initial_state))
       return travelling_kink(scene, *kink, signed_rate);

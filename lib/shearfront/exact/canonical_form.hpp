@@ -20,7 +20,7 @@ namespace shearfront::exact {
 /// then u_t + (rate_k c_k g_k(u))_y = 0 with g_k(u) = +-f_k <= 0, and int u dy = +-(int phi dz - int c lo dz)
 /// (int c hi dz for concave ones). The capacity rate_k c_k |f_k(m_k)| of a layer is that of the quadratic
 /// flux with the shear rate 4 c_k |f_k(m_k)| a_k sqrt(T_k): these are the shear rates of image(). A parabola
-/// (quadratic, packed, lwr) thereby IS the quadratic flux, and image() a plain scene with the same solution
+/// (quadratic, lwr) thereby IS the quadratic flux, and image() a plain scene with the same solution
 /// u(y, t).
 ///
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
