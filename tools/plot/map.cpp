@@ -25,7 +25,7 @@ int draw_map(const std::string& path, const Scene<double>& scene, std::string_vi
   SolverRequest request;
   request.times = equally_spaced(0, t_end, kTimes);
   request.heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
   std::string rows;
   for (std::size_t i = 0; i < kTimes; ++i) {
