@@ -20,7 +20,7 @@ constexpr int kContours = 20;
 
 }  // namespace
 
-int draw_map(const std::string& path, const Scene<double>& scene, std::string_view method, double t_end,
+int draw_map(const std::string& path, const Scene<double>& scene, std::string_view, double t_end,
              const SolverOptions& options) {
   SolverRequest request;
   request.times = equally_spaced(0, t_end, kTimes);

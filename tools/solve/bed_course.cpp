@@ -11,7 +11,7 @@
 namespace shearfront::tools {
 namespace {
 
-std::optional<LowestBed> lowest_of(const BedHeight& bed, std::string_view method, const Scene<double>& scene,
+std::optional<LowestBed> lowest_of(const BedHeight& bed, const Scene<double>& scene,
                                    double t_end, const SolverOptions& options) {
   SolverRequest request;
   request.integrand = bed.integrand();
@@ -59,7 +59,7 @@ BedCourse bed_course(SolvedQuantity quantity, std::string_view method, const Sce
   double t_end = 0;
   for (const double t : times)
     if (std::isfinite(t)) t_end = std::max(t_end, t);
-  if (!is_mixing && t_end > 0) course.lowest = lowest_of(bed, method, scene, t_end, options);
+  if (!is_mixing && t_end > 0) course.lowest = lowest_of(bed, scene, t_end, options);
   return course;
 }
 
