@@ -61,7 +61,7 @@ class Scene {
   }
   /// Whether all of the scene is the model of May, Shearer & Daniels: one quadratic flux, c = T = 1, walls.
   [[nodiscard]] bool is_plain() const {
-    return spec_.fluxes.size() == 1 && std::holds_alternative<Quadratic<Scalar>>(spec_.fluxes[0]) &&
+    return spec_.fluxes.size() == 1 && unit_parabola_sign<Scalar>(spec_.fluxes[0]) == 1 &&
            !spec_.solid_fraction && !spec_.temperature && has_walls() && !has_diffusion();
   }
   /// Whether no grain can leave or come in.
