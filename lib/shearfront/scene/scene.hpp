@@ -26,7 +26,7 @@ namespace shearfront {
 /// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction.
-/// Errors: the constructor throws InputError that carries every problem.
+/// Errors: the constructor throws InputError that carries all complaints.
 template <Real Scalar>
 class Scene {
  public:

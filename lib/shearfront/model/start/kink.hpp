@@ -13,8 +13,8 @@ namespace shearfront {
 
 /// A smooth step: phi = below + (above - below) / (1 + exp(-(z - centre) / width)).
 ///
-/// Domain: width > 0, the height over which phi approaches its ends by e; any centre. With width =
-/// D / (s a |above - below|) and below > above it is a kink that travels without changing its shape.
+/// Domain: width > 0, the height over which phi approaches its ends by e; any centre. Where below > above and
+/// width = D / (s a |above - below|) it is a kink that travels without changing its shape.
 template <Real Scalar>
 struct KinkInitial {
   static constexpr std::string_view kName = "kink";
