@@ -26,8 +26,8 @@ namespace {
 
 constexpr int kDoubleDigits = 17;
 // Few enough fronts to be told apart.
-constexpr double kPictureResolution = 0.04;
-constexpr std::size_t kPictureLayers = 100;
+constexpr const char* kPictureResolution = "0.04";
+constexpr const char* kPictureLayers = "100";
 
 struct EventsArguments {
   std::string scene, digits, plot;
@@ -108,7 +108,7 @@ std::string summary_line(const Summary& s) {
 std::optional<Timeline<double>> exact_times(const Scene<double>& scene) {
   SolverRequest request;
   request.timeline = true;
-  const SolverResult result = ExactSolver::solve(scene, request, {});
+  const SolverResult result = shearfront::solve(scene, Method(), request);
   return result.summary.usable() ? result.timeline : std::nullopt;
 }
 
@@ -116,11 +116,12 @@ std::optional<Timeline<double>> exact_times(const Scene<double>& scene) {
 void print_events(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
                   const TimelineText& text, const Summary& summary, int digits) {
   OutputFile out("-");
-  const std::string_view method = arguments.method.method();
+  const Method chosen = arguments.method.method();
+  const std::string_view method = chosen.name();
   if (arguments.json) {
     write_events_json(out, scene.name(), method, text, summary);
   } else {
-    const bool compare = !guarantees_of(method).exact;
+    const bool compare = !Method(method).guarantees().exact;
     const auto exact = compare ? exact_times(scene) : std::nullopt;
     out.write(fmt::format("{} ({})\n\n", printable(scene.name(), 100), method));
     const ClosedForms forms = closed_forms(scene);
@@ -136,34 +137,34 @@ void print_events(const EventsArguments& arguments, const Scene<double>& scene, 
 }
 
 /// Fronts for the picture, by the first solver that has fronts.
-int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
-         SolverOptions options) {
-  if (!arguments.method.has_resolution()) options.resolution = kPictureResolution;
-  if (!arguments.method.has_layers()) options.layers = kPictureLayers;
-  const std::string method = methods_with_fronts().front();
+int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline) {
+  SolverOptions options{arguments.method.with(Method::names(&Guarantees::has_fronts).front()), {}};
+  if (!arguments.method.has("resolution")) set_option(options.method, "resolution", kPictureResolution, "");
+  if (!arguments.method.has("layers")) set_option(options.method, "layers", kPictureLayers, "");
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.heights = {scene.bottom()};
   request.fronts = true;
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
-  return draw_fronts(arguments.plot, scene, result.fronts, timeline, options.resolution);
+  return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(options.method, "resolution"));
 }
 
 int events(const EventsArguments& arguments) {
-  const std::string_view method = arguments.method.method();
-  SolverOptions options = arguments.method.options();
+  const Method chosen = arguments.method.method();
+  const std::string_view method = chosen.name();
+  SolverOptions options{arguments.method.method(), {}};
   const int digits = arguments.digits.empty()
                          ? 0
                          : static_cast<int>(count_option("--digits", arguments.digits, 1, kMostDigits));
-  if (!guarantees_of(method).has_timeline)
+  if (!Method(method).guarantees().has_timeline)
     refuse(
         "--method", method,
-        fmt::format("computes no event times; must be one of: {}", fmt::join(methods_with_timeline(), ", ")));
-  if (digits > kDoubleDigits && method != ExactSolver::kName)
+        fmt::format("computes no event times; must be one of: {}", fmt::join(Method::names(&Guarantees::has_timeline), ", ")));
+  if (digits > kDoubleDigits && !chosen.guarantees().exact)
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits, method,
-                       ExactSolver::kName));
+                       Method().name()));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
   const auto scene = with_remarks(read_scene<double>(arguments.scene));
@@ -174,7 +175,7 @@ int events(const EventsArguments& arguments) {
   options.progress = progress.callback();
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve_with(method, scene, request, options);
+  SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) {
     if (arguments.json) {
       Timeline<double> unknown;
@@ -187,14 +188,14 @@ int events(const EventsArguments& arguments) {
   TimelineText text;
   if (digits > kDoubleDigits) {
     const auto begin = std::chrono::steady_clock::now();
-    text = exact_digits(arguments.scene, options.layers, digits);
+    text = exact_digits(arguments.scene, static_cast<std::size_t>(number_of(chosen, "layers")), digits);
     result.summary.message = fmt::format("computed with {} digits", kComputedDigits);
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   } else {
     text = text_of(*result.timeline, arguments.json ? 0 : digits);
   }
   print_events(arguments, scene, *result.timeline, text, result.summary, digits);
-  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline, options);
+  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ using Complaints = std::vector<Complaint>;
 /// `initial.values = (3 entries); must have one entry more than breaks (4)`.
 [[nodiscard]] Complaint wrong_length(std::string key, std::size_t n_entries, std::string constraint);
 
-/// Thrown when an input cannot be used; carries every problem found, not only the first.
+/// Thrown when an input cannot be used; carries all complaints, not only the first.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Complaints complaints);

@@ -72,7 +72,7 @@ bool Scene<S>::counts_rising_grains() const {
 
 template <Real S>
 bool Scene<S>::is_plain() const {
-  return fluxes().size() == 1 && std::holds_alternative<Quadratic<S>>(fluxes()[0]) && !spec_.solid_fraction &&
+  return fluxes().size() == 1 && unit_parabola_sign<S>(fluxes()[0]) == 1 && !spec_.solid_fraction &&
          !spec_.temperature && has_walls() && !has_diffusion();
 }
 

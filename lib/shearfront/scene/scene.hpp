@@ -26,7 +26,7 @@ namespace shearfront {
 template <Real Scalar>
 class Scene {
  public:
-  /// Errors: InputError that carries every problem.
+  /// Errors: InputError that carries all complaints.
   explicit Scene(SceneSpec<Scalar> spec);
   /// The scene, or all that is wrong with it; nothing is thrown.
   [[nodiscard]] static std::variant<Scene, Complaints> make(SceneSpec<Scalar> spec);
@@ -67,6 +67,8 @@ class Scene {
 
   /// True if flux, a, c and T are constant between the knots().
   [[nodiscard]] bool is_layered() const;
+  /// Whether flux, a, c and T are the same all over the bed.
+  [[nodiscard]] bool is_uniform() const { return is_layered() && knots().empty(); }
   /// Heights inside the domain where the flux, a, c, T or one of their slopes jumps; ascending.
   [[nodiscard]] std::vector<Scalar> knots() const;
   /// Whether the flux, a, c or T jumps at z: there the scene has an interface of its own.
