@@ -7,6 +7,7 @@
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/start/model.hpp"
 
 namespace shearfront {
 
@@ -38,6 +39,7 @@ struct KinkInitial {
     const Scalar part = (Scalar(1) + tanh(Scalar((z - centre) / (Scalar(2) * width)))) / Scalar(2);
     return below + (above - below) * part;
   }
+  [[nodiscard]] LogisticStep<Scalar> logistic_step() const { return {below, above, centre, width}; }
   /// int_lo^hi phi dz: width ln(1 + e^x) is the primitive of the step.
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
     return below * (hi - lo) + (above - below) * width * (softplus(hi) - softplus(lo));
