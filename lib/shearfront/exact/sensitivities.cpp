@@ -207,7 +207,6 @@ void add_image(const Scene<Scalar>& scene, const exact::CanonicalForm<Scalar>& f
 
 template <Real Scalar>
 Sensitivities<Scalar> from_image(const ExactSolution<Scalar>& solution, const Scalar& z, const Scalar& t) {
-  SHEARFRONT_EXPECTS(sensitivity_refusal(solution).empty(), "a solution with exact derivatives");
   const Scene<Scalar>& scene = solution.scene();
   const exact::CanonicalForm<Scalar>& form = *solution.canonical_form();
   const Sensitivities<Scalar> image = sensitivities(*solution.image(), form.image_of(z), t);
@@ -222,6 +221,10 @@ Sensitivities<Scalar> from_image(const ExactSolution<Scalar>& solution, const Sc
 
 template <Real Scalar>
 std::string sensitivity_refusal(const ExactSolution<Scalar>& solution) {
+  const auto& rate = solution.scene().shear_rate();
+  if (!std::holds_alternative<Piecewise<Scalar>>(rate) && !std::holds_alternative<Table<Scalar>>(rate) &&
+      !std::holds_alternative<Exponential<Scalar>>(rate))
+    return "the entries of this shear rate: derivatives by differences only";
   const exact::CanonicalForm<Scalar>* form = solution.canonical_form();
   if (!form) return {};
   const Scene<Scalar>& scene = solution.scene();
@@ -237,6 +240,7 @@ std::string sensitivity_refusal(const ExactSolution<Scalar>& solution) {
 
 template <Real Scalar>
 Sensitivities<Scalar> sensitivities(const ExactSolution<Scalar>& solution, const Scalar& z, const Scalar& t) {
+  SHEARFRONT_EXPECTS(sensitivity_refusal(solution).empty(), "a solution with exact derivatives");
   if (solution.image()) return from_image(solution, z, t);
   const Scene<Scalar>& scene = solution.scene();
   Sensitivities<Scalar> out{{}, empty_gradient(scene), {}};
