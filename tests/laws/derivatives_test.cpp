@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shearfront/exact/refusal.hpp"
-#include "shearfront/exact/sensitivities.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "support/model_types.hpp"

@@ -7,7 +7,7 @@
 
 #include "shearfront/fit/diffusion_forward.hpp"
 #include "shearfront/exact/refusal.hpp"
-#include "shearfront/exact/sensitivities.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/observation.hpp"
@@ -18,18 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// The part of a gradient that belongs to a field of the scene file; empty if there is none.
-std::span<const double> part_of(const Gradient<double>& gradient, std::string_view field) {
-  if (field == "shear_rate.values") return gradient.shear_rate_values();
-  if (field == "shear_rate.breaks") return gradient.shear_rate_breaks();
-  if (field == "shear_rate.amplitude") return {&gradient.amplitude, 1};
-  if (field == "shear_rate.decay") return {&gradient.decay, 1};
-  if (field == "shear_rate.scale") return {&gradient.scale, 1};
-  if (field == "initial.breaks") return gradient.initial_breaks();
-  if (field == "initial.values") return gradient.initial_values();
-  return {};
-}
 
 class ForwardModel : public Forward {
  public:
@@ -49,14 +37,13 @@ class ExactForward final : public ForwardModel {
   ExactForward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
                std::vector<Point> points)
       : ForwardModel(parameters, field, std::move(points)), layers_(forward.options.layers) {
-    const ExactSolution<double> solution(parameters.scene(), {layers_});
-    if (!sensitivity_refusal(solution).empty()) {
-      has_derivatives_ = false;
-      return;
+    const std::vector<Entry> all = entries(parameters.scene().spec());
+    for (const Parameter& p : parameters) {
+      has_derivatives_ = has_derivatives_ && derivative_refusal(parameters.scene(), p.entry).empty();
+      columns_.push_back(static_cast<std::size_t>(
+          std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.name() == p.entry.name(); }) -
+          all.begin()));
     }
-    const auto probe = sensitivities(solution, parameters.scene().bottom(), 0.0);
-    for (const Parameter& p : parameters)
-      has_derivatives_ = has_derivatives_ && p.entry.index < part_of(probe.M, p.entry.field).size();
   }
 
   [[nodiscard]] bool has_derivatives() const override { return has_derivatives_; }
@@ -72,6 +59,7 @@ class ExactForward final : public ForwardModel {
       return prediction;
     }
     const ExactSolution<double> solution(scene, {layers_});
+    const auto derivatives = with_derivatives ? std::make_unique<Derivatives<double>>(solution) : nullptr;
     prediction.values.resize(n_points());
     if (with_derivatives) prediction.derivatives.resize(n_points(), values.size());
     for (Index i = 0; i < n_points(); ++i) {
@@ -81,18 +69,18 @@ class ExactForward final : public ForwardModel {
         prediction.values[i] = field_ == Observable::phi ? at.phi : at.M;
         continue;
       }
-      const auto at = sensitivities(solution, point.z, point.t);
+      const auto at = derivatives->at(point.z, point.t);
       prediction.values[i] = field_ == Observable::phi ? at.value.phi : at.value.M;
-      const Gradient<double>& gradient = field_ == Observable::phi ? at.phi : at.M;
-      Index column = 0;
-      for (const Parameter& p : parameters_)
-        prediction.derivatives(i, column++) = part_of(gradient, p.entry.field)[p.entry.index];
+      const std::vector<double>& gradient = field_ == Observable::phi ? at.phi : at.M;
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        prediction.derivatives(i, static_cast<Index>(k)) = gradient[columns_[k]];
     }
     return prediction;
   }
 
  private:
   std::size_t layers_;
+  std::vector<std::size_t> columns_;  ///< of each parameter among the entries of the scene
   bool has_derivatives_ = true;
 };
 
