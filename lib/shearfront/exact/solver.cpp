@@ -2,6 +2,7 @@
 #include "shearfront/exact/solver.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
@@ -81,18 +82,19 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                                      std::any&) {
   const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
-  const Derivatives<double> derivatives(solution);
+  std::optional<Derivatives<double>> derivatives;
+  if (!wanted.empty()) derivatives.emplace(solution);
   Linearisation result;
   result.summary.status = Status::ok;
   result.samples.reserve(places.size());
   result.derivatives.reserve(places.size() * wanted.size());
   for (const Place& place : places) {
-    if (wanted.empty()) {
+    if (!derivatives) {
       const auto value = solution.at(place.z, place.t);
       result.samples.push_back({value.phi, value.M});
       continue;
     }
-    const auto at = derivatives.at(place.z, place.t);
+    const auto at = derivatives->at(place.z, place.t);
     result.samples.push_back({at.value.phi, at.value.M});
     for (const std::size_t i : wanted) result.derivatives.push_back({at.phi[i], at.M[i]});
   }
