@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cmath>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -20,9 +19,9 @@ namespace shearfront::exact {
 /// step on straight pieces. Guarantees: e, d to a few u absolutely, relative accuracy for parabolas. Cost: up
 /// to 10 evaluations of f per inverse. Precondition: the flux passes refusal(). Source: none, elementary.
 template <Real Scalar>
-class UnimodalLaw {
+class InverseFlux {
  public:
-  explicit UnimodalLaw(Flux<Scalar> flux) : flux_(std::move(flux)) {
+  explicit InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
     std::visit(
         [&](const auto& f) {
           const auto range = f.range();
@@ -58,8 +57,7 @@ class UnimodalLaw {
   [[nodiscard]] Scalar slope(const Scalar& d, bool up) const {
     return std::visit([&](const auto& f) { return slope_of(f, d, up); }, flux_);
   }
-  /// e''(d). For fluxes other than parabola, cubic and triangle by a difference of e' over 2^-13: exact to
-  /// rounding on pieces of third degree, as in tables.
+  /// e''(d). For fluxes without second_derivative() by a difference of e' over 2^-13 of the range.
   [[nodiscard]] Scalar bend(const Scalar& d, bool up) const {
     return std::visit([&](const auto& f) { return bend_of(f, d, up); }, flux_);
   }
@@ -93,10 +91,8 @@ class UnimodalLaw {
   [[nodiscard]] Scalar bend_of(const Model& f, const Scalar& d, bool up) const {
     if constexpr (kParabola<Model>) {
       return Scalar(8);
-    } else if constexpr (std::is_same_v<Model, Triangular<Scalar>>) {
-      return Scalar(0);
-    } else if constexpr (std::is_same_v<Model, Cubic<Scalar>>) {
-      return f.second_derivative(place(d, up)) * (width_ * width_ / depth_);
+    } else if constexpr (requires { f.second_derivative(extremum_); }) {
+      return size(f.second_derivative(place(d, up))) * (width_ * width_ / depth_);
     } else {
       const Scalar step = Scalar(1) / Scalar(1 << 13);
       const Scalar lo = d > step ? Scalar(d - step) : Scalar(0);
