@@ -27,8 +27,8 @@ namespace {
 
 constexpr int kDoubleDigits = 17, kMostDigits = 100;
 // Few enough fronts to be told apart.
-constexpr double kPictureResolution = 0.04;
-constexpr std::size_t kPictureLayers = 100;
+constexpr const char* kPictureResolution = "0.04";
+constexpr const char* kPictureLayers = "100";
 
 struct EventsArguments {
   std::string scene, digits, plot;
@@ -112,7 +112,7 @@ std::string summary_line(const Summary& s) {
 std::optional<Timeline<double>> exact_times(const Scene<double>& scene) {
   SolverRequest request;
   request.timeline = true;
-  const SolverResult result = ExactSolver::solve(scene, request, {});
+  const SolverResult result = shearfront::solve(scene, Method(), request);
   return result.summary.usable() ? result.timeline : std::nullopt;
 }
 
@@ -120,11 +120,12 @@ template <Real S>
 void print_events(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<S>& timeline,
                   const Summary& summary, int digits) {
   OutputFile out("-");
-  const std::string_view method = arguments.method.method();
+  const Method chosen = arguments.method.method();
+  const std::string_view method = chosen.name();
   if (arguments.json) {
     write_events_json(out, scene.name(), method, timeline, summary, digits);
   } else {
-    const bool compare = !guarantees_of(method).exact;
+    const bool compare = !Method(method).guarantees().exact;
     const auto exact = compare ? exact_times(scene) : std::nullopt;
     out.write(fmt::format("{} ({})\n\n", printable(scene.name(), 100), method));
     const ClosedForms forms = closed_forms(scene);
@@ -144,7 +145,7 @@ template <Real S>
 int many_digits(const EventsArguments& arguments, const Scene<double>& scene, int digits) {
   const auto begin = std::chrono::steady_clock::now();
   const Scene<S> precise = read_scene<S>(arguments.scene);
-  const Timeline<S> timeline = exact_timeline<S>(precise, TimelineOptions{arguments.method.options().layers});
+  const Timeline<S> timeline = exact_timeline<S>(precise, TimelineOptions{static_cast<std::size_t>(number_of(arguments.method.method(), "layers"))});
   Summary summary;
   summary.status = Status::ok;
   summary.message = fmt::format("computed with {} digits", std::numeric_limits<S>::digits10);
@@ -154,34 +155,34 @@ int many_digits(const EventsArguments& arguments, const Scene<double>& scene, in
 }
 
 /// Fronts for the picture, by the first solver that has fronts.
-int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
-         SolverOptions options) {
-  if (!arguments.method.has_resolution()) options.resolution = kPictureResolution;
-  if (!arguments.method.has_layers()) options.layers = kPictureLayers;
-  const std::string method = methods_with_fronts().front();
+int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline) {
+  SolverOptions options{arguments.method.with(Method::names(&Guarantees::has_fronts).front()), {}};
+  if (!arguments.method.has("resolution")) set_option(options.method, "resolution", kPictureResolution, "");
+  if (!arguments.method.has("layers")) set_option(options.method, "layers", kPictureLayers, "");
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.heights = {scene.bottom()};
   request.fronts = true;
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
-  return draw_fronts(arguments.plot, scene, result.fronts, timeline, options.resolution);
+  return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(options.method, "resolution"));
 }
 
 int events(const EventsArguments& arguments) {
-  const std::string_view method = arguments.method.method();
-  SolverOptions options = arguments.method.options();
+  const Method chosen = arguments.method.method();
+  const std::string_view method = chosen.name();
+  SolverOptions options{arguments.method.method(), {}};
   const int digits = arguments.digits.empty()
                          ? 0
                          : static_cast<int>(count_option("--digits", arguments.digits, 1, kMostDigits));
-  if (!guarantees_of(method).has_timeline)
+  if (!Method(method).guarantees().has_timeline)
     refuse(
         "--method", method,
-        fmt::format("computes no event times; must be one of: {}", fmt::join(methods_with_timeline(), ", ")));
-  if (digits > kDoubleDigits && method != ExactSolver::kName)
+        fmt::format("computes no event times; must be one of: {}", fmt::join(Method::names(&Guarantees::has_timeline), ", ")));
+  if (digits > kDoubleDigits && !chosen.guarantees().exact)
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits, method,
-                       ExactSolver::kName));
+                       Method().name()));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
   const auto scene = read_scene<double>(arguments.scene);
@@ -192,7 +193,7 @@ int events(const EventsArguments& arguments) {
   options.progress = progress.callback();
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve_with(method, scene, request, options);
+  SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) {
     if (arguments.json) {
       Timeline<double> unknown;
@@ -207,7 +208,7 @@ int events(const EventsArguments& arguments) {
   } else {
     print_events(arguments, scene, *result.timeline, result.summary, digits);
   }
-  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline, options);
+  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ double width_of(const ObserveArguments& arguments, const ObservationPlan& plan) 
   return *spacing;
 }
 
-/// The first problem of the plan as one of the option it comes from.
+/// The first complaint about the plan as one of the option it comes from.
 void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, const Scene<double>& scene) {
   const Complaints complaints = find_complaints(plan, scene.bottom(), scene.top());
   if (complaints.empty()) return;
@@ -122,7 +122,7 @@ std::string command_line(const ObserveArguments& arguments, const Experiment& ex
                                  arguments.depths.empty() ? "" : " --depths " + shell_word(arguments.depths),
                                  arguments.quantity);
   if (experiment.plan.width > 0) line += " --width " + number_text(experiment.plan.width);
-  line += " " + arguments.method.settings();
+  line += " " + settings(arguments.method.method());
   if (experiment.sigma > 0)
     line += fmt::format(" --noise {} --seed {}{}", number_text(experiment.sigma), experiment.seed,
                         arguments.truncate ? " --truncate" : "");
@@ -151,7 +151,7 @@ std::vector<std::string> recipe(const ObserveArguments& arguments, const Experim
 
 int observe_scene(const ObserveArguments& arguments) {
   check_arguments(arguments);
-  SolverOptions options = arguments.method.options();
+  SolverOptions options{arguments.method.method(), {}};
   const auto source = detail::TextSource::read(arguments.scene);
   const auto scene = parse_scene<double>(source.text(), arguments.scene);
   const Experiment experiment = experiment_of(arguments, scene);
@@ -161,7 +161,7 @@ int observe_scene(const ObserveArguments& arguments) {
 
   ProgressLine progress;
   options.progress = progress.callback();
-  const SolverResult result = solve_with(arguments.method.method(), scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
 
   Observations observations = observe(experiment.plan, scene, result);

@@ -45,7 +45,7 @@ SolverRequest request_of(const SolveArguments& arguments, const Scene<double>& s
   request.fronts = !arguments.fronts.empty();
   // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
   request.timeline =
-      guarantees_of(arguments.method.method()).has_timeline && scene.has_walls() &&
+      arguments.method.method().guarantees().has_timeline && scene.has_walls() &&
       (request.fronts || !std::isfinite(*std::max_element(request.times.begin(), request.times.end())));
   return request;
 }
@@ -53,10 +53,10 @@ SolverRequest request_of(const SolveArguments& arguments, const Scene<double>& s
 void check_arguments(const SolveArguments& arguments) {
   if (arguments.times.empty())
     throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 0:10:21 or steady");
-  const std::string_view method = arguments.method.method();
-  if (!arguments.fronts.empty() && !guarantees_of(method).has_fronts)
+  const std::string_view method = arguments.method.method().name();
+  if (!arguments.fronts.empty() && !Method(method).guarantees().has_fronts)
     refuse("--fronts", arguments.fronts,
-           fmt::format("needs --method {}; {} has no fronts", fmt::join(methods_with_fronts(), "|"), method));
+           fmt::format("needs --method {}; {} has no fronts", fmt::join(Method::names(&Guarantees::has_fronts), "|"), method));
   check_picture_name("--plot", arguments.plot);
   check_picture_name("--map", arguments.map);
   // Without -o the samples go to standard output.
@@ -81,8 +81,8 @@ int draw(const SolveArguments& arguments, const Scene<double>& scene, const Solv
   if (arguments.plot.empty()) return kDone;
   if (request.fronts)
     return draw_fronts(arguments.plot, scene, result.fronts, result.timeline.value_or(Timeline<double>{}),
-                       options.resolution);
-  return draw_profiles(arguments.plot, scene, arguments.method.method(), times, options);
+                       number_of(options.method, "resolution"));
+  return draw_profiles(arguments.plot, scene, arguments.method.method().name(), times, options);
 }
 
 SolvedQuantity quantity_of(const SolveArguments& arguments) {
@@ -99,7 +99,7 @@ int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
     refuse("--map", arguments.map, "must not be given with --quantity " + arguments.quantity);
   if (!arguments.fronts.empty())
     refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
-  SolverOptions options = arguments.method.options();
+  SolverOptions options{arguments.method.method(), {}};
   const auto scene = read_scene<double>(arguments.scene);
   if (const std::string reason = refusal_of_course(scene); !reason.empty())
     refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
@@ -112,14 +112,14 @@ int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
 
   ProgressLine progress;
   options.progress = progress.callback();
-  const BedCourse course = bed_course(quantity, arguments.method.method(), scene, times, options);
+  const BedCourse course = bed_course(quantity, arguments.method.method().name(), scene, times, options);
   if (!course.summary.usable()) return report_unusable(course.summary);
   std::string extra;
   if (course.lowest)
     extra = fmt::format(R"("lowest": {{"t": {}, "H": {}}})", number_text(course.lowest->t),
                         number_text(course.lowest->height));
   if (arguments.json)
-    write_time_table_json(output, scene.name(), arguments.method.method(), course.table, extra,
+    write_time_table_json(output, scene.name(), arguments.method.method().name(), course.table, extra,
                           course.summary);
   else
     write_time_table_csv(output, course.table);
@@ -128,14 +128,14 @@ int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
     note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(course.lowest->t, 7),
                      number_text(course.lowest->height, 10)));
   if (arguments.plot.empty()) return kDone;
-  return draw_bed_course(arguments.plot, scene, arguments.method.method(), course, options);
+  return draw_bed_course(arguments.plot, scene, arguments.method.method().name(), course, options);
 }
 
 int solve(const SolveArguments& arguments) {
   check_arguments(arguments);
   if (const SolvedQuantity quantity = quantity_of(arguments); quantity != SolvedQuantity::concentration)
     return solve_bed(arguments, quantity);
-  SolverOptions options = arguments.method.options();
+  SolverOptions options{arguments.method.method(), {}};
   const auto scene = read_scene<double>(arguments.scene);
   const SolverRequest request = request_of(arguments, scene);
   if (!arguments.map.empty() && !(last_time(request.times) > 0))
@@ -149,14 +149,14 @@ int solve(const SolveArguments& arguments) {
 
   ProgressLine progress;
   options.progress = progress.callback();
-  const SolverResult result = solve_with(arguments.method.method(), scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
   if (arguments.json)
-    write_samples_json(output, scene.name(), arguments.method.method(), times, request.heights, result.samples,
+    write_samples_json(output, scene.name(), arguments.method.method().name(), times, request.heights, result.samples,
                        result.summary);
   else
     write_samples_csv(output, times, request.heights, result.samples);
@@ -165,7 +165,7 @@ int solve(const SolveArguments& arguments) {
   output.commit();
   const int drawn = draw(arguments, scene, request, result, times, options);
   if (arguments.map.empty() || drawn != kDone) return drawn;
-  return draw_map(arguments.map, scene, arguments.method.method(), last_time(times), options);
+  return draw_map(arguments.map, scene, arguments.method.method().name(), last_time(times), options);
 }
 
 }  // namespace

@@ -16,27 +16,21 @@ namespace {
 struct Variant {
   std::string_view solver, option;
   bool by_default, is_drawing;
-  void (*set)(SolverOptions&);
+  const char *name, *value;  ///< of the option that is set
 };
 
-void align(SolverOptions& o) { o.align_cells = true; }
-void step_locally(SolverOptions& o) { o.local_steps = true; }
-
 constexpr Variant kVariants[] = {
-    {"front-tracking", "linear", true, true,
-     [](SolverOptions& o) { o.reconstruct = Reconstruction::linear; }},
-    {"front-tracking", "singular-mapping", false, false,
-     [](SolverOptions& o) { o.grid = GridKind::singular_mapping; }},
-    {"engquist-osher", "align-cells", false, false, align},
-    {"engquist-osher", "local-steps", false, false, step_locally},
-    {"engquist-osher", "face-value", false, false,
-     [](SolverOptions& o) { o.face_coefficient = FaceCoefficient::value; }},
-    {"godunov", "align-cells", false, false, align},
-    {"godunov", "local-steps", false, false, step_locally},
-    {"muscl", "minmod", false, false, [](SolverOptions& o) { o.limiter = Limiter::minmod; }},
-    {"muscl", "van-leer", false, false, [](SolverOptions& o) { o.limiter = Limiter::van_leer; }},
-    {"muscl", "align-cells", false, false, align},
-    {"muscl", "local-steps", false, false, step_locally},
+    {"front-tracking", "linear", true, true, "reconstruct", "linear"},
+    {"front-tracking", "singular-mapping", false, false, "grid", "singular-mapping"},
+    {"engquist-osher", "align-cells", false, false, "align-cells", "true"},
+    {"engquist-osher", "local-steps", false, false, "local-steps", "true"},
+    {"engquist-osher", "face-value", false, false, "face-coefficient", "value"},
+    {"godunov", "align-cells", false, false, "align-cells", "true"},
+    {"godunov", "local-steps", false, false, "local-steps", "true"},
+    {"muscl", "minmod", false, false, "limiter", "minmod"},
+    {"muscl", "van-leer", false, false, "limiter", "van-leer"},
+    {"muscl", "align-cells", false, false, "align-cells", "true"},
+    {"muscl", "local-steps", false, false, "local-steps", "true"},
 };
 
 LadderKind kind_of(const Guarantees& g) {
@@ -59,10 +53,10 @@ std::vector<std::string> names() {
 }  // namespace
 
 SolverOptions Contestant::options(double rung) const {
-  SolverOptions options;
-  if (kind == LadderKind::cells) options.cells = static_cast<std::size_t>(rung);
-  if (kind == LadderKind::resolution) options.resolution = rung;
-  if (set) set(options);
+  SolverOptions options{Method(solver), {}};
+  if (kind == LadderKind::cells) set_option(options.method, "cells", fmt::format("{:.0f}", rung), "cells");
+  if (kind == LadderKind::resolution) set_option(options.method, "resolution", fmt::format("{}", rung), "resolution");
+  if (option) set_option(options.method, option, value, option);
   return options;
 }
 
@@ -71,12 +65,12 @@ const std::vector<Contestant>& all_contestants() {
     std::vector<Contestant> all;
     SolverList::for_each([&]<class S>() {
       const Guarantees g = S::guarantees();
-      if ((!g.exact && !g.has_profiles) || g.scope.diffusion) return;  // errors are those against exact
-      all.push_back({std::string(S::kName), S::kName, kind_of(g), nullptr, false});
+      if ((!g.exact && !g.has_profiles) || g.diffusion) return;  // errors are those against exact
+      all.push_back({std::string(S::kName), S::kName, kind_of(g), nullptr, nullptr, false});
       for (const Variant& v : kVariants)
         if (v.solver == S::kName)
           all.push_back(
-              {fmt::format("{}:{}", v.solver, v.option), S::kName, kind_of(g), v.set, v.is_drawing});
+              {fmt::format("{}:{}", v.solver, v.option), S::kName, kind_of(g), v.name, v.value, v.is_drawing});
     });
     return all;
   }();

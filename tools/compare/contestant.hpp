@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/solver/solver.hpp"
+#include "cli/method.hpp"
 
 /// Who takes part in `shearfront compare`, and how fine each goes.
 namespace shearfront::tools {
@@ -21,7 +21,7 @@ struct Contestant {
   std::string name;
   std::string_view solver;
   LadderKind kind = LadderKind::cells;
-  void (*set)(SolverOptions&) = nullptr;  ///< nullptr: all options as by default
+  const char *option = nullptr, *value = nullptr;  ///< nullptr: all options as by default
   bool is_drawing = false;  ///< differs from the solver only in how profiles are drawn, not in its events
 
   /// Options for one rung; a number of points changes none.

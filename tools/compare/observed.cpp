@@ -62,9 +62,9 @@ std::optional<Times> times_by(const Scene<double>& scene, const Contestant& cont
   SolverOptions options = contestant.options(rung);
   options.progress = limits.progress;
   SolverRequest request;
-  if (guarantees_of(contestant.solver).has_timeline) {
+  if (options.method.guarantees().has_timeline) {
     request.timeline = true;
-    const SolverResult result = solve_with(contestant.solver, scene, request, options);
+    const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
     if (!result.summary.usable()) return std::nullopt;
     return times_of(*result.timeline);
   }
@@ -73,7 +73,7 @@ std::optional<Times> times_by(const Scene<double>& scene, const Contestant& cont
   Times events;
   for (int pass = 0; pass < kPasses; ++pass) {
     if (pass > 0) request.times = refined(request.times, events);
-    SolverResult result = solve_with(contestant.solver, scene, request, options);
+    SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
     if (!result.summary.usable()) return std::nullopt;
     events = times_of(observed_events(scene, {request.times, std::move(result.profiles)}));
   }

@@ -60,12 +60,12 @@ std::array<double, 5> five_times(const Timeline<double>& t) {
 }
 
 std::array<double, 5> tracked_times(const Scene<double>& scene, GridKind grid, double resolution) {
-  SolverOptions options;
-  options.grid = grid;
-  options.resolution = resolution;
+  FrontTrackingSolver::Options tracking;
+  tracking.grid = grid;
+  tracking.resolution = resolution;
   SolverRequest request;
   request.timeline = true;
-  return five_times(*solve_with("front-tracking", scene, request, options).timeline);
+  return five_times(*shearfront::solve<FrontTrackingSolver>(scene, request, tracking).timeline);
 }
 
 std::string events_table(const Scene<double>& scene) {

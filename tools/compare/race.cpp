@@ -96,7 +96,7 @@ class Climb {
     const double wall = median_time(
         [&] {
           const auto begin = Clock::now();
-          result = solve_with(contestant.solver, scene_, request, options);
+          result = shearfront::solve(scene_, options.method, request, options.progress);
           spent_ += seconds_since(begin);
           return result.summary.usable();
         },

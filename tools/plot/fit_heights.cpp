@@ -21,8 +21,8 @@ void add_bed_heights(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec
     observed += fmt::format("{:.9g} {:.9g} {:.4g}\n", o.t, o.value, o.sigma > 0 ? kSigmas95 * o.sigma : 0);
   }
   if (!(t_end > 0)) t_end = 1;
-  const BedCourse course = bed_course(SolvedQuantity::bed_height, spec.forward.method, *estimate.scene,
-                                      equally_spaced(0, t_end, kTimes), spec.forward.options);
+  const BedCourse course = bed_course(SolvedQuantity::bed_height, spec.forward.method.name(), *estimate.scene,
+                                      equally_spaced(0, t_end, kTimes), {spec.forward.method, {}});
   std::string fitted;
   for (std::size_t i = 0; i < course.table.rows.size(); ++i)
     fitted += fmt::format("{:.9g} {:.9g}\n", course.table.times[i], course.table.rows[i][0]);

@@ -22,7 +22,7 @@ std::string fitted_rows(const fit::FitSpec& spec, const fit::Estimate& estimate,
   SolverRequest request;
   request.times = {t};
   request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
-  const SolverResult result = solve_with(spec.forward.method, *estimate.scene, request, spec.forward.options);
+  const SolverResult result = shearfront::solve(*estimate.scene, spec.forward.method, request);
   if (!result.summary.usable()) return "";
   std::string rows;
   for (std::size_t j = 0; j < kHeights; ++j) {

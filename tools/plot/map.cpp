@@ -20,12 +20,12 @@ constexpr int kContours = 20;
 
 }  // namespace
 
-int draw_map(const std::string& path, const Scene<double>& scene, std::string_view method, double t_end,
+int draw_map(const std::string& path, const Scene<double>& scene, std::string_view, double t_end,
              const SolverOptions& options) {
   SolverRequest request;
   request.times = equally_spaced(0, t_end, kTimes);
   request.heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
   std::string rows;
   for (std::size_t i = 0; i < kTimes; ++i) {

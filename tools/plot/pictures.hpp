@@ -6,7 +6,7 @@
 
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "cli/method.hpp"
 #include "solve/bed_course.hpp"
 
 namespace shearfront::tools {

@@ -67,9 +67,9 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, std::stri
   SolverRequest request;
   request.times = times;
   request.heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  const SolverResult result = solve_with(method, scene, request, options);
-  const bool compare = !guarantees_of(method).exact;
-  const SolverResult exact = compare ? ExactSolver::solve(scene, request, options) : SolverResult{};
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
+  const bool compare = !Method(method).guarantees().exact;
+  const SolverResult exact = compare ? shearfront::solve(scene, Method(), request) : SolverResult{};
 
   Gnuplot plot(path, 560, 480);
   add_frame(plot, scene);

@@ -11,13 +11,13 @@
 namespace shearfront::tools {
 namespace {
 
-std::optional<LowestBed> lowest_of(const BedHeight& bed, std::string_view method, const Scene<double>& scene,
+std::optional<LowestBed> lowest_of(const BedHeight& bed, const Scene<double>& scene,
                                    double t_end, const SolverOptions& options) {
   SolverRequest request;
   request.integrand = bed.integrand();
   const auto heights = [&](const std::vector<double>& times) {
     request.times = times;
-    std::vector<double> all = solve_with(method, scene, request, options).integrals;
+    std::vector<double> all = shearfront::solve(scene, options.method, request, options.progress).integrals;
     for (double& x : all) x = bed.height(x);
     return all;
   };
@@ -36,8 +36,8 @@ BedCourse bed_course(SolvedQuantity quantity, std::string_view method, const Sce
   request.times = times;
   request.integrand = is_mixing ? entropy_function() : bed.integrand();
   const auto is_steady = [](double t) { return !std::isfinite(t); };
-  request.timeline = guarantees_of(method).has_timeline && std::any_of(times.begin(), times.end(), is_steady);
-  const SolverResult result = solve_with(method, scene, request, options);
+  request.timeline = Method(method).guarantees().has_timeline && std::any_of(times.begin(), times.end(), is_steady);
+  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
   BedCourse course;
   course.quantity = quantity;
   course.table.columns = is_mixing ? std::vector<std::string>{"E", "Psi"} : std::vector<std::string>{"H"};
@@ -59,7 +59,7 @@ BedCourse bed_course(SolvedQuantity quantity, std::string_view method, const Sce
   double t_end = 0;
   for (const double t : times)
     if (std::isfinite(t)) t_end = std::max(t_end, t);
-  if (!is_mixing && t_end > 0) course.lowest = lowest_of(bed, method, scene, t_end, options);
+  if (!is_mixing && t_end > 0) course.lowest = lowest_of(bed, scene, t_end, options);
   return course;
 }
 

@@ -9,7 +9,7 @@
 #include "shearfront/io/results.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "cli/method.hpp"
 
 /// Numbers that belong to a whole bed, as functions of time.
 namespace shearfront::tools {

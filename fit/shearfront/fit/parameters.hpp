@@ -39,12 +39,14 @@ class Parameters {
   [[nodiscard]] auto end() const { return parameters_.end(); }
   [[nodiscard]] Shape shape() const { return shape_; }
   [[nodiscard]] const Scene<double>& scene() const { return scene_; }
+  /// Place of each parameter among entries(scene().spec()).
+  [[nodiscard]] const std::vector<std::size_t>& entries() const { return places_; }
   [[nodiscard]] Eigen::VectorXd start() const;
   /// Whether all values keep their bounds.
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
   /// The scene with these values in place of its own; it may be invalid (breaks out of order).
   [[nodiscard]] SceneSpec<double> scene_with(const Eigen::VectorXd& values) const;
-  /// The same as a scene; none, and the first problem as the failure, if it is invalid.
+  /// The same as a scene; none, and the first complaint as the failure, if it is invalid.
   [[nodiscard]] std::optional<Scene<double>> scene_at(const Eigen::VectorXd& values,
                                                       std::string& failure) const;
 

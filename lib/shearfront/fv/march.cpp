@@ -254,7 +254,7 @@ void March::cross_faces(const Part& part, std::size_t first, std::size_t end, co
   if (limit_ != 1 || !part.flux.has_one_extremum()) {
     for (std::size_t j = first; j < end; ++j) {
       const double flux = face_flux(scheme_.rule, side(part, j - 1, below[j - first]),
-                                    side(part, j, above[j - first]), is_godunov ? 0 : face_rates_[j]);
+                                    side(part, j, above[j - first]), face_rates_.empty() ? 0 : face_rates_[j]);
       crossing[j - first] = whole(scale * part.flux.sign * flux);
     }
     return;

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "shearfront/io/output_file.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/solution/field.hpp"
+#include "shearfront/solution/front_segment.hpp"
+#include "shearfront/solution/summary.hpp"
+#include "shearfront/solution/timeline.hpp"
 
 /// Results as CSV and JSON (docs/formats). Doubles are written with the shortest text that reads back to the
 /// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the
@@ -34,8 +37,8 @@ struct TimeTable {
 /// Header t and the columns, one row per time.
 void write_time_table_csv(OutputFile& file, const TimeTable& table);
 
-/// {"scene","method","times", one array per column, then `extra` (members of an object, or nothing),
-/// "summary"}.
+/// {"scene","method","times", one array per column, `extra`, "summary"}; `extra` is members of an object, or
+/// nothing.
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
                            const TimeTable& table, std::string_view extra, const Summary& summary);
 
