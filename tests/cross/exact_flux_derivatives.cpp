@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, FluxDerivatives,
 
 TEST(FluxDerivativeRefusal, SayWhenThereAreNone) {
   SceneSpec<double> spec;
-  spec.fluxes = {Packed<double>{Grains::small}};
+  spec.fluxes = {Quadratic<double>{}};
   spec.shear_rate = Piecewise<double>{{0.3}, {2, 1}};
   spec.initial_values = {0.5};
   spec.solid_fraction = Piecewise<double>{{0.3}, {0.5, 0.25}};

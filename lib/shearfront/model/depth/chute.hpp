@@ -15,7 +15,7 @@ namespace shearfront {
 /// the centre.
 ///
 /// Domain: amplitude > 0 (1/time when s = 1), decay > 0 (the unit of z); centre anywhere, its slope jumps
-/// there. In the source the drift changes its sign at the centre: give the layers above it the flux `packed`
+/// there. In the source the drift changes its sign at the centre: give the layers above it the flux `lwr`
 /// with grains = "large", which is - phi (phi - 1). Source: Fan & Hill (2011), New J. Phys. 13, 095009,
 /// kinetic stress of a vertical chute; Christov (2018), Section 5.
 template <Real Scalar>

@@ -32,8 +32,8 @@ struct Piecewise {
     check_breaks(prefix + "breaks", breaks, bottom, top, complaints);
     if (values.size() != breaks.size() + 1)
       complaints.push_back(
-          {prefix + "values", "(" + std::to_string(values.size()) + " entries)",
-           "must have one entry more than breaks (" + std::to_string(breaks.size() + 1) + ")"});
+          wrong_length(prefix + "values", values.size(),
+                       "must have one entry more than breaks (" + std::to_string(breaks.size() + 1) + ")"));
   }
 
   /// a(z); at a break the value above it.

@@ -7,7 +7,7 @@
 #include "shearfront/solution/profile.hpp"
 #include "support/random_scene.hpp"
 
-/// Beds with random packing and temperature.
+/// Beds with random solid fraction and temperature.
 namespace shearfront::support {
 
 /// Layers or a table of values in [least, most].
@@ -25,9 +25,15 @@ inline DepthFunction<double> random_profile(SceneMaker& maker, double least, dou
   return Table<double>{std::move(heights), std::move(values)};
 }
 
-inline SceneSpec<double> packed_data(SceneMaker& maker, Grains grains) {
+/// Which grains phi counts: small ones sink, large ones rise.
+enum class Grains { small, large };
+inline Flux<double> flux_of(Grains grains) {
+  return grains == Grains::small ? Flux<double>(Quadratic<double>{}) : Flux<double>(Lwr<double>{});
+}
+
+inline SceneSpec<double> solid_data(SceneMaker& maker, Grains grains) {
   SceneSpec<double> spec = maker.data(maker.integer(1, 4), maker.order(), 6);
-  spec.fluxes = {Packed<double>{grains}};
+  spec.fluxes = {flux_of(grains)};
   spec.solid_fraction = random_profile(maker, 0.05, 0.75);
   spec.temperature = random_profile(maker, 0.1, 4);
   return spec;
