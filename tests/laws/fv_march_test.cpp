@@ -30,10 +30,9 @@ using support::options_of;
 using support::SceneMaker;
 
 constexpr int kScenes = 25;
-const std::array<Scheme, 5> kSchemes{Scheme{Rule::engquist_osher}, Scheme{Rule::godunov},
-                                     Scheme{Rule::godunov, {}, Limiter::minmod},
-                                     Scheme{Rule::godunov, {}, Limiter::mc},
-                                     Scheme{Rule::godunov, {}, Limiter::van_leer}};
+const std::array<Scheme, 5> kSchemes{
+    Scheme{Rule::engquist_osher}, Scheme{Rule::godunov}, Scheme{Rule::godunov, {}, Limiter::minmod},
+    Scheme{Rule::godunov, {}, Limiter::mc}, Scheme{Rule::godunov, {}, Limiter::van_leer}};
 
 /// Amounts are multiples of a quantum, so there is no rounding.
 std::int64_t mass_in_quanta(const March& march) {
@@ -126,7 +125,7 @@ TEST(FvMarch, KeepsMassNextToAThinPureCell) {
   for (const Scheme& scheme : kSchemes) {
     const auto run = fv::start(scheme, scene, options, {});
     for (const double t : {0.5, 1.0, 2.0, 4.0}) {
-      ASSERT_EQ(run->advance(t), Status::ok);
+      ASSERT_LE(int(run->advance(t)), int(Status::steady));
       EXPECT_NEAR(run->field().at(1).M, scene.mass(), 1e-15);
     }
   }
@@ -192,8 +191,9 @@ TEST(FvMarch, AgreesWithAPlainLoopOverFaceFluxes) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
     const bool is_plain = number % 4 == 0;
-    const Scene<double> scene(is_plain ? maker.data(3, maker.order(), 5)
-                                       : support::packed_data(maker, number % 2 ? Grains::large : Grains::small));
+    const Scene<double> scene(is_plain
+                                  ? maker.data(3, maker.order(), 5)
+                                  : support::packed_data(maker, number % 2 ? Grains::large : Grains::small));
     const std::size_t n_cells = number % 5 == 0 ? 700 : std::size_t(maker.integer(1, 90));
     const fv::Grid grid =
         number % 3 == 0 ? fv::aligned_cells(scene, n_cells) : fv::equal_cells(scene, n_cells);
