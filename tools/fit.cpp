@@ -15,7 +15,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/io/text.hpp"
 

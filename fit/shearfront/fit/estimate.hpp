@@ -2,15 +2,26 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/run_control.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/summary.hpp"
 
 namespace shearfront::fit {
+
+/// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
+/// the best point found (Status::interrupted).
+using Progress = std::function<bool(std::size_t evaluations, double best_misfit)>;
+
+/// The smallest misfit after so many evaluations: a curve for the picture of a search.
+struct SearchStep {
+  std::size_t evaluations = 0;
+  double misfit = 0;
+  std::size_t stage = 0;  ///< misfits of different stages cannot be compared
+};
 
 struct Interval {
   double low = 0, high = 0;
@@ -74,5 +85,12 @@ struct Estimate {
   std::string message;
   [[nodiscard]] bool usable() const { return scene.has_value(); }
 };
+
+/// {"name","method","algorithm","quantity","loss","parameters":[{"name","start","estimate","std_error",
+/// "ci95":[lo,hi],"at_bound"}],"misfit","residual_norm","sigma",...}: the keys are described in docs/formats.
+///
+/// Doubles are written with the shortest text that reads back to the same number; what is not known, or not a
+/// finite number, is null. Every line begins with `indent`, the last one ends without a line break.
+[[nodiscard]] std::string estimate_json(const Estimate& estimate, const std::string& indent = "");
 
 }  // namespace shearfront::fit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/estimate_json.hpp"
+#include "shearfront/fit/estimate.hpp"
 
 #include <fmt/format.h>
 

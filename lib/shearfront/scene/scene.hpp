@@ -27,7 +27,7 @@ namespace shearfront {
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction.
 /// Errors: the constructor throws InputError that carries every problem.
-template <Real Scalar>
+template <Real Scalar = double>
 class Scene {
  public:
   explicit Scene(SceneSpec<Scalar> spec) : spec_(std::move(spec)) {

@@ -36,7 +36,7 @@ struct Diffusion {
 };
 
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
-template <Real Scalar>
+template <Real Scalar = double>
 struct SceneSpec {
   std::string name;
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
