@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "shearfront/io/text.hpp"
 
@@ -36,16 +37,23 @@ std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entri
 }  // namespace
 
 Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
-    : scene_(scene), shape_(unknown.shape) {
+    : scene_(scene), start_scene_(scene), shape_(unknown.shape) {
   Complaints complaints;
   resolve(unknown, complaints);
   if (complaints.empty()) set_defaults();
   if (complaints.empty()) set_numbers(unknown, complaints);
   if (complaints.empty()) check_shape(complaints);
-  if (complaints.empty())
-    for (const Complaint& complaint : find_complaints(scene_with(start())))
-      complaints.push_back({"unknown.start", "", "makes an invalid scene: " + complaint.text()});
+  if (complaints.empty()) make_start_scene(complaints);
   if (!complaints.empty()) throw InputError(std::move(complaints));
+}
+
+void Parameters::make_start_scene(Complaints& complaints) {
+  auto made = Scene<double>::make(scene_with(start()));
+  if (auto* scene = std::get_if<Scene<double>>(&made))
+    start_scene_ = std::move(*scene);
+  else
+    for (const Complaint& complaint : std::get<Complaints>(made))
+      complaints.push_back({"unknown.start", "", "makes an invalid scene: " + complaint.text()});
 }
 
 void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
@@ -183,12 +191,10 @@ SceneSpec<double> Parameters::scene_with(const Eigen::VectorXd& values) const {
 }
 
 std::optional<Scene<double>> Parameters::scene_at(const Eigen::VectorXd& values, std::string& failure) const {
-  SceneSpec<double> spec = scene_with(values);
-  if (const Complaints complaints = find_complaints(spec); !complaints.empty()) {
-    failure = complaints.front().text();
-    return std::nullopt;
-  }
-  return Scene<double>(std::move(spec));
+  auto made = Scene<double>::make(scene_with(values));
+  if (auto* scene = std::get_if<Scene<double>>(&made)) return std::move(*scene);
+  failure = std::get<Complaints>(made).front().text();
+  return std::nullopt;
 }
 
 }  // namespace shearfront::fit
