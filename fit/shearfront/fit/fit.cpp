@@ -8,16 +8,17 @@
 #include <memory>
 #include <utility>
 
+#include "shearfront/fit/bootstrap.hpp"
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/objective.hpp"
+#include "shearfront/fit/profile_likelihood.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
-#include "shearfront/fit/uncertainty.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::fit {
@@ -83,6 +84,34 @@ double mean_spacing(const Observations& observations) {
     n += profile.rows.size() - 1;
   }
   return n > 0 ? sum / static_cast<double>(n) : 1;
+}
+
+/// With a shape the coordinates are steps between the values, whose profiles say nothing about a single value.
+void check_uncertainty(const FitSpec& spec) {
+  if (spec.uncertainty.profile && spec.unknown.shape != Shape::none)
+    throw InputError("uncertainty.profile", "true",
+                     "must be false with unknown.shape; use uncertainty.bootstrap");
+}
+
+/// Adds the intervals that [uncertainty] asks for, and their warnings.
+void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+                     const Refit& refit, const Progress& progress, Estimate& estimate) {
+  if (!estimate.usable() || estimate.status == Status::interrupted) return;
+  const auto warn = [&](const std::vector<std::string>& texts) {
+    estimate.warnings.insert(estimate.warnings.end(), texts.begin(), texts.end());
+  };
+  if (spec.uncertainty.profile) {
+    const Profiles profiles = profile_intervals(spec, parameters, objective, estimate, progress);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      estimate.parameters[i].profile95 = profiles.intervals[i];
+    warn(profiles.warnings);
+  }
+  if (spec.uncertainty.bootstrap > 0) {
+    const Bootstrap replicates = bootstrap(spec, parameters, estimate, refit, progress);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      estimate.parameters[i].bootstrap95 = replicates.intervals[i];
+    warn(replicates.warnings);
+  }
 }
 
 /// One fit from start to minimum; the report is made elsewhere.

@@ -81,8 +81,7 @@ class FitReader {
 
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
-    if (data_path)
-      load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
+    if (data_path) load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
     check_unknown();
     check_quantity();
     throw_if_any();
@@ -109,7 +108,8 @@ class FitReader {
     for (std::string& name : unknown_.parameters)
       if (name.starts_with("packing.")) {
         const std::string old = std::exchange(name, "solid_fraction" + name.substr(name.find('.')));
-        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " + printable(name));
+        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " +
+                           printable(name));
       }
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);

@@ -55,7 +55,8 @@ Prediction Forward::predict(const VectorXd& values, bool with_derivatives) const
   return prediction;
 }
 
-void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const {
+void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
+                              Prediction& prediction) const {
   if (!can_linearise_) {
     const PlaceSamples result = sample(scene, method_, places_);
     if (!result.summary.usable()) prediction.failure = result.summary.message;

@@ -86,10 +86,12 @@ class Checker {
   [[nodiscard]] double refitted(Index j, const VectorXd& at, double expected) const {
     RunControl control(kMostEvaluations);
     const Objective& found = minimum_.objective;
-    Objective objective(minimum_.parameters, found.coordinates(), minimum_.spec.forward, found.rows(), found.loss(), control);
+    Objective objective(minimum_.parameters, found.coordinates(), minimum_.spec.forward, found.rows(),
+                        found.loss(), control);
     SearchSpec search = minimum_.spec.search;
     search.max_evaluations = kMostEvaluations;
-    search.tolerance = std::clamp(kRefitTolerance * expected / minimum_.at.misfit, minimum_.spec.search.tolerance, 1e-2);
+    search.tolerance =
+        std::clamp(kRefitTolerance * expected / minimum_.at.misfit, minimum_.spec.search.tolerance, 1e-2);
     std::vector<bool> fixed(static_cast<std::size_t>(u_.size()), false);
     fixed[static_cast<std::size_t>(j)] = true;
     return search_ceres(objective, at, search, fixed).misfit;

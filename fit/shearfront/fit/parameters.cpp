@@ -61,7 +61,7 @@ void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
   std::set<std::size_t> taken;
   if (unknown.parameters.empty())
     complaints.push_back({"unknown.parameters", count_text(0),
-                        "must name at least one entry of the scene: " + joined(field_names(all))});
+                          "must name at least one entry of the scene: " + joined(field_names(all))});
   for (std::size_t i = 0; i < unknown.parameters.size(); ++i) {
     const std::string& name = unknown.parameters[i];
     bool found = false, twice = false;
@@ -104,7 +104,7 @@ void Parameters::set_numbers(const UnknownSpec& unknown, Complaints& complaints)
     if (numbers.empty()) return;
     if (numbers.size() != size()) {
       complaints.push_back({key, count_text(numbers.size()),
-                          "must have one number per unknown (" + std::to_string(size()) + ")"});
+                            "must have one number per unknown (" + std::to_string(size()) + ")"});
       return;
     }
     for (std::size_t i = 0; i < size(); ++i) parameters_[i].*member = numbers[i];
@@ -128,7 +128,7 @@ void Parameters::set_numbers(const UnknownSpec& unknown, Complaints& complaints)
           {element("unknown.lower", i), number_text(p.lower), "must be > 0 (" + p.name() + ")"});
     else if (!(p.lower < p.upper))
       complaints.push_back({element("unknown.lower", i), number_text(p.lower),
-                          "must be less than upper (" + number_text(p.upper) + ")"});
+                            "must be less than upper (" + number_text(p.upper) + ")"});
     else if (!(p.start >= p.lower && p.start <= p.upper))
       complaints.push_back(
           {element("unknown.start", i), number_text(p.start),
@@ -140,7 +140,8 @@ void Parameters::check_shape(Complaints& complaints) const {
   if (shape_ == Shape::none) return;
   const std::string name = shape_ == Shape::decreasing ? "\"decreasing\"" : "\"convex\"";
   std::size_t n_values = 0;
-  for (const Entry& entry : shearfront::entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
+  for (const Entry& entry : shearfront::entries(scene_.spec()))
+    n_values += entry.field == "shear_rate.values" ? 1 : 0;
   std::vector<double> values;
   for (const Parameter& p : parameters_)
     if (p.entry.field == "shear_rate.values") {

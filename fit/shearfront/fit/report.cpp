@@ -122,7 +122,8 @@ void set_errors(Minimum& minimum, const std::vector<bool>& held, Estimate& estim
     if (noise.freedom > 0)
       minimum.quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
   }
-  minimum.errors = covariance(objective.rows(), observations, minimum.at, objective.loss(), estimate.sigma, held);
+  minimum.errors =
+      covariance(objective.rows(), observations, minimum.at, objective.loss(), estimate.sigma, held);
 }
 
 void mark_bounds(const Minimum& minimum, Estimate& estimate) {
@@ -181,7 +182,8 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     estimate.parameters[i].estimate = values[static_cast<Index>(i)];
   std::vector<bool> held = objective.coordinates().at_bound(found.u);
   set_errors(minimum, held, estimate);
-  if (hold_near_bounds(objective.coordinates(), found.u, minimum.errors, held)) set_errors(minimum, held, estimate);
+  if (hold_near_bounds(objective.coordinates(), found.u, minimum.errors, held))
+    set_errors(minimum, held, estimate);
   mark_bounds(minimum, estimate);
   set_error_bars(minimum, estimate);
   set_information_criteria(spec, estimate);

@@ -216,8 +216,9 @@ class Writer {
     const std::string_view measured = name_of(spec_.observations.quantity);
     const std::string& compared = spec_.misfit.quantity;
     if (compared.empty() || compared == measured) return;
-    const bool makes_rows = std::any_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                                        [](const ResidualRows::Row& row) { return row.data.size() > 1; });
+    const bool makes_rows =
+        std::any_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
+                    [](const ResidualRows::Row& row) { return row.data.size() > 1; });
     const bool from_points = spec_.observations.quantity == Quantity::point;
     texts_.push_back(fmt::format(
         "the data are {} values but are compared as {}: {}{}", measured, compared,
@@ -255,10 +256,11 @@ class Writer {
 
   /// Only for rows that are single observations: the others are correlated and follow another law.
   void chi_squared() {
-    const bool is_direct = std::all_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                                       [](const ResidualRows::Row& row) { return row.data.size() == 1; });
-    const auto n_known =
-        std::count(minimum_.errors.held.begin(), minimum_.errors.held.end(), true) + minimum_.errors.null_directions.cols();
+    const bool is_direct =
+        std::all_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
+                    [](const ResidualRows::Row& row) { return row.data.size() == 1; });
+    const auto n_known = std::count(minimum_.errors.held.begin(), minimum_.errors.held.end(), true) +
+                         minimum_.errors.null_directions.cols();
     const auto freedom = static_cast<double>(minimum_.at.residuals.size() - values_.size() + n_known);
     if (!estimate_.sigma_is_given || !is_direct || !(freedom > 0)) return;
     const Size size = !minimum_.objective.loss().is_robust ? size_by_squares(freedom) : size_by_median();
