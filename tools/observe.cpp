@@ -58,7 +58,7 @@ double width_of(const ObserveArguments& arguments, const ObservationPlan& plan) 
   return *spacing;
 }
 
-/// The first problem of the plan as one of the option it comes from.
+/// The first complaint about the plan as one of the option it comes from.
 void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, const Scene<double>& scene) {
   const Complaints complaints = find_complaints(plan, scene.bottom(), scene.top());
   if (complaints.empty()) return;
@@ -153,7 +153,7 @@ int observe_scene(const ObserveArguments& arguments) {
   check_arguments(arguments);
   SolverOptions options{arguments.method.method(), {}};
   const auto source = detail::TextSource::read(arguments.scene);
-  const auto scene = parse_scene<double>(source.text(), arguments.scene);
+  const auto scene = with_remarks(parse_scene<double>(source.text(), arguments.scene));
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);

@@ -17,12 +17,12 @@
 #include "shearfront/solver/solve.hpp"
 #include "support/any_flux.hpp"
 #include "support/fit_scenes.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-using support::SceneMaker;
+using support::Grains, support::SceneMaker;
 
 constexpr double kSteady = std::numeric_limits<double>::infinity();
 
@@ -126,7 +126,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
     if (number % 2 == 0) {
       spec = maker.data(maker.integer(1, 5), maker.order(), 6);
     } else {
-      spec = support::packed_data(maker, number % 4 == 1 ? Grains::small : Grains::large);
+      spec = support::solid_data(maker, number % 4 == 1 ? Grains::small : Grains::large);
       for (auto* profile : {&*spec.solid_fraction, &*spec.temperature})
         *profile = maker.layers(2, SceneMaker::Order::random);
     }
@@ -154,7 +154,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
 // The integral of phi itself is the amount of grains, that of 1 the solid, whatever the flux.
 TEST(BedHeight, IntegralsOfTheShareAndOfOneAreConserved) {
   for (const Flux<double>& flux :
-       {Flux<double>(Cubic<double>{0.4}), Flux<double>(Packed<double>{Grains::large}),
+       {Flux<double>(Cubic<double>{0.4}), Flux<double>(Lwr<double>{}),
         Flux<double>(Lwr<double>{}), Flux<double>(Quadratic<double>{})}) {
     SCOPED_TRACE(support::name_of(flux));
     SceneMaker maker(support::seed_of(9200));

@@ -136,7 +136,7 @@ TEST(DiffusionSolvers, IntegralsAgree) {
 // A bed turned upside down with the flux of large grains.
 TEST(DiffusionSolvers, LargeGrainsRiseAsSmallOnesSink) {
   SceneSpec<double> small = may(1e-2), large = may(1e-2);
-  large.fluxes = {Packed<double>{Grains::large}};
+  large.fluxes = {Lwr<double>{}};
   large.shear_rate = Piecewise<double>{{1 - 0.29}, {0.31, 2.4}};
   large.initial_values = {1, 0};
   const SolverRequest down{{0.5, 3}, {0.1013, 0.3007, 0.6011, 0.9003}, false, false, false};
@@ -153,7 +153,7 @@ TEST(DiffusionSolvers, LargeGrainsRiseAsSmallOnesSink) {
 // Grains driven from the middle to both walls stay symmetric, between 0 and 1, and keep their mass.
 TEST(DiffusionSolvers, ChuteIsSymmetricAndBounded) {
   SceneSpec<double> spec = uniform(5e-8, 0.5);
-  spec.fluxes = {Packed<double>{Grains::small}, Packed<double>{Grains::large}};
+  spec.fluxes = {Quadratic<double>{}, Lwr<double>{}};
   spec.flux_breaks = {0};
   spec.bottom = -0.022, spec.top = 0.022;
   spec.shear_rate = Chute<double>{2.2988e-7, 1 / 280.0, 0};

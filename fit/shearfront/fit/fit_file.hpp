@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/io/file_error.hpp"
@@ -13,12 +14,13 @@ namespace shearfront::fit {
 struct FitFile {
   FitSpec spec;
   std::string scene, observations;
+  std::vector<std::string> remarks;  ///< on old names in this file and in the scene
 };
 
 /// Reads a fit file, its scene and its observations; their names are relative to the fit file.
 ///
 /// Guaranteed:
-///   (1) every problem is reported, one line each: those of the fit file in its order, then those of the
+///   (1) every complaint is reported, one line each: those of the fit file in its order, then those of the
 ///       scene and of the observations, each with the name of its file, line and column;
 ///   (2) what holds between the files is checked as well: unknowns exist in the scene, start values lie
 ///       between their bounds and make a valid scene, the observations can be compared as asked.

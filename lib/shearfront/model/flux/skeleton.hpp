@@ -9,8 +9,8 @@
 
 namespace shearfront {
 
-/// Copy this file to flux/<name>.hpp, rename the struct, fill in the formula, and add one line to
-/// flux/all.hpp. Say here: the formula, the range of states with units, convexity, source (author, year,
+/// Copy this file to model/flux/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// model/flux/all.hpp. Say here: the formula, the range of states with units, convexity, source (author, year,
 /// equation). This copy is depth * 4 phi (phi - 1), so that it compiles and passes the laws of fluxes as it
 /// stands.
 template <Real Scalar>
@@ -33,6 +33,8 @@ struct SkeletonFlux {
   [[nodiscard]] Scalar derivative(const Scalar& phi) const {
     return Scalar(4) * depth * (phi + (phi - Scalar(1)));
   }
+  /// May be left out: the exact engine then takes differences of derivative().
+  [[nodiscard]] Scalar second_derivative(const Scalar& /*phi*/) const { return Scalar(8) * depth; }
   /// (value(q) - value(p)) / (q - p), derivative(p) where p == q; write it without cancellation if you can.
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     return Scalar(4) * depth * (p + (q - Scalar(1)));
