@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/solver.hpp"
 #include "shearfront/track/tracker.hpp"
 #include "shearfront/track/verify.hpp"
 #include "support/solid_scene.hpp"
@@ -92,10 +92,8 @@ TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
     const Scene<double> scene(spec);
     SolverRequest request{{0.05, 0.5, infinity<double>()}, {0, 0.2, 0.71, 1}};
     request.profiles = true;
-    SolverOptions options;
-    options.resolution = 0.1;
-    options.layers = 16;
-    const SolverResult result = FrontTrackingSolver::solve(scene, request, options);
+    const FrontTrackingSolver::Options options{.resolution = 0.1, .layers = 16};
+    const SolverResult result = solve<FrontTrackingSolver>(scene, request, options);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
     for (const Profile<double>& profile : result.profiles) {
       EXPECT_LE(support::overshoot(scene, profile), 0);

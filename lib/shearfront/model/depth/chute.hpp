@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/depth/model.hpp"
 #include "shearfront/model/field.hpp"
 
 namespace shearfront {
@@ -51,6 +52,17 @@ struct Chute {
     const Scalar h = (hi - lo) / decay;
     const Scalar& nearest = hi <= centre ? hi : lo;  // a is least there
     return h > 0 ? value(nearest) * h / -expm1(-h) : value(lo);
+  }
+  /// With h = (hi - lo) / decay and the distance r of the nearer end the mean is amplitude e^(r / decay) h / (1 -
+  /// e^-h); its logarithm changes with the decay by -(r + (hi - lo) (1 - g(h))) / decay^2, g as for the exponential.
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& hi, Add&& add) const {
+    const bool is_below = hi <= centre;
+    const Scalar mean = harmonic_mean(lo, hi), h = (hi - lo) / decay;
+    const Scalar r = distance(is_below ? hi : lo) / decay;
+    add(0, mean / amplitude);
+    add(1, -mean * (r + h * (Scalar(1) - exponential_mean_place(h))) / decay);
+    add(2, is_below ? Scalar(mean / decay) : Scalar(-mean / decay));
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return {centre}; }
 

@@ -43,6 +43,16 @@ struct Piecewise {
   }
   /// Harmonic mean of a over [lo, hi], which must not contain a knot inside.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& lo, const Scalar& /*hi*/) const { return value(lo); }
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& /*hi*/, Add&& add) const {
+    const auto k = std::upper_bound(breaks.begin(), breaks.end(), lo) - breaks.begin();
+    add(breaks.size() + static_cast<std::size_t>(k), Scalar(1));
+  }
+  [[nodiscard]] std::vector<std::size_t> knot_entries() const {
+    std::vector<std::size_t> entries(breaks.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = i;
+    return entries;
+  }
   /// Heights where a or its slope jumps.
   [[nodiscard]] std::vector<Scalar> knots() const { return breaks; }
 

@@ -55,6 +55,10 @@ struct FluxTable {
     const Scalar d = x - piece.begin;
     return piece.slope + d * (Scalar(2) * piece.square + d * (Scalar(3) * piece.cube));
   }
+  [[nodiscard]] Scalar second_derivative(const Scalar& x) const {
+    const Piece piece = piece_at(x);
+    return Scalar(2) * piece.square + Scalar(6) * piece.cube * (x - piece.begin);
+  }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     const Scalar& lo = std::min(p, q);
     const Scalar& hi = std::max(p, q);
