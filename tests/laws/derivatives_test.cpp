@@ -27,7 +27,8 @@ constexpr std::size_t kLayers = 5;  // of staircases
 struct Start {
   std::vector<double> breaks, states;
 };
-const std::vector<Start> kStarts{{{0.53125}, {0, 1}}, {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}}, {{}, {0.40625}}};
+const std::vector<Start> kStarts{
+    {{0.53125}, {0, 1}}, {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}}, {{}, {0.40625}}};
 
 template <class Model>
 class ExactDerivatives : public testing::Test {
@@ -118,9 +119,11 @@ TYPED_TEST(ExactDerivatives, AreDifferencesInManyDigits) {
       if (!numeric.is_smooth) continue;
       const Sample& by = exact.derivatives[k];
       EXPECT_NEAR(by.M, numeric.M, 1e-11 * (1 + std::abs(numeric.M)))
-          << "dM/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t " << place.t;
+          << "dM/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t "
+          << place.t;
       EXPECT_NEAR(by.phi, numeric.phi, 1e-9 * (1 + std::abs(numeric.phi)))
-          << "dphi/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t " << place.t;
+          << "dphi/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t "
+          << place.t;
       ++n_compared;
     }
   });
@@ -179,7 +182,8 @@ TYPED_TEST(ExactDerivatives, OfMeansAreTheSameForAModelThatLeavesThemOut) {
         harmonic_mean_derivatives(model, lo, hi, [&](std::size_t e, double by) { mine[e] += by; });
         harmonic_mean_derivatives(bare, lo, hi, [&](std::size_t e, double by) { theirs[e] += by; });
         for (std::size_t e = 0; e < mine.size(); ++e)
-          EXPECT_NEAR(mine[e], theirs[e], 1e-9 * (1 + std::abs(mine[e]))) << "entry " << e << " over " << lo << " " << hi;
+          EXPECT_NEAR(mine[e], theirs[e], 1e-9 * (1 + std::abs(mine[e])))
+              << "entry " << e << " over " << lo << " " << hi;
         ++compared;
       }
   }
