@@ -29,8 +29,7 @@ class ExponentialMedium final : public Medium<Scalar> {
   /// amplitude, decay
   [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
 
-  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t,
-                                            const Scalar& upper) const override;
+  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const override;
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,

@@ -22,9 +22,9 @@ namespace shearfront::exact {
 /// The layers with what every path needs.
 template <Real Scalar>
 struct Geometry {
-  std::vector<Scalar> boundaries;                   ///< bottom, interfaces, top
-  std::vector<Scalar> rate, inverse_rate, height;   ///< r_k, 1 / r_k, thickness of layer k
-  Scalar fastest{0};                                ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
+  std::vector<Scalar> boundaries;                  ///< bottom, interfaces, top
+  std::vector<Scalar> rate, inverse_rate, height;  ///< r_k, 1 / r_k, thickness of layer k
+  Scalar fastest{0};  ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
 
   Geometry(std::vector<Scalar> heights, std::vector<Scalar> rates)
       : boundaries(std::move(heights)), rate(std::move(rates)) {
