@@ -165,7 +165,7 @@ int compare(const CompareArguments& arguments) {
   const RaceLimits limits = limits_of(arguments, line);
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   check_scene(scene, arguments.scene);
   std::optional<OutputFile> output;
   if (!arguments.output.empty()) output.emplace(arguments.output);

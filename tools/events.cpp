@@ -15,8 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/table.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/digits/real110.hpp"
-#include "shearfront/exact/events.hpp"
+#include "shearfront/digits/exact_digits.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -25,7 +24,7 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr int kDoubleDigits = 17, kMostDigits = 100;
+constexpr int kDoubleDigits = 17;
 // Few enough fronts to be told apart.
 constexpr const char* kPictureResolution = "0.04";
 constexpr const char* kPictureLayers = "100";
@@ -36,18 +35,17 @@ struct EventsArguments {
   MethodArguments method;
 };
 
-/// One row of the table. Times that never come are empty; `exact` is the time by another road.
-template <Real S>
+/// One row of the table: the time and its text, empty if it never comes; `exact` is the time by another road.
 struct EventRow {
   std::string event, meaning;
-  std::optional<S> time;
+  std::optional<double> time;
+  std::optional<std::string> text;
   std::optional<ClosedForm> form;
   std::optional<double> exact;
 };
 
-template <Real S>
-std::vector<EventRow<S>> event_rows(const Timeline<S>& timeline, const ClosedForms& forms,
-                                    const std::optional<Timeline<double>>& exact) {
+std::vector<EventRow> event_rows(const Timeline<double>& timeline, const TimelineText& text,
+                                 const ClosedForms& forms, const std::optional<Timeline<double>>& exact) {
   const std::size_t n = timeline.interfaces.size();
   const auto number = [n](std::size_t i) { return n == 1 ? std::string() : fmt::format("({})", i + 1); };
   const auto other = [](const std::optional<ClosedForm>& form, const auto& time) -> std::optional<double> {
@@ -59,43 +57,41 @@ std::vector<EventRow<S>> event_rows(const Timeline<S>& timeline, const ClosedFor
   };
   const Timeline<double> none;
   const Timeline<double>& by_formula = exact ? *exact : none;
-  std::vector<EventRow<S>> rows;
+  std::vector<EventRow> rows;
   for (std::size_t i = 0; i < n; ++i) {
     const auto& at = timeline.interfaces[i];
-    rows.push_back({"t_c" + number(i), "first wave at the interface z = " + number_text(to_double(at.z)),
-                    at.first, forms.first_interface, other(forms.first_interface, exact_at(i).first)});
+    rows.push_back({"t_c" + number(i), "first wave at the interface z = " + number_text(at.z),
+                    at.first, text.interfaces[i].first, forms.first_interface, other(forms.first_interface, exact_at(i).first)});
   }
-  rows.push_back({"t_0", "first wave at the bottom", timeline.t0, forms.t0, other(forms.t0, by_formula.t0)});
-  rows.push_back({"t_1", "first wave at the top", timeline.t1, forms.t1, other(forms.t1, by_formula.t1)});
+  rows.push_back({"t_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other(forms.t0, by_formula.t0)});
+  rows.push_back({"t_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other(forms.t1, by_formula.t1)});
   for (std::size_t i = 0; i < n; ++i) {
     const auto& at = timeline.interfaces[i];
-    rows.push_back({"t^_c" + number(i), "last change at the interface z = " + number_text(to_double(at.z)),
-                    at.last, forms.last_interface, other(forms.last_interface, exact_at(i).last)});
+    rows.push_back({"t^_c" + number(i), "last change at the interface z = " + number_text(at.z),
+                    at.last, text.interfaces[i].last, forms.last_interface, other(forms.last_interface, exact_at(i).last)});
   }
   rows.push_back(
-      {"t*", "steady state", timeline.t_star, forms.t_star, other(forms.t_star, by_formula.t_star)});
+      {"t*", "steady state", timeline.t_star, text.t_star, forms.t_star, other(forms.t_star, by_formula.t_star)});
   return rows;
 }
 
 /// With so many digits, or the shortest text that reads back if digits is 0.
-template <Real S>
-std::string shown(const S& x, int digits) {
-  if (digits == 0) return number_text(to_double(x));
+std::string shown(double x, int digits) {
+  if (digits == 0) return number_text(x);
   return x == 0 ? "0" : number_text(x, digits);
 }
 
-template <Real S>
-std::string event_table(const std::vector<EventRow<S>>& rows, int digits, bool compare) {
+std::string event_table(const std::vector<EventRow>& rows, int digits, bool compare) {
   TextTable table({"event", "meaning", "time", compare ? "exact" : "", compare ? "relative difference" : "",
                    "closed form"});
-  for (const EventRow<S>& row : rows) {
+  for (const EventRow& row : rows) {
     std::string exact, difference;
     if (compare && row.exact) {
       exact = shown(*row.exact, digits);
       if (row.time && *row.exact != 0)
-        difference = fmt::format("{:.1e}", to_double(*row.time) / *row.exact - 1);
+        difference = fmt::format("{:.1e}", *row.time / *row.exact - 1);
     }
-    table.add({row.event, row.meaning, row.time ? shown(*row.time, digits) : "never", exact, difference,
+    table.add({row.event, row.meaning, row.text.value_or("never"), exact, difference,
                row.form ? row.form->formula : ""});
   }
   return table.text();
@@ -116,42 +112,28 @@ std::optional<Timeline<double>> exact_times(const Scene<double>& scene) {
   return result.summary.usable() ? result.timeline : std::nullopt;
 }
 
-template <Real S>
-void print_events(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<S>& timeline,
-                  const Summary& summary, int digits) {
+/// `text` are the times as they are printed, `digits` those of times by another road.
+void print_events(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
+                  const TimelineText& text, const Summary& summary, int digits) {
   OutputFile out("-");
   const Method chosen = arguments.method.method();
   const std::string_view method = chosen.name();
   if (arguments.json) {
-    write_events_json(out, scene.name(), method, timeline, summary, digits);
+    write_events_json(out, scene.name(), method, text, summary);
   } else {
     const bool compare = !Method(method).guarantees().exact;
     const auto exact = compare ? exact_times(scene) : std::nullopt;
     out.write(fmt::format("{} ({})\n\n", printable(scene.name(), 100), method));
     const ClosedForms forms = closed_forms(scene);
-    out.write(event_table(event_rows(timeline, forms, exact), digits, compare));
+    out.write(event_table(event_rows(timeline, text, forms, exact), digits, compare));
     if (forms.t0)
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "
           "k0, k1 rates s a below and above the interface\n");
-    out.write(fmt::format("\nmass {}, steady height {}\n", shown(timeline.mass, digits),
-                          shown(timeline.steady_height, digits)));
+    out.write(fmt::format("\nmass {}, steady height {}\n", text.mass, text.steady_height));
     out.write(summary_line(summary));
   }
   out.commit();
-}
-
-template <Real S>
-int many_digits(const EventsArguments& arguments, const Scene<double>& scene, int digits) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Scene<S> precise = read_scene<S>(arguments.scene);
-  const Timeline<S> timeline = exact_timeline<S>(precise, TimelineOptions{static_cast<std::size_t>(number_of(arguments.method.method(), "layers"))});
-  Summary summary;
-  summary.status = Status::ok;
-  summary.message = fmt::format("computed with {} digits", std::numeric_limits<S>::digits10);
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_events(arguments, scene, timeline, summary, digits);
-  return kDone;
 }
 
 /// Fronts for the picture, by the first solver that has fronts.
@@ -185,7 +167,7 @@ int events(const EventsArguments& arguments) {
                        Method().name()));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
@@ -199,15 +181,20 @@ int events(const EventsArguments& arguments) {
       Timeline<double> unknown;
       unknown.mass = scene.mass();
       unknown.steady_height = scene.bottom() + unknown.mass;
-      print_events(arguments, scene, unknown, result.summary, 0);
+      print_events(arguments, scene, unknown, text_of(unknown, 0), result.summary, 0);
     }
     return report_unusable(result.summary);
   }
+  TimelineText text;
   if (digits > kDoubleDigits) {
-    many_digits<Real110>(arguments, scene, digits);
+    const auto begin = std::chrono::steady_clock::now();
+    text = exact_digits(arguments.scene, static_cast<std::size_t>(number_of(chosen, "layers")), digits);
+    result.summary.message = fmt::format("computed with {} digits", kComputedDigits);
+    result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   } else {
-    print_events(arguments, scene, *result.timeline, result.summary, digits);
+    text = text_of(*result.timeline, arguments.json ? 0 : digits);
   }
+  print_events(arguments, scene, *result.timeline, text, result.summary, digits);
   return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline);
 }
 

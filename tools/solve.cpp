@@ -100,7 +100,7 @@ int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
   if (!arguments.fronts.empty())
     refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
   SolverOptions options{arguments.method.method(), {}};
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   if (const std::string reason = refusal_of_course(scene); !reason.empty())
     refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
   const std::vector<double> times = list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed);
@@ -114,12 +114,10 @@ int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
   options.progress = progress.callback();
   const BedCourse course = bed_course(quantity, arguments.method.method().name(), scene, times, options);
   if (!course.summary.usable()) return report_unusable(course.summary);
-  std::string extra;
-  if (course.lowest)
-    extra = fmt::format(R"("lowest": {{"t": {}, "H": {}}})", number_text(course.lowest->t),
-                        number_text(course.lowest->height));
+  NamedNumbers lowest{"lowest", {}};
+  if (course.lowest) lowest.numbers = {{"t", course.lowest->t}, {"H", course.lowest->height}};
   if (arguments.json)
-    write_time_table_json(output, scene.name(), arguments.method.method().name(), course.table, extra,
+    write_time_table_json(output, scene.name(), arguments.method.method().name(), course.table, lowest,
                           course.summary);
   else
     write_time_table_csv(output, course.table);
@@ -136,7 +134,7 @@ int solve(const SolveArguments& arguments) {
   if (const SolvedQuantity quantity = quantity_of(arguments); quantity != SolvedQuantity::concentration)
     return solve_bed(arguments, quantity);
   SolverOptions options{arguments.method.method(), {}};
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   const SolverRequest request = request_of(arguments, scene);
   if (!arguments.map.empty() && !(last_time(request.times) > 0))
     refuse("--map", arguments.map, "needs a time > 0 to draw up to among --times");

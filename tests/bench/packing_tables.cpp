@@ -11,15 +11,16 @@
 #include "shearfront/fv/march.hpp"
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/solve.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace {
 
 using namespace shearfront;
+using support::Grains;
 
 SceneSpec<double> example(int number, Grains grains) {
   SceneSpec<double> spec;  // as datasets/packing-example-<number>
-  spec.fluxes = {Packed<double>{grains}};
+  spec.fluxes = {support::flux_of(grains)};
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.initial_values = {0.5};
   const Table<double> sloping{{0, 0.05, 0.95, 1}, {0.7, 0.7, 0.2, 0.2}};

@@ -9,10 +9,10 @@
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/general_medium.hpp"
+#include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/exact/medium.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace shearfront {
@@ -23,7 +23,7 @@ using support::SceneMaker;
 
 TEST(GeneralLaw, BranchesInvertTheFlux) {
   const auto check = [](const Flux<double>& flux) {
-    const exact::UnimodalLaw<double> law(flux);
+    const exact::InverseFlux<double> law(flux);
     for (const bool up : {true, false}) {
       double before = -1;
       for (int i = 0; i <= 64; ++i) {
@@ -54,9 +54,10 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
   int jumps = 0;
   for (int n = 0; n < 100; ++n) {
     const Scene<double> scene(make.data(make.integer(1, 8), make.order(), 8));
-    const auto special = exact::make_medium(scene, 1);
-    const exact::CanonicalForm<double> form(scene, 1);
-    const exact::GeneralMedium<double> general(form);
+    const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
+    const auto special = exact::make_medium(form);
+    const exact::LayeredMedium<double, exact::UnimodalLaw<double>> general(
+        exact::unimodal_law(form), special->cells(), special->mass());
     for (int i = 0; i < 40; ++i) {
       const double z = make.uniform(0, 1), t = std::exp(make.uniform(-4, 3));
       const auto a = special->best_free(z, t, 1e300), b = general.best_free(z, t, 1e300);
@@ -294,12 +295,10 @@ TEST(GeneralErrors, OfGodunovFallWithTheCells) {
     const ExactSolution<double> solution(scene);
     double before = 0;
     for (const std::size_t cells : {200U, 800U}) {
-      SolverOptions options;
-      options.cells = cells;
       SolverRequest request;
       request.times = {0.3};
       request.profiles = true;
-      const auto result = GodunovSolver::solve(scene, request, options);
+      const auto result = solve<GodunovSolver>(scene, request, {.cells = cells});
       ASSERT_EQ(result.profiles.size(), 1u) << result.summary.message;
       const Profile<double>& profile = result.profiles[0];
       const auto errors = errors_against(solution, profile, 0.3);

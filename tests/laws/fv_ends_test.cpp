@@ -12,24 +12,24 @@
 #include "shearfront/fv/cell_profile.hpp"
 #include "shearfront/fv/run.hpp"
 #include "shearfront/solver/solve.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
 
 using fv::March;
 using fv::Rule;
-using support::SceneMaker;
+using support::Grains, support::SceneMaker;
 
 SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(12000 + std::uint64_t(number))); }
 
 /// Layers of one or several fluxes of the same kind, solid fraction, temperature, two open ends or a ring.
 SceneSpec<double> random_ends(SceneMaker& maker, bool is_ring) {
-  SceneSpec<double> spec = support::packed_data(maker, Grains::large);
+  SceneSpec<double> spec = support::solid_data(maker, Grains::large);
   const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{},
-                                         Packed<double>{Grains::small}};
+                                         Quadratic<double>{}};
   const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0},
-                                         Packed<double>{Grains::large}, Triangular<double>{0.5, 1.0}};
+                                         Lwr<double>{}, Triangular<double>{0.5, 1.0}};
   const auto& choice = maker.integer(0, 1) == 0 ? minima : maxima;
   spec.fluxes.clear();
   const int n = maker.integer(1, 3);

@@ -15,7 +15,7 @@
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
 #include "support/grid_scenes.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -99,7 +99,7 @@ TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
 /// Many crossings of the fast layer while the slow one goes on, on unequal cells with solid fraction.
 void expect_mass_after(int n_steps) {
   SceneMaker maker = maker_of(3);
-  SceneSpec<double> spec = support::packed_data(maker, Grains::large);
+  SceneSpec<double> spec = support::solid_data(maker, support::Grains::large);
   spec.shear_rate = Piecewise<double>{{0.31, 0.6}, {1e-4, 2, 0.3}};
   const Scene<double> scene(spec);
   for (const Scheme& scheme : kSchemes) {
@@ -196,7 +196,7 @@ TEST(FvMarch, AgreesWithAPlainLoopOverFaceFluxes) {
     const bool is_plain = number % 4 == 0;
     const Scene<double> scene(is_plain
                                   ? maker.data(3, maker.order(), 5)
-                                  : support::packed_data(maker, number % 2 ? Grains::large : Grains::small));
+                                  : support::solid_data(maker, number % 2 ? support::Grains::large : support::Grains::small));
     const std::size_t n_cells = number % 5 == 0 ? 700 : std::size_t(maker.integer(1, 90));
     const fv::Grid grid =
         number % 3 == 0 ? fv::aligned_cells(scene, n_cells) : fv::equal_cells(scene, n_cells);

@@ -10,12 +10,12 @@
 
 #include "shearfront/fv/run.hpp"
 #include "shearfront/solver/solve.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-using support::SceneMaker;
+using support::Grains, support::SceneMaker;
 
 SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(11000 + std::uint64_t(number))); }
 
@@ -35,7 +35,7 @@ void expect_within_packing(int n_scenes, std::size_t cells) {
   for (int number = 0; number < n_scenes; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
-    const Scene<double> scene(support::packed_data(maker, number % 2 == 0 ? Grains::small : Grains::large));
+    const Scene<double> scene(support::solid_data(maker, number % 2 == 0 ? Grains::small : Grains::large));
     const auto result =
         solved(scene, {0, 0.02, 0.1, 0.4, 1, 3, infinity<double>()}, cells, Solver{}, number % 3 == 0);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
@@ -63,7 +63,7 @@ TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
     SceneSpec<double> spec;
     const double most = maker.uniform(0.5, 0.7), least = maker.uniform(0.2, 0.4);
     const bool is_small = number % 2 == 0;
-    spec.fluxes = {Packed<double>{is_small ? Grains::small : Grains::large}};
+    spec.fluxes = {support::flux_of(is_small ? Grains::small : Grains::large)};
     spec.shear_rate = Piecewise<double>{{}, {1}};
     spec.solid_fraction = Table<double>{{0, 1}, {is_small ? least : most, is_small ? most : least}};
     spec.initial_values = {0.5};
@@ -86,7 +86,7 @@ TEST(FvPacking, PackedLayersAreThickerLayers) {
     SceneMaker maker = maker_of(number);
     SceneSpec<double> spec = maker.data(maker.integer(2, 5), maker.order(), 0);
     const auto& rate = std::get<Piecewise<double>>(spec.shear_rate);
-    spec.fluxes = {Packed<double>{Grains::small}};
+    spec.fluxes = {Quadratic<double>{}};
     spec.initial_breaks = rate.breaks;
     spec.initial_values.clear();
     Piecewise<double> solid_fraction{rate.breaks, {}}, thick{{}, {}};
@@ -128,9 +128,9 @@ TEST(FvPacking, SmallAndLargeGrainsFillTheBed) {
   for (int number = 0; number < 60; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
-    SceneSpec<double> spec = support::packed_data(maker, Grains::small);
+    SceneSpec<double> spec = support::solid_data(maker, Grains::small);
     const Scene<double> small(spec);
-    spec.fluxes = {Packed<double>{Grains::large}};
+    spec.fluxes = {Lwr<double>{}};
     for (double& x : spec.initial_values) x = 1 - x;
     const Scene<double> large(spec);
     const auto check = [&](auto solver) {

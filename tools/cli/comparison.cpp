@@ -9,7 +9,6 @@
 
 #include "cli/table.hpp"
 #include "shearfront/fit/fit.hpp"
-#include "shearfront/io/detail/json_text.hpp"
 #include "shearfront/io/file_error.hpp"
 #include "shearfront/io/text.hpp"
 
@@ -116,17 +115,19 @@ std::string comparison_text(const std::vector<ComparedModel>& models) {
   return table.text();
 }
 
-std::string comparison_json(const std::vector<ComparedModel>& models, const std::string& indent) {
-  using detail::json_number;
-  std::string text;
+detail::Json comparison_json(const std::vector<ComparedModel>& models) {
+  using detail::json_or_null;
+  detail::Json all = detail::Json::array();
   for (const ComparedModel& m : models)
-    text += fmt::format(
-        R"({}{}  {{"model": {}, "parameters": {}, "misfit": {}, "aic": {}, "daic": {}, "aic_weight": {}, )"
-        R"("bic": {}, "dbic": {}}})",
-        text.empty() ? "\n" : ",\n", indent, detail::json_text(m.model), m.parameters, json_number(m.misfit),
-        json_number(m.aic), json_number(m.daic), json_number(m.aic_weight), json_number(m.bic),
-        json_number(m.dbic));
-  return "[" + text + "\n" + indent + "]";
+    all.push_back({{"model", m.model},
+                   {"parameters", m.parameters},
+                   {"misfit", json_or_null(m.misfit)},
+                   {"aic", json_or_null(m.aic)},
+                   {"daic", json_or_null(m.daic)},
+                   {"aic_weight", json_or_null(m.aic_weight)},
+                   {"bic", json_or_null(m.bic)},
+                   {"dbic", json_or_null(m.dbic)}});
+  return all;
 }
 
 }  // namespace shearfront::tools

@@ -5,6 +5,7 @@
 
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/io/detail/json.hpp"
 
 /// Several models for the same observations.
 namespace shearfront::tools {
@@ -26,7 +27,6 @@ struct ComparedModel {
                                                         const std::vector<fit::Estimate>& estimates);
 [[nodiscard]] std::string comparison_text(const std::vector<ComparedModel>& models);
 /// [{"model","parameters","misfit","aic","daic","aic_weight","bic","dbic"}]
-[[nodiscard]] std::string comparison_json(const std::vector<ComparedModel>& models,
-                                          const std::string& indent);
+[[nodiscard]] detail::Json comparison_json(const std::vector<ComparedModel>& models);
 
 }  // namespace shearfront::tools

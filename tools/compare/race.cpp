@@ -7,9 +7,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/method.hpp"
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -18,8 +16,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLeastRuns = 3, kMostRuns = 200;
 constexpr double kEnoughSeconds = 0.02, kLongRun = 1;
-// Heights at which 50 digits are computed: they take milliseconds each where there are hundreds of layers.
-constexpr std::size_t kMostOraclePoints = 1000, kLeastOraclePoints = 10, kOracleWork = 20'000;
 constexpr double kRounding = 1e-14;  // no order to be seen below it
 constexpr double kMostCells = 1e8, kFinestResolution = 1e-8;
 constexpr double kMostSeconds = 1000 * 365.25 * 24 * 3600;
@@ -43,19 +39,6 @@ SolverRequest request_of(const Scene<double>& scene, const Contestant& contestan
   else
     request.profiles = true;
   return request;
-}
-
-/// int |phi - phi with 50 digits| by means of some of the heights.
-double rounding_error(const Scene<double>& scene, double t, const std::vector<double>& z,
-                      const std::vector<Sample>& samples) {
-  const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
-  const std::size_t n_layers = std::max<std::size_t>(precise.n_layers(), 1);
-  const std::size_t most = std::clamp(kOracleWork / n_layers, kLeastOraclePoints, kMostOraclePoints);
-  const std::size_t stride = (z.size() + most - 1) / most;
-  double sum = 0, n = 0;
-  for (std::size_t i = stride / 2; i < z.size(); i += stride, ++n)
-    sum += std::abs(to_double(Real110(precise.phi(Real110(z[i]), Real110(t)) - samples[i].phi)));
-  return sum / n * (scene.top() - scene.bottom());
 }
 
 class Climb {
@@ -111,7 +94,6 @@ class Climb {
     Rung done{rung, 0, wall, summary.collisions + summary.cell_updates};
     if (contestant.kind == LadderKind::points) {
       done.work = request.heights.size();
-      done.l1_error = rounding_error(scene_, t_, request.heights, result.samples);
     } else {
       done.l1_error = errors_against(exact_, result.profiles.front(), t_).l1;
     }

@@ -48,9 +48,7 @@ struct RaceLimits {
 };
 
 /// Error against time of every method at one time. Each run starts afresh and ends at t. Errors are measured
-/// against the exact solution (exact/l1_error.hpp); for an exact method itself: mean difference of phi
-/// from the same engine at 50 digits, at up to 1000 heights (fewer from 20 layers on), times the height of
-/// the bed.
+/// against the exact solution (exact/l1_error.hpp); that of an exact method itself is 0.
 [[nodiscard]] Panel race(const Scene<double>& scene, const ExactSolution<double>& exact, double t,
                          const std::vector<Contestant>& contestants, const Ladders& ladders,
                          const RaceLimits& limits);

@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "cli/table.hpp"
-#include "shearfront/io/detail/json_text.hpp"
+#include "shearfront/io/detail/json.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::tools {
 namespace {
+
+using detail::Json;
 
 constexpr std::array<double, 4> kErrors{1e-3, 1e-4, 1e-6, 1e-10};
 constexpr std::size_t kMostEvents = 11;  // four interfaces
@@ -72,45 +74,37 @@ std::string errors_text(const Panel& panel) {
   return table.text();
 }
 
-std::string joined(const std::vector<std::string>& pieces, const std::string& indent) {
-  return detail::json_array(pieces, ",\n" + indent);
-}
-
-std::string course_json(const Course& course) {
-  using detail::json_number;
-  std::vector<std::string> rungs, times;
+Json course_json(const Course& course) {
+  Json rungs = Json::array(), times = Json::array();
   for (std::size_t i = 0; i < course.rungs.size(); ++i) {
     const Rung& r = course.rungs[i];
-    rungs.push_back(
-        fmt::format(R"({{"resolution": {}, "l1_error": {}, "order": {}, "wall_s": {}, "work": {}}})",
-                    json_number(r.resolution), json_number(r.l1_error), json_number(course.order(i)),
-                    json_number(r.wall_s), r.work));
+    rungs.push_back({{"resolution", r.resolution},
+                     {"l1_error", r.l1_error},
+                     {"order", detail::json_or_null(course.order(i))},
+                     {"wall_s", r.wall_s},
+                     {"work", r.work}});
   }
   for (const double error : kErrors) {
     const TimeToError time = time_to_error(course, error);
     const bool is_known = time.kind != TimeToError::Kind::never;
-    times.push_back(fmt::format(R"({{"l1_error": {}, "wall_s": {}, "how": "{}"}})", json_number(error),
-                                is_known ? json_number(time.wall_s) : "null", kind_name(time.kind)));
+    times.push_back({{"l1_error", error},
+                     {"wall_s", is_known ? Json(time.wall_s) : Json()},
+                     {"how", kind_name(time.kind)}});
   }
-  return fmt::format(
-      "{{\"method\": {}, \"ended\": {},\n       \"rungs\": {},\n       \"time_to_error\": {}}}",
-      detail::json_text(course.contestant.name), detail::json_text(course.ended),
-      joined(rungs, "                 "), joined(times, "                         "));
+  return {{"method", course.contestant.name}, {"ended", course.ended}, {"rungs", rungs}, {"time_to_error", times}};
 }
 
-std::string events_json(const ObservedEvents& events) {
-  std::vector<std::string> rows;
+Json events_json(const ObservedEvents& events) {
+  Json rows = Json::array();
   for (const ObservedEvents::Row& row : events.rows) {
-    std::vector<std::string> times;
+    Json times = Json::array();
     for (std::size_t i = 0; i < events.names.size(); ++i)
-      times.push_back(fmt::format(R"({{"event": {}, "exact": {}, "observed": {}}})",
-                                  detail::json_text(events.names[i]), detail::json_number(events.exact[i]),
-                                  detail::json_number(row.times[i])));
-    rows.push_back(fmt::format("{{\"method\": {}, \"resolution\": {},\n     \"times\": {}}}",
-                               detail::json_text(row.method), detail::json_number(row.resolution),
-                               joined(times, "               ")));
+      times.push_back({{"event", events.names[i]},
+                       {"exact", detail::json_or_null(events.exact[i])},
+                       {"observed", detail::json_or_null(row.times[i])}});
+    rows.push_back({{"method", row.method}, {"resolution", row.resolution}, {"times", times}});
   }
-  return joined(rows, "    ");
+  return rows;
 }
 
 }  // namespace
@@ -173,15 +167,13 @@ std::string events_text(const ObservedEvents& events) {
 
 std::string race_json(std::string_view scene, const std::vector<Panel>& panels,
                       const ObservedEvents* events) {
-  std::vector<std::string> times;
+  Json times = Json::array();
   for (const Panel& panel : panels) {
-    std::vector<std::string> courses;
+    Json courses = Json::array();
     for (const Course& course : panel.courses) courses.push_back(course_json(course));
-    times.push_back(fmt::format("{{\"t\": {}, \"methods\": {}}}", detail::json_number(panel.t),
-                                joined(courses, "     ")));
+    times.push_back({{"t", panel.t}, {"methods", courses}});
   }
-  return fmt::format("{{\n  \"scene\": {},\n  \"times\": {},\n  \"events\": {}\n}}\n",
-                     detail::json_text(scene), joined(times, "    "), events ? events_json(*events) : "null");
+  return detail::json_document({{"scene", scene}, {"times", times}, {"events", events ? events_json(*events) : Json()}});
 }
 
 }  // namespace shearfront::tools

@@ -18,7 +18,7 @@ constexpr int kFitWidth = 720, kFitHeight = 560;
 
 }  // namespace
 
-void begin_panel(Gnuplot& plot, const Panel& panel) {
+void begin_panel(Gnuplot& plot, const FitPanel& panel) {
   plot.add("reset\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\nset format '%g'\nset key off");
   plot.add(fmt::format(
       "set lmargin at screen {:.5g}\nset rmargin at screen {:.5g}\nset bmargin at screen {:.5g}\nset tmargin "
@@ -33,7 +33,7 @@ double round_up(double x) {
   return 10 * power;
 }
 
-void set_x_axis(Gnuplot& plot, const Panel& panel, double low, double high) {
+void set_x_axis(Gnuplot& plot, const FitPanel& panel, double low, double high) {
   constexpr double kCharacter = 8;  // points, in the widest of the formats
   const double room = (panel.right - panel.left) * kFitWidth / kCharacter;
   double step = round_up((high - low) / 10);

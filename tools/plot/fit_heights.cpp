@@ -9,7 +9,7 @@
 
 namespace shearfront::tools {
 
-void add_bed_heights(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec,
+void add_bed_heights(Gnuplot& plot, const FitPanel& panel, const fit::FitSpec& spec,
                      const fit::Estimate& estimate) {
   constexpr std::size_t kTimes = 401;  // finer than a panel can show
   constexpr double kSigmas95 = 1.96;   // of a normal distribution

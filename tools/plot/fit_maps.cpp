@@ -121,7 +121,7 @@ ResidualScale residual_scale(const Spots& spots, const Measured& value) {
 }
 
 /// Settings of a colour scale; the bar stands to the right of a panel.
-std::string colour_bar(const Panel& panel) {
+std::string colour_bar(const FitPanel& panel) {
   return fmt::format(
       "set colorbox vertical noborder user origin screen {:.5g},{:.5g} size screen 0.012,{:.5g}\n"
       "set cbtics scale 0 offset -0.8,0\n",
@@ -156,7 +156,7 @@ std::string rows_of(const Spots& spots, const Scene<double>& scene, Value&& valu
 }
 
 /// Axes of a map; only the first has numbers at its heights.
-void begin_map(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec, const Spots& spots,
+void begin_map(Gnuplot& plot, const FitPanel& panel, const fit::FitSpec& spec, const Spots& spots,
                bool is_first) {
   begin_panel(plot, panel);
   plot.add("set xlabel " + axis_label("time " + italic("t"), spec.observations.units.t) + " offset 0,0.3");
@@ -187,12 +187,12 @@ void finish_map(Gnuplot& plot, const std::string& title, const Spots& spots, con
 
 }  // namespace
 
-void add_maps(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec, const fit::Estimate& estimate) {
+void add_maps(Gnuplot& plot, const FitPanel& place, const fit::FitSpec& spec, const fit::Estimate& estimate) {
   const Measured value = measured(spec, estimate);
   const Spots spots = spots_of(spec, estimate);
   const double width = (place.right - place.left - 0.125) / 3;
-  const auto at = [&](double left) { return Panel{left, left + width, place.bottom, place.top}; };
-  const Panel first = at(place.left), second = at(first.right + 0.045), third = at(place.right - width);
+  const auto at = [&](double left) { return FitPanel{left, left + width, place.bottom, place.top}; };
+  const FitPanel first = at(place.left), second = at(first.right + 0.045), third = at(place.right - width);
   const std::string colours = value_colours(value);
 
   begin_map(plot, first, spec, spots, true);

@@ -11,7 +11,7 @@
 namespace shearfront::tools {
 
 /// Where the axes of a panel stand, in fractions of the figure; labels lie outside.
-struct Panel {
+struct FitPanel {
   double left = 0, right = 1, bottom = 0, top = 1;
 };
 
@@ -20,9 +20,9 @@ inline constexpr std::size_t kMostProfiles = 6;
 inline constexpr const char* kBlue = "#0072b2";  // of Okabe and Ito's colours
 
 /// Default settings, and axes at this place.
-void begin_panel(Gnuplot& plot, const Panel& panel);
+void begin_panel(Gnuplot& plot, const FitPanel& panel);
 /// Range of the axis "x", with as many tics at round numbers as their labels have room for.
-void set_x_axis(Gnuplot& plot, const Panel& panel, double low, double high);
+void set_x_axis(Gnuplot& plot, const FitPanel& panel, double low, double high);
 /// The height z from wall to wall.
 void set_height_axis(Gnuplot& plot, const fit::FitSpec& spec, bool has_labels);
 /// Symbol in italics.
@@ -42,15 +42,15 @@ struct Measured {
 [[nodiscard]] Measured measured(const fit::FitSpec& spec, const fit::Estimate& estimate);
 
 /// Observed points and fitted lines, one panel per time, in this part of the figure.
-void add_profiles(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
+void add_profiles(Gnuplot& plot, const FitPanel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
 /// Observed and fitted heights of the bed against time; the legend stands to the right of the panel.
-void add_bed_heights(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec,
+void add_bed_heights(Gnuplot& plot, const FitPanel& panel, const fit::FitSpec& spec,
                      const fit::Estimate& estimate);
 /// Observed, fitted and residual over t and z: cells where the data lie on a grid, points elsewhere.
-void add_maps(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
+void add_maps(Gnuplot& plot, const FitPanel& place, const fit::FitSpec& spec, const fit::Estimate& estimate);
 /// s a(z) of the start and of the estimate with its 95 % band; the legend stands to the right of the panel.
-void add_rate(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec, const fit::Estimate& estimate);
+void add_rate(Gnuplot& plot, const FitPanel& panel, const fit::FitSpec& spec, const fit::Estimate& estimate);
 /// The smallest misfit after so many evaluations; stages minimise different misfits and stand apart.
-void add_search(Gnuplot& plot, const Panel& panel, const fit::Estimate& estimate);
+void add_search(Gnuplot& plot, const FitPanel& panel, const fit::Estimate& estimate);
 
 }  // namespace shearfront::tools

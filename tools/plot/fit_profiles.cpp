@@ -45,7 +45,7 @@ std::string observed_rows(const fit::FitSpec& spec, const fit::MeasuredProfile& 
 }
 
 /// phi or M: its range and all that was measured.
-void set_value_axis(Gnuplot& plot, const Panel& panel, const Measured& value,
+void set_value_axis(Gnuplot& plot, const FitPanel& panel, const Measured& value,
                     const Observations& observations) {
   double low = value.low, high = value.high;
   for (const Observation& o : observations.rows) {
@@ -82,7 +82,7 @@ void add_legend(Gnuplot& plot, bool has_bars) {
 
 }  // namespace
 
-void add_profiles(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec,
+void add_profiles(Gnuplot& plot, const FitPanel& place, const fit::FitSpec& spec,
                   const fit::Estimate& estimate) {
   const auto profiles = fit::measured_profiles(spec.observations);
   const Measured value = measured(spec, estimate);
@@ -91,7 +91,7 @@ void add_profiles(Gnuplot& plot, const Panel& place, const fit::FitSpec& spec,
   const double width = std::min(kWidest, (place.right - place.left + kGap) / n - kGap);
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     const double left = place.left + static_cast<double>(i) * (width + kGap);
-    const Panel panel{left, left + width, place.bottom, place.top};
+    const FitPanel panel{left, left + width, place.bottom, place.top};
     const std::size_t count = profiles[i].rows.size();
     begin_panel(plot, panel);
     plot.add_data("observed", observed_rows(spec, profiles[i]));

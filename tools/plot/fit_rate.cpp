@@ -41,7 +41,7 @@ RateAxis rate_axis(const RateBand& band) {
   return axis;
 }
 
-void set_rate_axis(Gnuplot& plot, const Panel& panel, const RateAxis& axis) {
+void set_rate_axis(Gnuplot& plot, const FitPanel& panel, const RateAxis& axis) {
   if (!axis.is_logarithmic) return set_x_axis(plot, panel, axis.low, axis.high);
   const bool is_wide = axis.high > 1e4 * axis.low;
   plot.add(fmt::format("set logscale x\nset xrange [{:.9g}:{:.9g}]\nset format x '{}'\nset mxtics {}",
@@ -125,7 +125,7 @@ std::string curves(Gnuplot& plot, const RateBand& band, const RateAxis& axis) {
 
 }  // namespace
 
-void add_rate(Gnuplot& plot, const Panel& panel, const fit::FitSpec& spec, const fit::Estimate& estimate) {
+void add_rate(Gnuplot& plot, const FitPanel& panel, const fit::FitSpec& spec, const fit::Estimate& estimate) {
   const RateBand band(spec, estimate);
   const RateAxis axis = rate_axis(band);
   const ObservationUnits& units = spec.observations.units;

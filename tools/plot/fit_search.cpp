@@ -67,7 +67,7 @@ std::string stage_lines(const std::vector<fit::SearchStep>& steps, double end) {
 
 }  // namespace
 
-void add_search(Gnuplot& plot, const Panel& panel, const fit::Estimate& estimate) {
+void add_search(Gnuplot& plot, const FitPanel& panel, const fit::Estimate& estimate) {
   if (estimate.steps.empty()) return;
   const std::size_t last = std::max(estimate.evaluations, estimate.steps.back().evaluations);
   const double end = static_cast<double>(last) + 0.5;

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "shearfront/fit/forward.hpp"
@@ -68,7 +68,7 @@ class FitReader {
     const auto name = root.text("name", Need::optional, "must be text");
     const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
     const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
-    if (scene_path) load("scene", *scene_path, [&] { scene_ = read_scene<double>(*scene_path); });
+    if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
     if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
       unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
@@ -81,15 +81,15 @@ class FitReader {
 
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
-    if (data_path)
-      load("observations", *data_path, [&] { data_ = read_observations(*data_path, bottom, top); });
+    if (data_path) load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
     check_unknown();
     check_quantity();
     throw_if_any();
+    remarks_.insert(remarks_.begin(), scene_->spec().remarks.begin(), scene_->spec().remarks.end());
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
                     std::move(search_), uncertainty_},
-            *scene_path, *data_path};
+            *scene_path, *data_path, std::move(remarks_)};
   }
 
  private:
@@ -105,6 +105,12 @@ class FitReader {
 
   void unknown(TableReader& table) {
     unknown_.parameters = table.texts("parameters", Need::required, "must be an array of names of entries");
+    for (std::string& name : unknown_.parameters)
+      if (name.starts_with("packing.")) {
+        const std::string old = std::exchange(name, "solid_fraction" + name.substr(name.find('.')));
+        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " +
+                           printable(name));
+      }
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);
     numbers(table, "upper", unknown_.upper, true);
@@ -148,26 +154,36 @@ class FitReader {
 
   /// The options of a method that are not `known` yet.
   void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
-    method.visit_options([&]<class Member>(const OptionInfo& info, Member& member) {
+    for (const Option& option : method.options()) {
+      const OptionInfo& info = option.info;
       std::string key(info.name);
       std::replace(key.begin(), key.end(), '-', '_');
-      if (std::find(known.begin(), known.end(), key) != known.end()) return;
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
       known.push_back(key);
-      if constexpr (std::same_as<Member, bool>) {
-        member = table.boolean(key, Need::optional).value_or(member);
-      } else if constexpr (std::is_enum_v<Member>) {
-        if (const auto name = table.choice(key, Need::optional, strings(info.names)))
-          member = static_cast<Member>(std::find(info.names.begin(), info.names.end(), *name) - info.names.begin());
-      } else if constexpr (std::same_as<Member, std::uint64_t>) {
-        const auto low = static_cast<unsigned long long>(info.range.low);
-        const auto high = static_cast<unsigned long long>(info.range.high);
-        member = table.count(key, Need::optional, low, high).value_or(member);
-      } else {
-        table.number(key, Need::optional, member);
-        if (table.is_good(key) && !info.range.contains(member))
-          add({table.path(key), "", "must be " + allowed_text(info.range)});
-      }
-    });
+      method.set(
+          info.name,
+          std::visit([&](const auto& value) { return read_option(table, key, info, value); }, option.value));
+    }
+  }
+  template <class Value>
+  OptionValue read_option(TableReader& table, const std::string& key, const OptionInfo& info, Value value) {
+    if constexpr (std::same_as<Value, bool>) {
+      return table.boolean(key, Need::optional).value_or(value);
+    } else if constexpr (std::same_as<Value, OptionChoice>) {
+      if (const auto name = table.choice(key, Need::optional, strings(info.names)))
+        value.index = static_cast<std::size_t>(std::find(info.names.begin(), info.names.end(), *name) -
+                                               info.names.begin());
+      return value;
+    } else if constexpr (std::same_as<Value, std::uint64_t>) {
+      const auto low = static_cast<unsigned long long>(info.range.low);
+      const auto high = static_cast<unsigned long long>(info.range.high);
+      return std::uint64_t{table.count(key, Need::optional, low, high).value_or(value)};
+    } else {
+      table.number(key, Need::optional, value);
+      if (table.is_good(key) && !info.range.contains(value))
+        add({table.path(key), "", "must be " + allowed_text(info.range)});
+      return value;
+    }
   }
 
   void misfit(TableReader& table) {
@@ -214,12 +230,12 @@ class FitReader {
   /// Reads another file. One that cannot be read at all is a complaint about the entry that names it; those
   /// inside it are its own.
   template <class Read>
-  void load(const char* key, const std::string& path, Read&& read) {
+  void load(const char* key, Read&& read) {
     try {
       read();
     } catch (const FileError& error) {
       const Complaint& first = error.complaints().front();
-      if (first.key != printable(path) || !first.value.empty())
+      if (first.kind != Complaint::Kind::unreadable)
         others_.push_back(error);
       else
         add({key, source_.shown(*source_.find(key).node), first.constraint});
@@ -282,6 +298,7 @@ class FitReader {
   MisfitSpec misfit_;
   SearchSpec search_;
   UncertaintySpec uncertainty_;
+  std::vector<std::string> remarks_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper
 };
 
