@@ -12,6 +12,7 @@
 #include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/all.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace shearfront {

@@ -52,7 +52,8 @@ template <Real Scalar>
   return staircase(scene, layers > 0 ? layers : staircase_layers(scene, resolution));
 }
 
-/// Everything a Tracker needs for a scene. Keep it alive as long as the tracker.
+/// Everything a Tracker needs for a scene. Keep it alive as long as the tracker. Errors: InputError (key "flux") if the
+/// grid does not take the scene's fluxes; Tracking (track/track.hpp) chooses the grid that does.
 template <Real Scalar, class Grid = LevelGrid<Scalar>>
 struct TrackingSetup {
   LayerStack<Scalar> stack;
@@ -67,6 +68,7 @@ struct TrackingSetup {
   TrackingSetup(const Scene<Scalar>& scene, LayerStack<Scalar> layers, const Scalar& resolution,
                 GridKind kind)
       : stack(std::move(layers)) {
+    if (std::string why = refusal(resolution); !why.empty()) throw InputError("flux", "", why);
     const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
     std::vector<LayerState<Scalar>> states = initial.states;
     const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
@@ -89,6 +91,10 @@ struct TrackingSetup {
   }
 
  private:
+  [[nodiscard]] std::string refusal(const Scalar& resolution) const {
+    if constexpr (requires { Grid::refusal(stack); }) return Grid::refusal(stack);
+    else return Grid::refusal(stack, resolution);
+  }
   [[nodiscard]] typename Grid::Built build(GridKind kind, const Scalar& resolution,
                                            const std::vector<LayerState<Scalar>>& states) const {
     if constexpr (requires { Grid::singular_mapping(stack, resolution, states); })

@@ -49,14 +49,16 @@ class Tracker {
   using Scalar = typename Grid::Scalar;
 
   /// `pieces` fill the domain from bottom to top; every interface must be the top of a piece. The state is
-  /// taken at time 0. `grid` must outlive the tracker.
-  Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, Observer observer = {})
-      : Tracker(grid, pieces, {}, std::move(observer)) {}
-  /// With ends that need not be walls. A periodic bed has no steady state that rounding would not disturb:
-  /// give it finite times. Mass is then kept only between what comes in and goes out.
+  /// taken at time 0. `grid` must outlive the tracker. A periodic bed has no steady state that rounding would not
+  /// disturb: give it finite times. Where ends are not walls, mass is kept only between what comes in and goes out.
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
           Observer observer = {})
       : system_(grid, pieces, ends, std::move(observer)), changes_(ends.changes) {}
+  /// What a TrackingSetup holds, which must outlive the tracker.
+  template <class Setup>
+  explicit Tracker(const Setup& setup, Observer observer = {})
+    requires requires { setup.ends; }
+      : Tracker(setup.grid, setup.pieces, setup.ends, std::move(observer)) {}
 
   /// Runs to time t, events at t included. Precondition: t >= time().
   /// Returns ok, or steady if nothing will ever happen again. After budget_reached or interrupted the fronts
@@ -85,6 +87,7 @@ class Tracker {
   }
 
   [[nodiscard]] const Grid& grid() const { return system_.grid(); }
+  /// What it has seen so far, without the fronts alive.
   [[nodiscard]] const Observer& observer() const { return system_.observer(); }
   [[nodiscard]] const Scalar& time() const { return system_.time(); }
   /// Whether nothing will ever happen again.
