@@ -23,14 +23,11 @@ constexpr Variant kVariants[] = {
     {"front-tracking", "linear", true, true, "reconstruct", "linear"},
     {"front-tracking", "singular-mapping", false, false, "grid", "singular-mapping"},
     {"engquist-osher", "align-cells", false, false, "align-cells", "true"},
-    {"engquist-osher", "local-steps", false, false, "local-steps", "true"},
     {"engquist-osher", "face-value", false, false, "face-coefficient", "value"},
     {"godunov", "align-cells", false, false, "align-cells", "true"},
-    {"godunov", "local-steps", false, false, "local-steps", "true"},
     {"muscl", "minmod", false, false, "limiter", "minmod"},
     {"muscl", "van-leer", false, false, "limiter", "van-leer"},
     {"muscl", "align-cells", false, false, "align-cells", "true"},
-    {"muscl", "local-steps", false, false, "local-steps", "true"},
 };
 
 LadderKind kind_of(const Guarantees& g) {
