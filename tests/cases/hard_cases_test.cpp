@@ -8,11 +8,11 @@
 #include <functional>
 #include <memory>
 
+#include "oracles/verify.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "oracles/verify.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/any_flux.hpp"
 
 namespace shearfront {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "oracles/polygon_stack.hpp"
+#include "oracles/verify.hpp"
 #include "shearfront/track/tracker.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/godunov.hpp"
 
 namespace shearfront {

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "oracles/verify.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "oracles/verify.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "oracles/verify.hpp"
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/tracker.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
 

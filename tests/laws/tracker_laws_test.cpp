@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <optional>
 
+#include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "soak/laws.hpp"
 
 namespace shearfront::soak {
