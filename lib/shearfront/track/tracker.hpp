@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,15 +12,20 @@
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
-#include "shearfront/track/ends.hpp"
+#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/front_system.hpp"
 #include "shearfront/track/observers.hpp"
-#include "shearfront/track/piece.hpp"
-#include "shearfront/track/run_limits.hpp"
 #include "shearfront/track/snapshot.hpp"
 
 namespace shearfront {
+
+/// What may stop a run before its end.
+struct RunLimits {
+  std::uint64_t max_collisions = UINT64_MAX;
+  /// Called now and then with (a time in the run, collisions so far); false stops with Status::interrupted.
+  std::function<bool(double, std::uint64_t)> keep_going;
+};
 
 /// Event-driven front tracking: the exact solution of the problem whose fluxes are the polygons of a
 /// StateGrid.
