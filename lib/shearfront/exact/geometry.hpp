@@ -11,8 +11,8 @@
 /// Travel times and costs of paths with constant H in a stack of layers.
 ///
 /// In layer k, with rate r_k = 4 (its capacity) and h = 4 H, a path lacks e = 1 - h / r_k to the capacity and has the
-/// momentum p = peak +- q / 2, + going up. With w = (de/dq) / 2 it moves at the speed r_k w; for a parabola q = w =
-/// sqrt(e). So
+/// momentum p = peak +- q / 2, + going up. With w = (de/dq) / 2 it moves at the speed r_k w; for a parabola
+/// q = w = sqrt(e). So
 ///
 ///     T = sum d_k / (r_k w_k),     cost = H T + int_x^z peak dz + Q / 2,     Q = sum q_k d_k.
 ///
