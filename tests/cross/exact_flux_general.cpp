@@ -12,6 +12,7 @@
 #include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/flux_scenes.hpp"
 

@@ -15,6 +15,7 @@
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/all.hpp"
 #include "support/model_types.hpp"
 #include "support/random_scene.hpp"
 

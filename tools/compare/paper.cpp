@@ -9,6 +9,7 @@
 #include "cli/table.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
 namespace {
