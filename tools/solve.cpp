@@ -15,7 +15,7 @@
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "solve/bed_course.hpp"
+#include "bed_course.hpp"
 
 namespace shearfront::tools {
 namespace {

@@ -10,7 +10,7 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr std::size_t kHeights = 201;  // of a curve
+constexpr std::size_t kHeights = 201;
 /// Relative step of central differences: error of order step^2 and rounding / step, both below 1e-9.
 constexpr double kStep = 1e-5;
 /// A part of log(s a) smaller than this per unit of log p is rounding, not dependence.
@@ -34,134 +34,102 @@ double quantile_of(const fit::Estimate& estimate, const fit::Parameters& paramet
   return 1.96;
 }
 
-/// Ends of the layers, bottom to top.
-std::vector<double> layer_ends(const Scene<double>& scene) {
-  std::vector<double> ends = scene.knots();
-  ends.insert(ends.begin(), scene.bottom());
-  ends.push_back(scene.top());
-  return ends;
+/// Where a row stands and where its s a is taken: for layers their ends and their middle.
+struct Place {
+  double z = 0, inside = 0;
+};
+std::vector<Place> places_of(const Scene<double>& scene) {
+  std::vector<double> knots = scene.knots();
+  std::vector<Place> places;
+  if (scene.is_layered()) {
+    knots.push_back(scene.top());
+    double below = scene.bottom();
+    for (const double z : knots) {
+      places.push_back({below, (below + z) / 2});
+      places.push_back({z, (below + z) / 2});
+      below = z;
+    }
+    return places;
+  }
+  const std::vector<double> more = equally_spaced(scene.bottom(), scene.top(), kHeights);
+  knots.insert(knots.end(), more.begin(), more.end());
+  std::sort(knots.begin(), knots.end());
+  for (const double z : knots) places.push_back({z, z});
+  return places;
 }
 
-/// Heights of a curve with all its knots.
-std::vector<double> heights_of(const Scene<double>& scene) {
-  std::vector<double> z = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  const std::vector<double> knots = scene.knots();
-  z.insert(z.end(), knots.begin(), knots.end());
-  std::sort(z.begin(), z.end());
-  return z;
+/// One unknown, a step up and down.
+struct Direction {
+  std::size_t index = 0;
+  double value = 0, step = 0;
+  SceneSpec<double> above, below;
+  /// d log(s a) / d p; 0 where it is rounding.
+  [[nodiscard]] double slope(double z) const {
+    const double slope = std::log(rate_at(above, z) / rate_at(below, z)) / (2 * step);
+    return std::abs(slope * value) > kNoPart ? slope : 0;
+  }
+};
+
+std::vector<Direction> directions_of(const fit::Parameters& parameters, const fit::Estimate& estimate) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = estimate.parameters[i].estimate;
+  std::vector<Direction> directions;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (estimate.scene->is_layered() && parameters[i].entry.field == "shear_rate.breaks") continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    const double value = values[k], step = kStep * std::max(std::abs(value), 1e-300);
+    Eigen::VectorXd above = values, below = values;
+    above[k] += step;
+    below[k] -= step;
+    directions.push_back({i, value, step, parameters.scene_with(above), parameters.scene_with(below)});
+  }
+  return directions;
+}
+
+std::optional<fit::Interval> band_at(double z, double rate, const std::vector<Direction>& directions,
+                                     const fit::Estimate& estimate, double quantile) {
+  std::vector<std::pair<Eigen::Index, double>> parts;  // slopes times standard errors
+  for (const Direction& d : directions) {
+    const double slope = d.slope(z);
+    if (slope == 0) continue;
+    const auto& error = estimate.parameters[d.index].std_error;
+    if (!error) return std::nullopt;
+    parts.emplace_back(static_cast<Eigen::Index>(d.index), slope * *error);
+  }
+  double variance = 0;
+  for (const auto& [i, a] : parts)
+    for (const auto& [j, b] : parts)
+      if (a != 0 && b != 0) variance += a * estimate.correlation(i, j) * b;
+  const double factor = std::exp(quantile * std::sqrt(std::max(variance, 0.0)));
+  return fit::Interval{rate / factor, std::min(rate * factor, std::numeric_limits<double>::max())};
 }
 
 }  // namespace
 
-RateBand::RateBand(const fit::FitSpec& spec, const fit::Estimate& estimate)
-    : estimate_(estimate),
-      parameters_(spec.scene, spec.unknown),
-      values_(static_cast<Eigen::Index>(parameters_.size())),
-      quantile_(quantile_of(estimate, parameters_)),
-      is_layered_(estimate.scene->is_layered()) {
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    values_[static_cast<Eigen::Index>(i)] = estimate.parameters[i].estimate;
-  if (is_layered_) {
-    add_layers();
-    add_breaks();
-  } else {
-    add_curve();
+RateBand rate_band(const fit::Parameters& parameters, const fit::Estimate& estimate) {
+  RateBand result;
+  const Scene<double>& scene = *estimate.scene;
+  const std::vector<Direction> directions = directions_of(parameters, estimate);
+  const double quantile = quantile_of(estimate, parameters);
+  for (const Place& p : places_of(scene)) {
+    const double a = rate_at(scene.spec(), p.inside);
+    result.rows.push_back({p.z, a, band_at(p.inside, a, directions, estimate, quantile)});
   }
-  set_start();
-}
-
-bool RateBand::has(RateKind kind) const {
-  return std::any_of(pieces_.begin(), pieces_.end(), [&](const RatePiece& p) { return p.kind == kind; });
-}
-
-bool RateBand::is_unknown() const {
-  return std::any_of(parameters_.begin(), parameters_.end(),
-                     [](const fit::Parameter& p) { return p.entry.field.starts_with("shear_rate."); });
-}
-
-RateBand::At RateBand::at(double z) const {
-  At result;
-  result.rate = result.low = result.high = rate_at(estimate_.scene->spec(), z);
-  const auto n = values_.size();
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);  // times the standard error
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (is_layered_ && parameters_[k].entry.field == "shear_rate.breaks") continue;
-    const double step = kStep * std::max(std::abs(values_[i]), 1e-300);
-    Eigen::VectorXd above = values_, below = values_;
-    above[i] += step;
-    below[i] -= step;
-    const double slope =
-        std::log(rate_at(parameters_.scene_with(above), z) / rate_at(parameters_.scene_with(below), z)) /
-        (2 * step);
-    if (!(std::abs(slope * values_[i]) > kNoPart)) continue;
-    const auto& error = estimate_.parameters[k].std_error;
-    if (!error) {
-      result.kind = RateKind::open;
-      return result;
-    }
-    result.kind = RateKind::banded;
-    g[i] = slope * *error;
+  const Scene<double> start(parameters.scene_with(parameters.start()));
+  for (const Place& p : places_of(start))
+    result.start.push_back({p.z, rate_at(start.spec(), p.inside), std::nullopt});
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Entry& entry = parameters[i].entry;
+    result.is_unknown = result.is_unknown || entry.field.starts_with("shear_rate.");
+    if (!scene.is_layered() || entry.field != "shear_rate.breaks" || !estimate.parameters[i].ci95) continue;
+    const RateRow &below = result.rows[2 * entry.index + 1], &above = result.rows[2 * entry.index + 2];
+    const auto span = [](const RateRow& row) { return row.band.value_or(fit::Interval{row.a, row.a}); };
+    result.interfaces.push_back(
+        {*estimate.parameters[i].ci95,
+         {std::min(span(below).low, span(above).low), std::max(span(below).high, span(above).high)}});
   }
-  if (result.kind != RateKind::banded) return result;
-  double variance = 0;
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (g[i] != 0 && g[j] != 0) variance += g[i] * estimate_.correlation(i, j) * g[j];
-  const double factor = std::exp(quantile_ * std::sqrt(std::max(variance, 0.0)));
-  result.low = result.rate / factor;
-  result.high = result.rate * factor;
   return result;
-}
-
-void RateBand::add_piece(const At& at, std::vector<double> z) {
-  const std::size_t n = z.size();
-  pieces_.push_back({at.kind, std::move(z), std::vector<double>(n, at.rate), std::vector<double>(n, at.low),
-                     std::vector<double>(n, at.high)});
-}
-
-void RateBand::add_layers() {
-  const std::vector<double> ends = layer_ends(*estimate_.scene);
-  for (std::size_t i = 1; i < ends.size(); ++i)
-    add_piece(at((ends[i - 1] + ends[i]) / 2), {ends[i - 1], ends[i]});
-}
-
-/// Neighbouring heights of one kind are one piece; two pieces share the height between them.
-void RateBand::add_curve() {
-  for (const double z : heights_of(*estimate_.scene)) {
-    const At here = at(z);
-    if (!pieces_.empty()) {
-      RatePiece& piece = pieces_.back();
-      piece.z.push_back(z);
-      piece.rate.push_back(here.rate);
-      piece.low.push_back(here.low);
-      piece.high.push_back(here.high);
-    }
-    if (pieces_.empty() || pieces_.back().kind != here.kind) add_piece(here, {z});
-  }
-}
-
-void RateBand::add_breaks() {
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    if (parameters_[i].entry.field == "shear_rate.breaks" && estimate_.parameters[i].ci95)
-      breaks_.push_back({parameters_[i].entry.index, *estimate_.parameters[i].ci95});
-}
-
-void RateBand::set_start() {
-  const Scene<double> scene(parameters_.scene_with(parameters_.start()));
-  const auto add = [&](double z, double at) {
-    start_.z.push_back(z);
-    start_.rate.push_back(rate_at(scene.spec(), at));
-  };
-  if (!is_layered_) {
-    for (const double z : heights_of(scene)) add(z, z);
-    return;
-  }
-  const std::vector<double> ends = layer_ends(scene);
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    add(ends[i - 1], (ends[i - 1] + ends[i]) / 2);
-    add(ends[i], (ends[i - 1] + ends[i]) / 2);
-  }
 }
 
 }  // namespace shearfront::tools

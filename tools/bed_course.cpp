@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/bed_course.hpp"
+#include "bed_course.hpp"
 
 #include <algorithm>
 #include <cmath>
