@@ -64,7 +64,8 @@ Resolutions resolutions_of(const CompareArguments& arguments) {
   if (arguments.points) all.points = counts_option("--points", *arguments.points, kMostPoints);
   if (arguments.resolutions)
     all.resolutions = sorted(
-        list_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1", Steady::refused), true);
+        list_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1", Steady::refused),
+        true);
   return all;
 }
 
@@ -130,7 +131,8 @@ std::string text_of(const std::vector<Course>& courses, const std::vector<double
       table.add({course.method.name, number_text(run.resolution),
                  run.l1_error == 0 ? "0" : fmt::format("{:.2e}", run.l1_error),
                  order ? fmt::format("{:.2f}", *order) : "", std::to_string(run.work),
-                 run.work > 0 ? fmt::format("{:.3g} ns", per_unit) : "", fmt::format("{:.3g} s", run.wall_s)});
+                 run.work > 0 ? fmt::format("{:.3g} ns", per_unit) : "",
+                 fmt::format("{:.3g} s", run.wall_s)});
     });
     all += fmt::format("\nt = {}\n\n{}", number_text(t), table.text());
   }
@@ -142,15 +144,16 @@ std::string csv_of(const std::vector<Course>& courses, const std::vector<double>
   for (const double t : times)
     for_each_run(courses, t, [&](const Course& course, std::size_t i) {
       const ComparedRun& run = course.runs[i];
-      rows += fmt::format("{},{},{},{},{},{}\n", course.method.name, number_text(run.resolution), number_text(t),
-                          number_text(run.l1_error), number_text(run.wall_s), run.work);
+      rows += fmt::format("{},{},{},{},{},{}\n", course.method.name, number_text(run.resolution),
+                          number_text(t), number_text(run.l1_error), number_text(run.wall_s), run.work);
     });
   return rows;
 }
 
 /// {"scene","times":[{"t","methods":[{"method","ended","runs":[{"resolution","l1_error","order","wall_s",
 /// "work"}]}]}]}
-std::string json_of(const std::string& scene, const std::vector<Course>& courses, const std::vector<double>& times) {
+std::string json_of(const std::string& scene, const std::vector<Course>& courses,
+                    const std::vector<double>& times) {
   Json all{{"scene", scene}, {"times", Json::array()}};
   for (const double t : times) {
     Json methods = Json::array();
@@ -176,7 +179,8 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
          const std::vector<double>& times) {
   std::string methods;  // those with any run
   for (const Course& course : courses)
-    if (!course.runs.empty() && (" " + methods + " ").find(" " + course.method.name + " ") == std::string::npos)
+    if (!course.runs.empty() &&
+        (" " + methods + " ").find(" " + course.method.name + " ") == std::string::npos)
       methods += (methods.empty() ? "" : " ") + course.method.name;
   Picture picture(path, "comparison");
   picture.set("title", scene);

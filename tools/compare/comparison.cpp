@@ -30,10 +30,12 @@ void step_locally(SolverOptions& o) { o.local_steps = true; }
 
 constexpr Variant kVariants[] = {
     {"front-tracking", "linear", true, [](SolverOptions& o) { o.reconstruct = Reconstruction::linear; }},
-    {"front-tracking", "singular-mapping", false, [](SolverOptions& o) { o.grid = GridKind::singular_mapping; }},
+    {"front-tracking", "singular-mapping", false,
+     [](SolverOptions& o) { o.grid = GridKind::singular_mapping; }},
     {"engquist-osher", "align-cells", false, align},
     {"engquist-osher", "local-steps", false, step_locally},
-    {"engquist-osher", "face-value", false, [](SolverOptions& o) { o.face_coefficient = FaceCoefficient::value; }},
+    {"engquist-osher", "face-value", false,
+     [](SolverOptions& o) { o.face_coefficient = FaceCoefficient::value; }},
     {"godunov", "align-cells", false, align},
     {"godunov", "local-steps", false, step_locally},
     {"muscl", "minmod", false, [](SolverOptions& o) { o.limiter = Limiter::minmod; }},
@@ -108,7 +110,8 @@ const std::vector<ComparedMethod>& compared_methods() {
   return methods;
 }
 
-std::vector<ComparedMethod> compared_methods(std::string_view option, const std::optional<std::string>& list) {
+std::vector<ComparedMethod> compared_methods(std::string_view option,
+                                             const std::optional<std::string>& list) {
   std::vector<std::string> names;
   std::vector<ComparedMethod> chosen;
   for (const ComparedMethod& m : compared_methods()) {
@@ -192,7 +195,8 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       break;
     }
     const bool is_exact = method.refinement == Refinement::points;
-    course.runs.push_back({resolution, is_exact ? 0 : errors_against(exact, result.profiles.front(), t).l1, last,
+    course.runs.push_back({resolution, is_exact ? 0 : errors_against(exact, result.profiles.front(), t).l1,
+                           last,
                            is_exact ? request.heights.size() : summary.collisions + summary.cell_updates});
   }
   return course;

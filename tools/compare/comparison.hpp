@@ -47,9 +47,9 @@ struct Resolutions {
 
 /// One method at one resolution to one time, begun afresh.
 struct ComparedRun {
-  double resolution = 0;   ///< cells, step of phi, or points
-  double l1_error = 0;     ///< int |phi - exact phi| dz; 0 for an exact method, which is what is compared with
-  double wall_s = 0;       ///< median, profile included
+  double resolution = 0;  ///< cells, step of phi, or points
+  double l1_error = 0;    ///< int |phi - exact phi| dz; 0 for an exact method, which is what is compared with
+  double wall_s = 0;      ///< median, profile included
   std::uint64_t work = 0;  ///< cell updates, collisions, or points
 };
 

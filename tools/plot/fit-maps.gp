@@ -21,8 +21,8 @@ stats 'cells.csv' using (column("observed") - column("predicted")) nooutput
 largest = STATS_records > 0 ? max(abs(STATS_min), abs(STATS_max)) : 0
 spread = STATS_records > 0 ? sqrt(STATS_sumsq / STATS_records) : 0
 # Half of the limit, too, is a round number.
-round_limit(x, p) = x <= p ? p : x <= 2 * p ? 2 * p : x <= 4 * p ? 4 * p : x <= 6 * p ? 6 * p : x <= 8 * p ? 8 * p : 10 * p
-least_limit = max(min(largest, 2.5 * spread), 0.004 * (value_high - value_low))
+round_limit(x, p) = x <= p ? p : x <= 2 * p ? 2 * p : x <= 3 * p ? 3 * p : x <= 4 * p ? 4 * p : x <= 6 * p ? 6 * p : x <= 8 * p ? 8 * p : 10 * p
+least_limit = max(min(largest, 2.2 * spread), 0.004 * (value_high - value_low))
 limit = round_limit(0.9999 * least_limit, 10**floor(log10(least_limit)))
 beyond(sign) = largest > 1.0001 * limit ? sign : ''
 value_colours = "set cbrange [value_low:value_high]; set cbtics round_up((value_high - value_low) / 5.0)"

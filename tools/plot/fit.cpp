@@ -20,7 +20,7 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr std::size_t kMostProfiles = 6;  // more times than this are shown as maps
+constexpr std::size_t kMostProfiles = 6;              // more times than this are shown as maps
 constexpr std::size_t kHeights = 2001, kTimes = 401;  // finer than a panel can show
 
 /// What is not finite is left empty.
@@ -55,8 +55,7 @@ void add_profiles(Picture& picture, const fit::FitSpec& spec, const fit::Estimat
   request.times = times;
   request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
   SolverResult result = solve_with(spec.forward.method, *estimate.scene, request, spec.forward.options);
-  if (!result.summary.usable())
-    result.samples.assign(times.size() * kHeights, {std::nan(""), std::nan("")});
+  if (!result.summary.usable()) result.samples.assign(times.size() * kHeights, {std::nan(""), std::nan("")});
   picture.set("times", times);
   picture.set("fitted", spec.observations.quantity == Quantity::cumulative ? "M" : "phi");
   picture.add_file("fitted.csv", [&](OutputFile& file) {
@@ -114,8 +113,8 @@ void add_maps(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   const CellAxis times(data, &Observation::t, 0, std::numeric_limits<double>::infinity());
   const CellAxis heights(data, &Observation::z, spec.scene.bottom(), spec.scene.top());
   const double n_places = static_cast<double>(times.n_distinct) * static_cast<double>(heights.n_distinct);
-  const bool are_cells = static_cast<double>(data.size()) >= kGridShare * n_places &&
-                         heights.n_distinct >= kLeastHeights;
+  const bool are_cells =
+      static_cast<double>(data.size()) >= kGridShare * n_places && heights.n_distinct >= kLeastHeights;
   std::map<std::pair<std::size_t, std::size_t>, Cell> cells;
   for (std::size_t k = 0; k < data.size(); ++k) {
     const Observation& o = data[k];
@@ -135,8 +134,8 @@ void add_maps(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   picture.add_file("cells.csv", [&](OutputFile& file) {
     std::string rows = "t,z,t_low,t_high,z_low,z_high,observed,predicted\n";
     for (const auto& [place, c] : cells)
-      rows += csv_row({(c.t_low + c.t_high) / 2, (c.z_low + c.z_high) / 2, c.t_low, c.t_high, c.z_low, c.z_high,
-                       c.observed / c.n, c.predicted / c.n});
+      rows += csv_row({(c.t_low + c.t_high) / 2, (c.z_low + c.z_high) / 2, c.t_low, c.t_high, c.z_low,
+                       c.z_high, c.observed / c.n, c.predicted / c.n});
     file.write(rows);
   });
 }
@@ -150,7 +149,8 @@ void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   picture.add_file("rate.csv", [&](OutputFile& file) {
     file.write("z,a,lower,upper\n");
     for (const RateRow& row : band.rows)
-      file.write(csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
+      file.write(
+          csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
   });
   picture.add_file("start.csv", [&](OutputFile& file) {
     file.write("z,a\n");
@@ -158,7 +158,8 @@ void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   });
   picture.add_file("interfaces.csv", [&](OutputFile& file) {
     file.write("z_lower,z_upper,a_lower,a_upper\n");
-    for (const InterfaceBand& at : band.interfaces) file.write(csv_row({at.z.low, at.z.high, at.a.low, at.a.high}));
+    for (const InterfaceBand& at : band.interfaces)
+      file.write(csv_row({at.z.low, at.z.high, at.a.low, at.a.high}));
   });
 }
 

@@ -54,16 +54,21 @@ if (wall_low) set arrow from 0,z_low to t_end,z_low nohead lw 2.5 lc rgb 'black'
 if (wall_high) set arrow from 0,z_high to t_end,z_high nohead lw 2.5 lc rgb 'black' front
 do for [z in interfaces] { set arrow from 0,real(z) to t_end,real(z) nohead lw 0.8 dt (8,6) lc rgb '#606060' front }
 
+# Labels where there are any: gnuplot 5.4 crashes on a plot of labels all of which are left out.
+sides = ''
+note(side) = (sides = sides . ' ' . side . ' ', 0)
+stats 'events.csv' using (note(strcol("side"))) nooutput
 at(where) = strcol("side") eq where ? column("z") : NaN
+has(where) = strstrt(sides, ' '.where.' ') > 0
 plot for [i=0:n_widths-1] 'fronts.csv' using (class($6, $7) == i ? $2 : NaN):3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2) \
     with vectors nohead lw width_of(i) lc palette, \
   'events.csv' using "t":"z" with points pt 7 ps 0.75 lc rgb 'white', \
   'events.csv' using "t":"z" with points pt 7 ps 0.55 lc rgb 'black', \
-  'events.csv' using "t":(at("left-above")):"label" with labels right offset -0.6,0.75, \
-  'events.csv' using "t":(at("left-below")):"label" with labels right offset -0.6,-0.75, \
-  'events.csv' using "t":(at("right-above")):"label" with labels left offset 0.7,0.75, \
-  'events.csv' using "t":(at("right-below")):"label" with labels left offset 0.7,-0.75, \
-  'events.csv' using "t":(at("right")):"label" with labels left offset 0.9,0, \
-  'events.csv' using "t":(at("below")):"label" with labels center offset 0,-0.85, \
-  'events.csv' using "t":(at("above")):"label" with labels center offset 0,0.8, \
+  for [i=1:has("left-above")] 'events.csv' using "t":(at("left-above")):"label" with labels right offset -0.6,0.75, \
+  for [i=1:has("left-below")] 'events.csv' using "t":(at("left-below")):"label" with labels right offset -0.6,-0.75, \
+  for [i=1:has("right-above")] 'events.csv' using "t":(at("right-above")):"label" with labels left offset 0.7,0.75, \
+  for [i=1:has("right-below")] 'events.csv' using "t":(at("right-below")):"label" with labels left offset 0.7,-0.75, \
+  for [i=1:has("right")] 'events.csv' using "t":(at("right")):"label" with labels left offset 0.9,0, \
+  for [i=1:has("below")] 'events.csv' using "t":(at("below")):"label" with labels center offset 0,-0.85, \
+  for [i=1:has("above")] 'events.csv' using "t":(at("above")):"label" with labels center offset 0,0.8, \
   NaN  # for a bed without fronts

@@ -5,6 +5,7 @@
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +32,8 @@ std::string ending_of(const std::string& path) { return fs::path(path).extension
 
 /// The same place relative to the program in the build tree and where it is installed.
 fs::path template_folder() {
-  if (const char* folder = std::getenv("SHEARFRONT_PLOT_FOLDER"); folder && *folder) return fs::absolute(folder);
+  if (const char* folder = std::getenv("SHEARFRONT_PLOT_FOLDER"); folder && *folder)
+    return fs::absolute(folder);
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/shearfront/plot";
 }
@@ -103,7 +105,8 @@ int Picture::draw() const {
     file.write(variables_);
     file.write(fmt::format("set loadpath {}\nload '{}.gp'\n", quoted(templates.string(), "''"), kind_));
   });
-  const std::string command = fmt::format("cd {} && gnuplot run.gp >output 2>errors", quoted(folder_, "'\\''"));
+  const std::string command =
+      fmt::format("cd {} && gnuplot run.gp >output 2>errors", quoted(folder_, "'\\''"));
   constexpr int kCommandNotFound = 127;  // exit code of the shell
   const int status = std::system(command.c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == kCommandNotFound) {
@@ -112,7 +115,10 @@ int Picture::draw() const {
   }
   std::string picture = content(folder_ + "/picture" + ending_of(path_));
   if (status != 0 || picture.empty()) {
-    note(fmt::format("no picture {}: gnuplot failed: {}", printable(path_), printable(content(folder_ + "/errors"))));
+    const std::string errors = content(folder_ + "/errors");  // after any number of warnings
+    constexpr std::size_t kLongest = 150;
+    note(fmt::format("no picture {}: gnuplot failed: {}", printable(path_),
+                     printable(errors.substr(errors.size() - std::min(errors.size(), kLongest)))));
     return kNoResult;
   }
   if (ending_of(path_) == ".svg") keep_blanks(picture);

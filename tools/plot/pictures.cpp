@@ -51,7 +51,8 @@ double least_shock(const Scene<double>& scene, const std::vector<FrontSegment<do
 double end_time(const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline) {
   double end = 0;
   for (const auto& f : fronts) end = std::max(end, std::isfinite(f.t_end) ? f.t_end : f.t_begin);
-  if (timeline.t_star && *timeline.t_star <= end * 1.05) return *timeline.t_star * 1.08;
+  if (timeline.t_star && *timeline.t_star > 0 && *timeline.t_star <= end * 1.05)
+    return *timeline.t_star * 1.08;
   return end > 0 ? end : 1.0;
 }
 
@@ -112,8 +113,7 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
   picture.set("least_shock", least_shock(scene, fronts, resolution));
   picture.set("fan_width", scene.is_layered() ? 0.7 : 0.4);  // a staircase has many more fronts
   picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, fronts); });
-  picture.add_file("events.csv",
-                   [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
+  picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
   return picture.draw();
 }
 
