@@ -59,7 +59,7 @@ std::string summary_text(const fit::FitFile& file) {
   return fmt::format("{}, {}, {} ({}), {}, {}", quoted_text(spec.name, 80),
                      counted(fit::Parameters(spec.scene, spec.unknown).size(), "unknown"),
                      counted(spec.observations.rows.size(), "observation"),
-                     name_of(spec.observations.quantity), spec.forward.method, spec.search.algorithm);
+                     name_of(spec.observations.quantity), spec.forward.method.name(), spec.search.algorithm);
 }
 
 bool is_csv(const std::string& file) {

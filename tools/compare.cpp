@@ -10,7 +10,6 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/table.hpp"
@@ -27,7 +26,7 @@ namespace {
 
 struct CompareArguments {
   std::string scene, output, plot;
-  std::optional<std::string> times, methods, cells, resolutions, points, budget, repeat;
+  std::optional<std::string> times, methods, cells, resolutions, budget, repeat;
   bool json = false;
 };
 
@@ -57,16 +56,24 @@ std::vector<double> counts_option(std::string_view option, const std::string& va
   return sorted(counts);
 }
 
-Resolutions resolutions_of(const CompareArguments& arguments) {
-  constexpr double kMostCells = 1e8, kMostPoints = 1e7;
-  Resolutions all = default_resolutions(arguments.budget.has_value());
-  if (arguments.cells) all.cells = counts_option("--cells", *arguments.cells, kMostCells);
-  if (arguments.points) all.points = counts_option("--points", *arguments.points, kMostPoints);
+/// Coarse to fine. Those who give a budget get longer lists by default.
+std::vector<double> resolutions_of(const CompareArguments& arguments, Refinement refinement) {
+  constexpr double kMostCells = 1e8, kPoints = 1000;
+  const bool is_long = arguments.budget.has_value();
+  if (refinement == "cells") {
+    if (arguments.cells) return counts_option("--cells", *arguments.cells, kMostCells);
+    std::vector<double> cells;
+    for (double n = 100; n <= (is_long ? 2e6 : 3200); n *= 2) cells.push_back(n);
+    return cells;
+  }
+  if (refinement != "resolution") return {kPoints};
   if (arguments.resolutions)
-    all.resolutions = sorted(
+    return sorted(
         list_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1", Steady::refused),
         true);
-  return all;
+  std::vector<double> resolutions{0.1, 0.03, 0.01, 0.003, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6};
+  if (!is_long) resolutions.resize(resolutions.size() - 2);
+  return resolutions;
 }
 
 ComparisonLimits limits_of(const CompareArguments& arguments, ProgressLine& line) {
@@ -193,7 +200,7 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
 int compare(const CompareArguments& arguments) {
   const std::vector<double> times = times_of(arguments);
   const auto methods = compared_methods("--methods", arguments.methods);
-  const Resolutions resolutions = resolutions_of(arguments);
+  for (const Refinement refinement : {"cells", "resolution"}) (void)resolutions_of(arguments, refinement);
   ProgressLine line;
   const ComparisonLimits limits = limits_of(arguments, line);
   check_picture_name("--plot", arguments.plot);
@@ -211,7 +218,8 @@ int compare(const CompareArguments& arguments) {
   std::vector<Course> courses;
   for (const double t : times)
     for (const ComparedMethod& method : methods)
-      courses.push_back(compare_method(scene, exact, t, method, resolutions.of(method.refinement), limits));
+      courses.push_back(compare_method(scene, exact, t, method,
+                                       resolutions_of(arguments, refinement_of(method.method)), limits));
   if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
     output->write(csv_of(courses, times));
@@ -240,8 +248,6 @@ Command add_compare(CLI::App& program) {
       ->type_name("LIST");
   app->add_option("--resolutions", arguments->resolutions,
                   "front tracking: steps of phi, default 0.1 to 1e-5 in half decades")
-      ->type_name("LIST");
-  app->add_option("--points", arguments->points, "exact: numbers of heights, default 1000")
       ->type_name("LIST");
   app->add_option("--budget", arguments->budget,
                   "seconds per method and time, default 5; resolutions by default go on as long as it lasts")

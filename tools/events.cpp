@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -27,8 +26,7 @@ namespace {
 
 constexpr int kDoubleDigits = 17, kMostDigits = 100;
 // Few enough fronts to be told apart.
-constexpr double kPictureResolution = 0.04;
-constexpr std::size_t kPictureLayers = 100;
+constexpr const char *kPictureResolution = "0.04", *kPictureLayers = "100";
 
 struct EventsArguments {
   std::string scene, digits, plot;
@@ -47,33 +45,29 @@ struct EventRow {
 
 template <Real S>
 std::vector<EventRow<S>> event_rows(const Timeline<S>& timeline, const ClosedForms& forms,
-                                    const std::optional<Timeline<double>>& exact) {
+                                    const Timeline<double>& exact) {
   const std::size_t n = timeline.interfaces.size();
-  const auto number = [n](std::size_t i) { return n == 1 ? std::string() : fmt::format("({})", i + 1); };
-  const auto other = [](const std::optional<ClosedForm>& form, const auto& time) -> std::optional<double> {
-    if (form) return form->value;
-    return time;
-  };
-  const auto exact_at = [&](std::size_t i) {
-    return exact && i < exact->interfaces.size() ? exact->interfaces[i] : Timeline<double>::InterfaceTimes{};
-  };
-  const Timeline<double> none;
-  const Timeline<double>& by_formula = exact ? *exact : none;
   std::vector<EventRow<S>> rows;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& at = timeline.interfaces[i];
-    rows.push_back({"t_c" + number(i), "first wave at the interface z = " + number_text(to_double(at.z)),
-                    at.first, forms.first_interface, other(forms.first_interface, exact_at(i).first)});
-  }
-  rows.push_back({"t_0", "first wave at the bottom", timeline.t0, forms.t0, other(forms.t0, by_formula.t0)});
-  rows.push_back({"t_1", "first wave at the top", timeline.t1, forms.t1, other(forms.t1, by_formula.t1)});
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& at = timeline.interfaces[i];
-    rows.push_back({"t^_c" + number(i), "last change at the interface z = " + number_text(to_double(at.z)),
-                    at.last, forms.last_interface, other(forms.last_interface, exact_at(i).last)});
-  }
-  rows.push_back(
-      {"t*", "steady state", timeline.t_star, forms.t_star, other(forms.t_star, by_formula.t_star)});
+  const auto add = [&](std::string event, std::string meaning, const std::optional<S>& time,
+                       const std::optional<ClosedForm>& form, const std::optional<double>& other) {
+    rows.push_back({std::move(event), std::move(meaning), time, form, form ? form->value : other});
+  };
+  const auto add_interfaces = [&](const char* symbol, const char* meaning, auto&& time_of, const auto& form) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string z = number_text(to_double(timeline.interfaces[i].z));
+      add(symbol + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + z, time_of(timeline.interfaces[i]),
+          form, i < exact.interfaces.size() ? time_of(exact.interfaces[i]) : std::nullopt);
+    }
+  };
+  add_interfaces(
+      "t_c", "first wave at the interface z = ", [](const auto& at) { return at.first; },
+      forms.first_interface);
+  add("t_0", "first wave at the bottom", timeline.t0, forms.t0, exact.t0);
+  add("t_1", "first wave at the top", timeline.t1, forms.t1, exact.t1);
+  add_interfaces(
+      "t^_c", "last change at the interface z = ", [](const auto& at) { return at.last; },
+      forms.last_interface);
+  add("t*", "steady state", timeline.t_star, forms.t_star, exact.t_star);
   return rows;
 }
 
@@ -108,80 +102,77 @@ std::string summary_line(const Summary& s) {
   return line + fmt::format("{:.3g} s\n", s.wall_s);
 }
 
-/// Event times computed elsewhere, to compare with; nothing if the exact solver cannot do this scene.
-std::optional<Timeline<double>> exact_times(const Scene<double>& scene) {
+/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene.
+Timeline<double> exact_times(const Scene<double>& scene) {
   SolverRequest request;
   request.timeline = true;
-  const SolverResult result = ExactSolver::solve(scene, request, {});
-  return result.summary.usable() ? result.timeline : std::nullopt;
+  return solve<ExactSolver>(scene, request).timeline.value_or(Timeline<double>{});
 }
 
 template <Real S>
-void print_events(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<S>& timeline,
-                  const Summary& summary, int digits) {
+void print_events(const EventsArguments& arguments, const Method& method, const Scene<double>& scene,
+                  const Timeline<S>& timeline, const Summary& summary, int digits) {
   OutputFile out("-");
-  const std::string_view method = arguments.method.method();
   if (arguments.json) {
-    write_events_json(out, scene.name(), method, timeline, summary, digits);
+    write_events_json(out, scene.name(), method.name(), timeline, summary, digits);
   } else {
-    const bool compare = !guarantees_of(method).exact;
-    const auto exact = compare ? exact_times(scene) : std::nullopt;
-    out.write(fmt::format("{} ({})\n\n", printable(scene.name(), 100), method));
+    const bool compare = !method.guarantees().exact;
     const ClosedForms forms = closed_forms(scene);
-    out.write(event_table(event_rows(timeline, forms, exact), digits, compare));
+    const auto rows = event_rows(timeline, forms, compare ? exact_times(scene) : Timeline<double>{});
+    out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(),
+                          event_table(rows, digits, compare)));
     if (forms.t0)
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "
           "k0, k1 rates s a below and above the interface\n");
-    out.write(fmt::format("\nmass {}, steady height {}\n", shown(timeline.mass, digits),
-                          shown(timeline.steady_height, digits)));
-    out.write(summary_line(summary));
+    out.write(fmt::format("\nmass {}, steady height {}\n{}", shown(timeline.mass, digits),
+                          shown(timeline.steady_height, digits), summary_line(summary)));
   }
   out.commit();
 }
 
 template <Real S>
-int many_digits(const EventsArguments& arguments, const Scene<double>& scene, int digits) {
+int many_digits(const EventsArguments& arguments, const Method& method, const Scene<double>& scene,
+                int digits) {
   const auto begin = std::chrono::steady_clock::now();
   const Scene<S> precise = read_scene<S>(arguments.scene);
-  const Timeline<S> timeline = exact_timeline<S>(precise, TimelineOptions{arguments.method.options().layers});
+  const Timeline<S> timeline =
+      exact_timeline<S>(precise, TimelineOptions{static_cast<std::size_t>(number_of(method, "layers"))});
   Summary summary;
   summary.status = Status::ok;
   summary.message = fmt::format("computed with {} digits", std::numeric_limits<S>::digits10);
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_events(arguments, scene, timeline, summary, digits);
+  print_events(arguments, method, scene, timeline, summary, digits);
   return kDone;
 }
 
 /// Fronts for the picture, by the first solver that has fronts.
 int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
-         SolverOptions options) {
-  if (!arguments.method.has_resolution()) options.resolution = kPictureResolution;
-  if (!arguments.method.has_layers()) options.layers = kPictureLayers;
-  const std::string method = methods_with_fronts().front();
+         const Progress& progress) {
+  Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
+  if (!arguments.method.has("resolution")) set_option(method, "resolution", kPictureResolution, "");
+  if (!arguments.method.has("layers")) set_option(method, "layers", kPictureLayers, "");
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
-  request.heights = {scene.bottom()};
   request.fronts = true;
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = solve(scene, method, request, progress);
   if (!result.summary.usable()) return report_unusable(result.summary);
-  return draw_fronts(arguments.plot, scene, result.fronts, timeline, options.resolution);
+  return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
 }
 
 int events(const EventsArguments& arguments) {
-  const std::string_view method = arguments.method.method();
-  SolverOptions options = arguments.method.options();
+  const Method method = arguments.method.method();
   const int digits = arguments.digits.empty()
                          ? 0
                          : static_cast<int>(count_option("--digits", arguments.digits, 1, kMostDigits));
-  if (!guarantees_of(method).has_timeline)
-    refuse(
-        "--method", method,
-        fmt::format("computes no event times; must be one of: {}", fmt::join(methods_with_timeline(), ", ")));
-  if (digits > kDoubleDigits && method != ExactSolver::kName)
+  if (!method.guarantees().has_timeline)
+    refuse("--method", method.name(),
+           fmt::format("computes no event times; must be one of: {}",
+                       fmt::join(Method::names(&Guarantees::has_timeline), ", ")));
+  if (digits > kDoubleDigits && !method.guarantees().exact)
     refuse("--digits", arguments.digits,
-           fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits, method,
-                       ExactSolver::kName));
+           fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
+                       method.name(), ExactSolver::kName));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
   const auto scene = read_scene<double>(arguments.scene);
@@ -189,25 +180,21 @@ int events(const EventsArguments& arguments) {
   note_unused_layers(arguments.method, scene);
 
   ProgressLine progress;
-  options.progress = progress.callback();
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = solve(scene, method, request, progress.callback());
   if (!result.summary.usable()) {
-    if (arguments.json) {
-      Timeline<double> unknown;
-      unknown.mass = scene.mass();
-      unknown.steady_height = scene.bottom() + unknown.mass;
-      print_events(arguments, scene, unknown, result.summary, 0);
-    }
+    Timeline<double> unknown;
+    unknown.mass = scene.mass();
+    unknown.steady_height = scene.bottom() + unknown.mass;
+    if (arguments.json) print_events(arguments, method, scene, unknown, result.summary, 0);
     return report_unusable(result.summary);
   }
-  if (digits > kDoubleDigits) {
-    many_digits<Real110>(arguments, scene, digits);
-  } else {
-    print_events(arguments, scene, *result.timeline, result.summary, digits);
-  }
-  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline, options);
+  if (digits > kDoubleDigits)
+    many_digits<Real110>(arguments, method, scene, digits);
+  else
+    print_events(arguments, method, scene, *result.timeline, result.summary, digits);
+  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline, progress.callback());
 }
 
 }  // namespace

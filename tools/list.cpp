@@ -36,7 +36,7 @@ std::string entries() {
   return all;
 }
 
-std::string described(const Guarantees& g) {
+std::string described(const Guarantees& g, std::string_view scenes) {
   std::string all;
   const auto say = [&](bool holds, const std::string& text) {
     if (holds) all += (all.empty() ? "" : ", ") + text;
@@ -46,7 +46,7 @@ std::string described(const Guarantees& g) {
   say(g.order_M > 0, fmt::format("M of order {}", g.order_M));
   say(g.conservative, "conservative");
   say(g.bounded, "bounded");
-  say(true, g.scope.text());
+  say(true, std::string(scenes));
   say(g.has_timeline, "event times");
   say(g.has_fronts, "fronts");
   say(g.has_profiles, "whole profiles");
@@ -137,13 +137,15 @@ int list() {
   all += indented(packings.text()) + "\nSolvers (--method)\n";
   TextTable solvers({"name", "what it is", "guarantees"});
   SolverList::for_each([&]<class S>() {
-    solvers.add({std::string(S::kName), std::string(S::kDescription), described(S::guarantees())});
+    solvers.add(
+        {std::string(S::kName), std::string(S::kDescription), described(S::guarantees(), S::kScenes)});
   });
   all += indented(solvers.text());
-  all += fmt::format("\nGrids of states (--grid)\n  {}\n", fmt::join(grid_names(), "\n  "));
-  all += fmt::format("\nReconstructions between fronts (--reconstruct)\n  {}\n",
-                     fmt::join(reconstruction_names(), "\n  "));
-  all += fmt::format("\nLimiters of muscl (--limiter)\n  {}\n", fmt::join(limiter_names(), "\n  "));
+  TextTable options({"name", "what it is", "values", "default", "solvers"});
+  for (const OptionText& o : all_options())
+    options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : o.allowed,
+                 o.initial, fmt::format("{}", fmt::join(o.solvers, ", "))});
+  all += "\nOptions of solvers (in fit files with _ for -)\n" + indented(options.text());
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();
   all += "\nLosses of a fit (misfit.loss)\n" + described_list<fit::LossList>();

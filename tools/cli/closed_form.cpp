@@ -2,18 +2,18 @@
 #include "cli/closed_form.hpp"
 
 #include <cmath>
-#include <variant>
 
 namespace shearfront::tools {
 
 ClosedForms closed_forms(const Scene<double>& scene) {
   ClosedForms forms;
-  const auto* a = std::get_if<Piecewise<double>>(&scene.shear_rate());
-  if (!a || a->breaks.size() != 1 || !scene.is_plain()) return forms;
+  const std::vector<double> knots = scene.knots();
+  if (!scene.is_layered() || knots.size() != 1 || !scene.is_plain()) return forms;
   if (scene.initial_values() != std::vector<double>{0, 1}) return forms;
   const double h = scene.top() - scene.bottom();
-  const double zc = a->breaks[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();
-  const double k0 = scene.scale() * a->values[0], k1 = scene.scale() * a->values[1];
+  const double zc = knots[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();
+  const double k0 = scene.scale() * scene.shear_rate_at(scene.bottom()),
+               k1 = scene.scale() * scene.shear_rate_at(scene.top());
   if (z0 == zc) return forms;
   if (z0 > zc) {
     forms.first_interface = {"(z0 - zc)/k1", (z0 - zc) / k1};

@@ -8,52 +8,17 @@
 #include <cmath>
 
 #include "cli/arguments.hpp"
-#include "cli/method.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/io/method_text.hpp"
 #include "shearfront/io/text.hpp"
-#include "shearfront/solver/all.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// solver:option. `by_default` variants take part when no methods are named.
-struct Variant {
-  std::string_view solver, option;
-  bool by_default;
-  void (*set)(SolverOptions&);
-};
-
-void align(SolverOptions& o) { o.align_cells = true; }
-void step_locally(SolverOptions& o) { o.local_steps = true; }
-
-constexpr Variant kVariants[] = {
-    {"front-tracking", "linear", true, [](SolverOptions& o) { o.reconstruct = Reconstruction::linear; }},
-    {"front-tracking", "singular-mapping", false,
-     [](SolverOptions& o) { o.grid = GridKind::singular_mapping; }},
-    {"engquist-osher", "align-cells", false, align},
-    {"engquist-osher", "local-steps", false, step_locally},
-    {"engquist-osher", "face-value", false,
-     [](SolverOptions& o) { o.face_coefficient = FaceCoefficient::value; }},
-    {"godunov", "align-cells", false, align},
-    {"godunov", "local-steps", false, step_locally},
-    {"muscl", "minmod", false, [](SolverOptions& o) { o.limiter = Limiter::minmod; }},
-    {"muscl", "van-leer", false, [](SolverOptions& o) { o.limiter = Limiter::van_leer; }},
-    {"muscl", "align-cells", false, align},
-    {"muscl", "local-steps", false, step_locally},
-};
-
-Refinement refinement_of(const Guarantees& g) {
-  if (g.exact) return Refinement::points;
-  return g.has_fronts ? Refinement::resolution : Refinement::cells;
-}
-
-bool is_by_default(const ComparedMethod& method) {
-  return std::none_of(std::begin(kVariants), std::end(kVariants), [&](const Variant& v) {
-    return !v.by_default && method.name == fmt::format("{}:{}", v.solver, v.option);
-  });
-}
+constexpr Refinement kPoints = "points";
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -85,77 +50,74 @@ double median_time(const Run& run, std::size_t repeats) {
 SolverRequest request_of(const Scene<double>& scene, Refinement refinement, double t, double resolution) {
   SolverRequest request;
   request.times = {t};
-  request.profiles = refinement != Refinement::points;
+  request.profiles = refinement != kPoints;
   const double height = scene.top() - scene.bottom();
-  for (double i = 0; refinement == Refinement::points && i < resolution; ++i)
+  for (double i = 0; refinement == kPoints && i < resolution; ++i)
     request.heights.push_back(scene.bottom() + height * ((i + 0.5) / resolution));
   return request;
 }
 
 }  // namespace
 
-const std::vector<ComparedMethod>& compared_methods() {
-  static const std::vector<ComparedMethod> methods = [] {
-    std::vector<ComparedMethod> all;
-    SolverList::for_each([&]<class S>() {
-      const Guarantees g = S::guarantees();
-      if ((!g.exact && !g.has_profiles) || g.scope.diffusion) return;  // errors are those against exact
-      all.push_back({std::string(S::kName), S::kName, refinement_of(g), nullptr});
-      for (const Variant& v : kVariants)
-        if (v.solver == S::kName)
-          all.push_back({fmt::format("{}:{}", v.solver, v.option), S::kName, refinement_of(g), v.set});
+Refinement refinement_of(const Method& method) {
+  for (const Refinement refinement : {"resolution", "cells"})
+    if (method.has_option(refinement)) return refinement;
+  return kPoints;
+}
+
+std::vector<ComparedMethod> compared_methods() {
+  std::vector<ComparedMethod> all;
+  for (const std::string& name : Method::names()) {
+    const Method method(name);
+    const Guarantees g = method.guarantees();
+    if ((!g.exact && !g.has_profiles) || g.diffusion) continue;  // errors are those against exact
+    all.push_back({name, method});
+    const auto add = [&](std::string_view variant, std::string_view option, std::string_view value) {
+      all.push_back({fmt::format("{}:{}", name, variant), method});
+      set_option(all.back().method, option, value, "");
+    };
+    method.visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
+      if constexpr (std::is_same_v<Member, bool>) add(info.name, info.name, "true");
+      if constexpr (std::is_enum_v<Member>)
+        for (std::size_t i = 0; i < info.names.size(); ++i)
+          if (i != static_cast<std::size_t>(member)) add(info.names[i], info.name, info.names[i]);
     });
-    return all;
-  }();
-  return methods;
+  }
+  return all;
 }
 
 std::vector<ComparedMethod> compared_methods(std::string_view option,
                                              const std::optional<std::string>& list) {
+  constexpr std::string_view kWorthIt = "front-tracking:linear";
+  const std::vector<ComparedMethod> all = compared_methods();
   std::vector<std::string> names;
   std::vector<ComparedMethod> chosen;
-  for (const ComparedMethod& m : compared_methods()) {
+  for (const ComparedMethod& m : all) {
     names.push_back(m.name);
-    if (!list && is_by_default(m)) chosen.push_back(m);
+    if (!list && (m.name == m.method.name() || m.name == kWorthIt)) chosen.push_back(m);
   }
   if (!list) return chosen;
-  for (const std::string_view part : split(*list, ',')) {
-    const std::string name(part);
+  for (const std::string_view name : split(*list, ',')) {
     const auto it = std::find(names.begin(), names.end(), name);
     if (it == names.end()) {
-      const auto meant = nearest_name(name, names);
+      const auto meant = nearest_name(std::string(name), names);
       refuse(option, name,
              fmt::format("must be one of: {}{}", fmt::join(names, ", "),
                          meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
     }
     if (std::none_of(chosen.begin(), chosen.end(), [&](const ComparedMethod& m) { return m.name == name; }))
-      chosen.push_back(compared_methods()[static_cast<std::size_t>(it - names.begin())]);
+      chosen.push_back(all[static_cast<std::size_t>(it - names.begin())]);
   }
   return chosen;
 }
 
-const std::vector<double>& Resolutions::of(Refinement refinement) const {
-  if (refinement == Refinement::cells) return cells;
-  return refinement == Refinement::resolution ? resolutions : points;
-}
-
-Resolutions default_resolutions(bool longest) {
-  Resolutions all;
-  for (double n = 100; n <= (longest ? 2e6 : 3200); n *= 2) all.cells.push_back(n);
-  all.resolutions = {0.1, 0.03, 0.01, 0.003, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5};
-  if (longest) all.resolutions.insert(all.resolutions.end(), {3e-6, 1e-6});
-  all.points = {1000};
-  return all;
-}
-
 std::optional<double> Course::order(std::size_t run) const {
   constexpr double kRounding = 1e-14;  // no order to be seen below it
-  if (run == 0 || method.refinement == Refinement::points) return std::nullopt;
+  if (run == 0) return std::nullopt;
   const ComparedRun &a = runs[run - 1], &b = runs[run];
   if (a.l1_error < kRounding) return std::nullopt;
-  const double ratio = b.resolution / a.resolution;
-  const double finer = method.refinement == Refinement::resolution ? 1 / ratio : ratio;
-  const double order = std::log(a.l1_error / b.l1_error) / std::log(finer);
+  // More cells or a smaller step.
+  const double order = std::log(a.l1_error / b.l1_error) / std::abs(std::log(b.resolution / a.resolution));
   return std::isfinite(order) ? std::optional(order) : std::nullopt;
 }
 
@@ -163,6 +125,7 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
                       const ComparedMethod& method, const std::vector<double>& resolutions,
                       const ComparisonLimits& limits) {
   Course course{method, t, {}, {}};
+  const Refinement refinement = refinement_of(method.method);
   double last = 0, before = 0, spent = 0;  // seconds
   for (const double resolution : resolutions) {
     if (limits.is_stopped && limits.is_stopped()) {
@@ -175,16 +138,13 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       course.ended = kBudgetSpent;
       break;
     }
-    SolverOptions options;
-    if (method.refinement == Refinement::cells) options.cells = static_cast<std::size_t>(resolution);
-    if (method.refinement == Refinement::resolution) options.resolution = resolution;
-    if (method.set) method.set(options);
-    options.progress = limits.progress;
-    const SolverRequest request = request_of(scene, method.refinement, t, resolution);
+    Method finer = method.method;
+    if (refinement != kPoints) set_option(finer, refinement, number_text(resolution), "");
+    const SolverRequest request = request_of(scene, refinement, t, resolution);
     SolverResult result;
     const auto run = [&] {
       const auto begin = Clock::now();
-      result = solve_with(method.solver, scene, request, options);
+      result = solve(scene, finer, request, limits.progress);
       spent += seconds_since(begin);
       return result.summary.usable();
     };
@@ -194,7 +154,7 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       course.ended = summary.status == Status::interrupted ? "interrupted" : summary.message;
       break;
     }
-    const bool is_exact = method.refinement == Refinement::points;
+    const bool is_exact = refinement == kPoints;
     course.runs.push_back({resolution, is_exact ? 0 : errors_against(exact, result.profiles.front(), t).l1,
                            last,
                            is_exact ? request.heights.size() : summary.collisions + summary.cell_updates});

@@ -9,41 +9,28 @@
 
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 /// Error against time: every method, from coarse to fine.
 namespace shearfront::tools {
 
-/// What makes a method finer.
-enum class Refinement {
-  cells,       ///< more cells
-  resolution,  ///< a smaller step of phi between fronts
-  points       ///< more heights at which an exact method is asked
-};
+/// What makes a method finer: its option "resolution" or "cells"; else the heights at which it is asked.
+using Refinement = std::string_view;
+[[nodiscard]] Refinement refinement_of(const Method& method);
 
-/// A solver, with one of its options set if the name has the form solver:option.
+/// A method, and what it is called in a comparison: solver, or solver:option with an option that is switched
+/// on, or the value of one that has names.
 struct ComparedMethod {
   std::string name;
-  std::string_view solver;
-  Refinement refinement = Refinement::cells;
-  void (*set)(SolverOptions&) = nullptr;  ///< nullptr: all options as by default
+  Method method;
 };
 
 /// Every exact solver and every solver with whole profiles, each followed by its variants.
-[[nodiscard]] const std::vector<ComparedMethod>& compared_methods();
-/// Those of a LIST of names, in its order, each once; all that are worth it by default if there is none.
+[[nodiscard]] std::vector<ComparedMethod> compared_methods();
+/// Those of a LIST of names, in its order, each once; without one every solver, and the variants worth it.
 /// Errors: InputError for a name that is not known.
 [[nodiscard]] std::vector<ComparedMethod> compared_methods(std::string_view option,
                                                            const std::optional<std::string>& list);
-
-/// How fine each method goes, coarse to fine.
-struct Resolutions {
-  std::vector<double> cells, resolutions, points;
-  [[nodiscard]] const std::vector<double>& of(Refinement refinement) const;
-};
-/// 100 to 3200 cells doubling, resolutions 0.1 to 1e-5 in half decades, 1000 points; `longest` goes on to 2e6
-/// cells and 1e-6.
-[[nodiscard]] Resolutions default_resolutions(bool longest);
 
 /// One method at one resolution to one time, begun afresh.
 struct ComparedRun {
@@ -69,7 +56,7 @@ inline constexpr const char* kBudgetSpent = "no time left for more (--budget)";
 struct ComparisonLimits {
   double budget_s = 5;      ///< per method and time: none is begun that would take longer, errors not counted
   std::size_t repeats = 0;  ///< runs per resolution; 0: at least 3 and 20 ms in all, one if it takes a second
-  std::function<bool(double, std::uint64_t)> progress;  ///< as in SolverOptions
+  Progress progress;
   std::function<bool()> is_stopped;
 };
 

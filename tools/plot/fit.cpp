@@ -9,27 +9,17 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/fit_text.hpp"
-#include "cli/method.hpp"
 #include "plot/pictures.hpp"
-#include "plot/rate_band.hpp"
+#include "shearfront/fit/rate_band.hpp"
 #include "shearfront/fit/residual_rows.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
-#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::tools {
 namespace {
 
 constexpr std::size_t kMostProfiles = 6;              // more times than this are shown as maps
 constexpr std::size_t kHeights = 2001, kTimes = 401;  // finer than a panel can show
-
-/// What is not finite is left empty.
-std::string csv_row(std::initializer_list<double> numbers) {
-  std::string row;
-  for (const double x : numbers) row += (std::isfinite(x) ? number_text(x) : "") + ",";
-  row.back() = '\n';
-  return row;
-}
 
 void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& estimate) {
   const Observations& data = spec.observations;
@@ -54,7 +44,7 @@ void add_profiles(Picture& picture, const fit::FitSpec& spec, const fit::Estimat
   SolverRequest request;
   request.times = times;
   request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
-  SolverResult result = solve_with(spec.forward.method, *estimate.scene, request, spec.forward.options);
+  SolverResult result = solve(*estimate.scene, spec.forward.method, request);
   if (!result.summary.usable()) result.samples.assign(times.size() * kHeights, {std::nan(""), std::nan("")});
   picture.set("times", times);
   picture.set("fitted", spec.observations.quantity == Quantity::cumulative ? "M" : "phi");
@@ -67,8 +57,8 @@ void add_bed_heights(Picture& picture, const fit::FitSpec& spec, const fit::Esti
   double t_end = 0;
   for (const Observation& o : spec.observations.rows) t_end = std::max(t_end, o.t);
   if (!(t_end > 0)) t_end = 1;
-  const BedCourse course = bed_course(SolvedQuantity::bed_height, spec.forward.method, *estimate.scene,
-                                      equally_spaced(0, t_end, kTimes), spec.forward.options);
+  const BedCourse course = bed_course(SolvedQuantity::bed_height, *estimate.scene, spec.forward.method,
+                                      equally_spaced(0, t_end, kTimes));
   picture.add_file("fitted.csv", [&](OutputFile& file) { write_time_table_csv(file, course.table); });
 }
 
@@ -141,24 +131,24 @@ void add_maps(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
 }
 
 void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& estimate) {
-  const RateBand band = rate_band(fit::Parameters(spec.scene, spec.unknown), estimate);
+  const fit::RateBand band = fit::rate_band(fit::Parameters(spec.scene, spec.unknown), estimate);
   picture.set("is_rate_unknown", band.is_unknown);
   const bool is_scaled = estimate.scene->scale() != 1 || spec.scene.scale() != 1;
   picture.set("rate_symbol", is_scaled ? "{/:Italic s} {/:Italic a}" : "{/:Italic a}");
   // The shortest texts that read back: equal ends of a band are equal texts.
   picture.add_file("rate.csv", [&](OutputFile& file) {
     file.write("z,a,lower,upper\n");
-    for (const RateRow& row : band.rows)
+    for (const fit::RateRow& row : band.rows)
       file.write(
           csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
   });
   picture.add_file("start.csv", [&](OutputFile& file) {
     file.write("z,a\n");
-    for (const RateRow& row : band.start) file.write(csv_row({row.z, row.a}));
+    for (const fit::RateRow& row : band.start) file.write(csv_row({row.z, row.a}));
   });
   picture.add_file("interfaces.csv", [&](OutputFile& file) {
     file.write("z_lower,z_upper,a_lower,a_upper\n");
-    for (const InterfaceBand& at : band.interfaces)
+    for (const fit::InterfaceBand& at : band.interfaces)
       file.write(csv_row({at.z.low, at.z.high, at.a.low, at.a.high}));
   });
 }

@@ -8,10 +8,8 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/method.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -117,8 +115,8 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
   return picture.draw();
 }
 
-int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
-                  const std::vector<double>& times, const SolverOptions& options) {
+int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
+                  const std::vector<double>& times) {
   SolverRequest request;
   request.times = times;
   request.heights = equally_spaced(scene.bottom(), scene.top(), kProfileHeights);
@@ -129,20 +127,19 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, std::stri
   set_scene(picture, scene);
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
-  picture.add_file("profiles.csv", write(solve_with(method, scene, request, options)));
-  const bool compare = !guarantees_of(method).exact;
-  const SolverResult exact = compare ? ExactSolver::solve(scene, request, options) : SolverResult{};
+  picture.add_file("profiles.csv", write(solve(scene, method, request)));
+  const bool compare = !method.guarantees().exact;
+  const SolverResult exact = compare ? solve<ExactSolver>(scene, request) : SolverResult{};
   picture.set("has_exact", exact.summary.usable());
   if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));
   return picture.draw();
 }
 
-int draw_map(const std::string& path, const Scene<double>& scene, std::string_view method, double t_end,
-             const SolverOptions& options) {
+int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end) {
   SolverRequest request;
   request.times = equally_spaced(0, t_end, kMapTimes);
   request.heights = equally_spaced(scene.bottom(), scene.top(), kMapHeights);
-  const SolverResult result = solve_with(method, scene, request, options);
+  const SolverResult result = solve(scene, method, request);
   if (!result.summary.usable()) return report_unusable(result.summary);
   Picture picture(path, "map");
   set_scene(picture, scene);
@@ -160,15 +157,12 @@ int draw_map(const std::string& path, const Scene<double>& scene, std::string_vi
   return picture.draw();
 }
 
-int draw_bed_course(const std::string& path, const Scene<double>& scene, std::string_view method,
-                    const BedCourse& course, const SolverOptions& options) {
+int draw_bed_course(const std::string& path, const Scene<double>& scene, const Method& method,
+                    const BedCourse& course) {
   constexpr std::size_t kMostPoints = 60;
-  double t_end = 0;
-  for (const double t : course.table.times)
-    if (std::isfinite(t)) t_end = std::max(t_end, t);
+  double t_end = last_time(course.table.times);
   if (!(t_end > 0)) t_end = 1;
-  const BedCourse fine =
-      bed_course(course.quantity, method, scene, equally_spaced(0, t_end, kCourseTimes), options);
+  const BedCourse fine = bed_course(course.quantity, scene, method, equally_spaced(0, t_end, kCourseTimes));
   Picture picture(path, "bed");
   set_scene(picture, scene);
   picture.set("quantity", course.table.columns.back());

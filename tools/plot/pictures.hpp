@@ -8,7 +8,7 @@
 #include "plot/picture.hpp"
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 /// The pictures of the program, each by the template of its name. All return an exit code.
 namespace shearfront::tools {
@@ -20,16 +20,15 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 
 /// Profiles at some times; a method that is not exact gets the exact profile as a thin line on top
 /// (profiles.gp).
-int draw_profiles(const std::string& path, const Scene<double>& scene, std::string_view method,
-                  const std::vector<double>& times, const SolverOptions& options);
+int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
+                  const std::vector<double>& times);
 
 /// phi over t (from 0) and z (map.gp).
-int draw_map(const std::string& path, const Scene<double>& scene, std::string_view method, double t_end,
-             const SolverOptions& options);
+int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end);
 
 /// Mixing or bed height against time up to the last time (bed.gp).
-int draw_bed_course(const std::string& path, const Scene<double>& scene, std::string_view method,
-                    const BedCourse& course, const SolverOptions& options);
+int draw_bed_course(const std::string& path, const Scene<double>& scene, const Method& method,
+                    const BedCourse& course);
 
 /// The observations beside what the estimate predicts, s a(z) with its 95 % band, and the course of the
 /// search (fit.gp). Without a usable estimate no picture, one line on standard error and kNoResult.

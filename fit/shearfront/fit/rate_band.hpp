@@ -6,18 +6,18 @@
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/parameters.hpp"
 
-namespace shearfront::tools {
+namespace shearfront::fit {
 
 /// s a at a height, with its 95 % interval: its ends are equal where no unknown has a part in s a; empty
 /// where one that has no error bar has.
 struct RateRow {
   double z = 0, a = 0;
-  std::optional<fit::Interval> band;
+  std::optional<Interval> band;
 };
 
 /// Where an interface lies with 95 %, and the span of s a on both sides of it.
 struct InterfaceBand {
-  fit::Interval z, a;
+  Interval z, a;
 };
 
 /// s a(z) of an estimate with its pointwise 95 % band, by linear propagation of the covariance of the
@@ -34,6 +34,6 @@ struct RateBand {
   bool is_unknown = false;  ///< whether anything about a or s was
 };
 
-[[nodiscard]] RateBand rate_band(const fit::Parameters& parameters, const fit::Estimate& estimate);
+[[nodiscard]] RateBand rate_band(const Parameters& parameters, const Estimate& estimate);
 
-}  // namespace shearfront::tools
+}  // namespace shearfront::fit

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plot/rate_band.hpp"
+#include "shearfront/fit/rate_band.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
-#include "cli/arguments.hpp"
-
-namespace shearfront::tools {
+namespace shearfront::fit {
 namespace {
 
 constexpr std::size_t kHeights = 201;
@@ -22,9 +20,9 @@ double rate_at(const SceneSpec<double>& spec, double z) {
 
 /// The number of standard errors behind the confidence intervals; that of a normal distribution if none has
 /// one.
-double quantile_of(const fit::Estimate& estimate, const fit::Parameters& parameters) {
+double quantile_of(const Estimate& estimate, const Parameters& parameters) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const fit::ParameterEstimate& p = estimate.parameters[i];
+    const ParameterEstimate& p = estimate.parameters[i];
     if (!p.ci95 || !p.std_error || !(*p.std_error > 0)) continue;
     const double q = parameters[i].entry.range == Range::positive
                          ? std::log(p.ci95->high / p.estimate) * p.estimate / *p.std_error
@@ -51,8 +49,9 @@ std::vector<Place> places_of(const Scene<double>& scene) {
     }
     return places;
   }
-  const std::vector<double> more = equally_spaced(scene.bottom(), scene.top(), kHeights);
-  knots.insert(knots.end(), more.begin(), more.end());
+  for (std::size_t i = 0; i < kHeights; ++i)
+    knots.push_back(scene.bottom() +
+                    (scene.top() - scene.bottom()) * static_cast<double>(i) / (kHeights - 1));
   std::sort(knots.begin(), knots.end());
   for (const double z : knots) places.push_back({z, z});
   return places;
@@ -70,7 +69,7 @@ struct Direction {
   }
 };
 
-std::vector<Direction> directions_of(const fit::Parameters& parameters, const fit::Estimate& estimate) {
+std::vector<Direction> directions_of(const Parameters& parameters, const Estimate& estimate) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i)
     values[static_cast<Eigen::Index>(i)] = estimate.parameters[i].estimate;
@@ -87,8 +86,8 @@ std::vector<Direction> directions_of(const fit::Parameters& parameters, const fi
   return directions;
 }
 
-std::optional<fit::Interval> band_at(double z, double rate, const std::vector<Direction>& directions,
-                                     const fit::Estimate& estimate, double quantile) {
+std::optional<Interval> band_at(double z, double rate, const std::vector<Direction>& directions,
+                                const Estimate& estimate, double quantile) {
   std::vector<std::pair<Eigen::Index, double>> parts;  // slopes times standard errors
   for (const Direction& d : directions) {
     const double slope = d.slope(z);
@@ -102,12 +101,12 @@ std::optional<fit::Interval> band_at(double z, double rate, const std::vector<Di
     for (const auto& [j, b] : parts)
       if (a != 0 && b != 0) variance += a * estimate.correlation(i, j) * b;
   const double factor = std::exp(quantile * std::sqrt(std::max(variance, 0.0)));
-  return fit::Interval{rate / factor, std::min(rate * factor, std::numeric_limits<double>::max())};
+  return Interval{rate / factor, std::min(rate * factor, std::numeric_limits<double>::max())};
 }
 
 }  // namespace
 
-RateBand rate_band(const fit::Parameters& parameters, const fit::Estimate& estimate) {
+RateBand rate_band(const Parameters& parameters, const Estimate& estimate) {
   RateBand result;
   const Scene<double>& scene = *estimate.scene;
   const std::vector<Direction> directions = directions_of(parameters, estimate);
@@ -124,7 +123,7 @@ RateBand rate_band(const fit::Parameters& parameters, const fit::Estimate& estim
     result.is_unknown = result.is_unknown || entry.field.starts_with("shear_rate.");
     if (!scene.is_layered() || entry.field != "shear_rate.breaks" || !estimate.parameters[i].ci95) continue;
     const RateRow &below = result.rows[2 * entry.index + 1], &above = result.rows[2 * entry.index + 2];
-    const auto span = [](const RateRow& row) { return row.band.value_or(fit::Interval{row.a, row.a}); };
+    const auto span = [](const RateRow& row) { return row.band.value_or(Interval{row.a, row.a}); };
     result.interfaces.push_back(
         {*estimate.parameters[i].ci95,
          {std::min(span(below).low, span(above).low), std::max(span(below).high, span(above).high)}});
@@ -132,4 +131,4 @@ RateBand rate_band(const fit::Parameters& parameters, const fit::Estimate& estim
   return result;
 }
 
-}  // namespace shearfront::tools
+}  // namespace shearfront::fit
