@@ -20,8 +20,8 @@ class MethodArguments {
  public:
   void add_to(CLI::App& app);
 
-  /// The solver with its options. Those that only other solvers have are checked and change nothing, which is
-  /// said on standard error. Errors: InputError for the first option with a value that is not allowed.
+  /// The solver with its options. Those that only other solvers have are checked and change nothing, which is said on
+  /// standard error. Errors: InputError for the first option with a value that is not allowed.
   [[nodiscard]] Method method() const;
   /// Whether an option was given.
   [[nodiscard]] bool has(std::string_view option) const;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
+#include "shearfront/io/method_text.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -28,8 +31,7 @@ using detail::TomlSource;
 using Need = TableReader::Need;
 
 constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'000'000,
-                             kMostReplicates = 1'000'000, kMostThreads = 1024, kMostLayers = 1'000'000,
-                             kMostCells = 100'000'000,
+                             kMostReplicates = 1'000'000, kMostThreads = 1024,
                              kLargestSeed =
                                  9'007'199'254'740'991;  // exact in a double, and so for every program
 
@@ -66,6 +68,7 @@ class FitReader {
     const auto name = root.text("name", Need::optional, "must be text");
     const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
     const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
+    if (scene_path) load("scene", *scene_path, [&] { scene_ = read_scene<double>(*scene_path); });
     if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
       unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
@@ -76,7 +79,6 @@ class FitReader {
       uncertainty(*table);
     root.finish();
 
-    if (scene_path) load("scene", *scene_path, [&] { scene_ = read_scene<double>(*scene_path); });
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
     if (data_path)
@@ -132,38 +134,40 @@ class FitReader {
   }
 
   void forward(TableReader& table) {
-    SolverOptions& options = forward_.options;
-    if (auto name = table.choice("method", Need::optional, forward_names())) forward_.method = *name;
-    number_from_0_to_1(table, "resolution", options.resolution);
-    if (const auto n = table.count("layers", Need::optional, 1, kMostLayers))
-      options.layers = static_cast<std::size_t>(*n);
-    if (const auto n = table.count("cells", Need::optional, 1, kMostCells))
-      options.cells = static_cast<std::size_t>(*n);
-    number_from_0_to_1(table, "cfl", options.cfl);
-    choose(table, "limiter", kLimiterNames, options.limiter);
-    choose(table, "face_coefficient", kFaceCoefficientNames, options.face_coefficient);
-    options.align_cells = table.boolean("align_cells", Need::optional).value_or(false);
-    options.local_steps = table.boolean("local_steps", Need::optional).value_or(false);
-    choose(table, "grid", kGridNames, options.grid);
-    choose(table, "reconstruct", kReconstructionNames, options.reconstruct);
-    table.number("time_step", Need::optional, options.time_step);
-    if (table.is_good("time_step") && !(options.time_step > 0 && std::isfinite(options.time_step)))
-      add({table.path("time_step"), "", "must be > 0"});
-    number_from_0_to_1(table, "tolerance", options.tolerance);
-    options.monotone = table.boolean("monotone", Need::optional).value_or(false);
+    if (auto name = table.choice("method", Need::optional, Method::names())) forward_.method = Method(*name);
+    if (scene_) forward_.method.prefer_smooth(*scene_);
+    std::vector<std::string> known;
+    read_options(table, forward_.method, known);
+    // Those of other solvers are checked and change nothing, as on the command line.
+    for (const std::string& name : Method::names()) {
+      Method other(name);
+      read_options(table, other, known);
+    }
     table.finish();
   }
 
-  /// An enumerator by its name; `names` are in the order of the enumerators.
-  template <class Names, class Enum>
-  void choose(TableReader& table, std::string_view key, const Names& names, Enum& value) {
-    if (const auto name = table.choice(key, Need::optional, strings(names)))
-      value = static_cast<Enum>(std::find(names.begin(), names.end(), *name) - names.begin());
-  }
-
-  void number_from_0_to_1(TableReader& table, std::string_view key, double& value) {
-    table.number(key, Need::optional, value);
-    if (table.is_good(key) && !(value > 0 && value <= 1)) add({table.path(key), "", "must be > 0 and <= 1"});
+  /// The options of a method that are not `known` yet.
+  void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
+    method.visit_options([&]<class Member>(const OptionInfo& info, Member& member) {
+      std::string key(info.name);
+      std::replace(key.begin(), key.end(), '-', '_');
+      if (std::find(known.begin(), known.end(), key) != known.end()) return;
+      known.push_back(key);
+      if constexpr (std::same_as<Member, bool>) {
+        member = table.boolean(key, Need::optional).value_or(member);
+      } else if constexpr (std::is_enum_v<Member>) {
+        if (const auto name = table.choice(key, Need::optional, strings(info.names)))
+          member = static_cast<Member>(std::find(info.names.begin(), info.names.end(), *name) - info.names.begin());
+      } else if constexpr (std::same_as<Member, std::uint64_t>) {
+        const auto low = static_cast<unsigned long long>(info.range.low);
+        const auto high = static_cast<unsigned long long>(info.range.high);
+        member = table.count(key, Need::optional, low, high).value_or(member);
+      } else {
+        table.number(key, Need::optional, member);
+        if (table.is_good(key) && !info.range.contains(member))
+          add({table.path(key), "", "must be " + allowed_text(info.range)});
+      }
+    });
   }
 
   void misfit(TableReader& table) {

@@ -8,7 +8,7 @@
 
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/observation.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/solver/method.hpp"
 
 /// What a fit file says, one struct per table of the file.
 namespace shearfront::fit {
@@ -28,18 +28,9 @@ struct UnknownSpec {
   Shape shape = Shape::none;
 };
 
-/// [forward]: the solver that predicts the observations; names and settings as on the command line.
+/// [forward]: the solver that predicts the observations, by name and options as on the command line.
 struct ForwardSpec {
-  std::string method = "exact";
-  SolverOptions options = linear_between_fronts();
-
-  /// States constant between fronts have no derivative in the parameters; the lines through them do, and are
-  /// closer to the solution.
-  [[nodiscard]] static SolverOptions linear_between_fronts() {
-    SolverOptions options;
-    options.reconstruct = Reconstruction::linear;
-    return options;
-  }
+  Method method;
 };
 
 /// [misfit]: what is compared, and how residuals count.

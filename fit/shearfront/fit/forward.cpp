@@ -2,234 +2,105 @@
 #include "shearfront/fit/forward.hpp"
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
-#include "shearfront/fit/diffusion_forward.hpp"
-#include "shearfront/exact/refusal.hpp"
-#include "shearfront/exact/sensitivities.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/observation.hpp"
-#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront::fit {
-namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The part of a gradient that belongs to a field of the scene file; empty if there is none.
-std::span<const double> part_of(const Gradient<double>& gradient, std::string_view field) {
-  if (field == "shear_rate.values") return gradient.shear_rate_values();
-  if (field == "shear_rate.breaks") return gradient.shear_rate_breaks();
-  if (field == "shear_rate.amplitude") return {&gradient.amplitude, 1};
-  if (field == "shear_rate.decay") return {&gradient.decay, 1};
-  if (field == "shear_rate.scale") return {&gradient.scale, 1};
-  if (field == "initial.breaks") return gradient.initial_breaks();
-  if (field == "initial.values") return gradient.initial_values();
-  return {};
-}
-
-class ForwardModel : public Forward {
- public:
-  ForwardModel(const Parameters& parameters, Observable field, std::vector<Point> points)
-      : parameters_(parameters), field_(field), points_(std::move(points)) {}
-
- protected:
-  [[nodiscard]] Index n_points() const { return static_cast<Index>(points_.size()); }
-
-  Parameters parameters_;
-  Observable field_;
-  std::vector<Point> points_;
-};
-
-class ExactForward final : public ForwardModel {
- public:
-  ExactForward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
-               std::vector<Point> points)
-      : ForwardModel(parameters, field, std::move(points)), layers_(forward.options.layers) {
-    const ExactSolution<double> solution(parameters.scene(), {layers_});
-    if (!sensitivity_refusal(solution).empty()) {
-      has_derivatives_ = false;
-      return;
-    }
-    const auto probe = sensitivities(solution, parameters.scene().bottom(), 0.0);
-    for (const Parameter& p : parameters)
-      has_derivatives_ = has_derivatives_ && p.entry.index < part_of(probe.M, p.entry.field).size();
-  }
-
-  [[nodiscard]] bool has_derivatives() const override { return has_derivatives_; }
-  [[nodiscard]] double smallest_step() const override { return 1e-6; }
-
-  [[nodiscard]] Prediction predict(const VectorXd& values, bool with_derivatives) const override {
-    Prediction prediction;
-    const auto found = parameters_.scene_at(values, prediction.failure);
-    if (!found) return prediction;
-    const Scene<double>& scene = *found;
-    if (std::string reason = exact::refusal(scene); !reason.empty()) {
-      prediction.failure = std::move(reason);
-      return prediction;
-    }
-    const ExactSolution<double> solution(scene, {layers_});
-    prediction.values.resize(n_points());
-    if (with_derivatives) prediction.derivatives.resize(n_points(), values.size());
-    for (Index i = 0; i < n_points(); ++i) {
-      const Point& point = points_[static_cast<std::size_t>(i)];
-      if (!with_derivatives) {
-        const auto at = solution.at(point.z, point.t);
-        prediction.values[i] = field_ == Observable::phi ? at.phi : at.M;
-        continue;
-      }
-      const auto at = sensitivities(solution, point.z, point.t);
-      prediction.values[i] = field_ == Observable::phi ? at.value.phi : at.value.M;
-      const Gradient<double>& gradient = field_ == Observable::phi ? at.phi : at.M;
-      Index column = 0;
-      for (const Parameter& p : parameters_)
-        prediction.derivatives(i, column++) = part_of(gradient, p.entry.field)[p.entry.index];
-    }
-    return prediction;
-  }
-
- private:
-  std::size_t layers_;
-  bool has_derivatives_ = true;
-};
-
-using Solve = SolverResult (*)(const Scene<double>&, const SolverRequest&, const SolverOptions&);
-
-/// Points of which some have the same time, or height: positions among the distinct ones.
-std::size_t position(const std::vector<double>& xs, double x) {
-  return static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
-}
-void keep_distinct(std::vector<double>& xs) {
-  std::sort(xs.begin(), xs.end());
-  xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
-}
-
-/// Heights of the bed, by any solver.
-class BedHeightForward final : public ForwardModel {
- public:
-  BedHeightForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, bool is_exact,
-                   std::vector<Point> points)
-      : ForwardModel(parameters, Observable::bed_height, std::move(points)),
-        solve_(solve),
-        options_(forward.options),
-        is_exact_(is_exact) {
-    for (const Point& point : points_) times_.push_back(point.t);
-    keep_distinct(times_);
-  }
-
-  [[nodiscard]] bool has_derivatives() const override { return false; }
-  [[nodiscard]] double smallest_step() const override { return is_exact_ ? 1e-6 : 1e-3; }
-
-  [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
-    Prediction prediction;
-    const auto found = parameters_.scene_at(values, prediction.failure);
-    if (!found) return prediction;
-    const Scene<double>& scene = *found;
-    const BedHeight bed(scene);
-    SolverRequest request;
-    request.times = times_;
-    request.integrand = bed.integrand();
-    const SolverResult result = solve_(scene, request, options_);
-    if (!result.summary.usable()) {
-      prediction.failure = result.summary.message;
-      return prediction;
-    }
-    prediction.values.resize(n_points());
-    for (Index i = 0; i < n_points(); ++i)
-      prediction.values[i] =
-          bed.height(result.integrals[position(times_, points_[static_cast<std::size_t>(i)].t)]);
-    return prediction;
-  }
-
- private:
-  Solve solve_;
-  SolverOptions options_;
-  bool is_exact_;
-  std::vector<double> times_;
-};
-
-class SolverForward final : public ForwardModel {
- public:
-  SolverForward(const Parameters& parameters, const ForwardSpec& forward, Solve solve, Observable field,
-                std::vector<Point> points)
-      : ForwardModel(parameters, field, std::move(points)), solve_(solve), options_(forward.options) {
-    // M of the states themselves is of second order and varies more smoothly than M of the lines through
-    // them.
-    if (field == Observable::M) options_.reconstruct = Reconstruction::constant;
-    for (const Point& point : points_) {
-      request_.times.push_back(point.t);
-      request_.heights.push_back(point.z);
-    }
-    keep_distinct(request_.times);
-    keep_distinct(request_.heights);
-    for (const Point& point : points_)
-      samples_.push_back(position(request_.times, point.t) * request_.heights.size() +
-                         position(request_.heights, point.z));
-  }
-
-  [[nodiscard]] bool has_derivatives() const override { return false; }
-  [[nodiscard]] double smallest_step() const override { return 1e-3; }
-
-  [[nodiscard]] Prediction predict(const VectorXd& values, bool /*with_derivatives*/) const override {
-    Prediction prediction;
-    const auto scene = parameters_.scene_at(values, prediction.failure);
-    if (!scene) return prediction;
-    const SolverResult result = solve_(*scene, request_, options_);
-    if (!result.summary.usable()) {
-      prediction.failure = result.summary.message;
-      return prediction;
-    }
-    prediction.values.resize(n_points());
-    for (Index i = 0; i < n_points(); ++i) {
-      const Sample& sample = result.samples[samples_[static_cast<std::size_t>(i)]];
-      prediction.values[i] = field_ == Observable::phi ? sample.phi : sample.M;
-    }
-    return prediction;
-  }
-
- private:
-  Solve solve_;
-  SolverOptions options_;
-  SolverRequest request_;
-  std::vector<std::size_t> samples_;  ///< of each point among the samples of the solver
-};
-
-}  // namespace
-
-std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward, Observable field,
-                                      std::vector<Point> points) {
-  if (field == Observable::bed_height)
-    if (const std::string reason = BedHeight::refusal(parameters.scene()); !reason.empty())
+Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Observable observable,
+                 std::vector<Place> places)
+    : parameters_(parameters),
+      method_(forward.method),
+      observable_(observable),
+      places_(std::move(places)),
+      entries_(parameters.entries()) {
+  const Scene<double> scene(parameters.scene_with(parameters.start()));
+  if (observable == Observable::bed_height)
+    if (const std::string reason = BedHeight::refusal(scene); !reason.empty())
       throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),
                        "must suit the scene: " + reason);
-  std::unique_ptr<Forward> model;
-  SolverList::for_each([&]<class S>() {
-    if (forward.method != S::kName) return;
-    constexpr bool kIsExact = std::is_same_v<S, ExactSolver>;
-    if constexpr (kIsExact)
-      if (const std::string reason = exact::refusal(parameters.scene()); !reason.empty())
-        throw InputError("forward.method", quoted_text(forward.method), "must suit the scene: " + reason);
-    if (field == Observable::bed_height)
-      model = std::make_unique<BedHeightForward>(parameters, forward, &S::solve, kIsExact, std::move(points));
-    else if constexpr (kIsExact)
-      model = std::make_unique<ExactForward>(parameters, forward, field, std::move(points));
-    else if constexpr (std::is_same_v<S, CrankNicolsonSolver>)
-      model = std::make_unique<DiffusionForward>(parameters, forward, field, std::move(points));
-    else
-      model = std::make_unique<SolverForward>(parameters, forward, &S::solve, field, std::move(points));
-  });
-  if (!model)
-    throw InputError("forward.method", quoted_text(forward.method), "must be one of: " + SolverList::names());
-  return model;
+  if (observable == Observable::M) method_.prefer_amounts();
+  if (const std::string reason = method_.refusal(scene); !reason.empty())
+    throw InputError("forward.method", quoted_text(method_.name()), "must suit the scene: " + reason);
+  is_smooth_ = method_.guarantees().exact;
+  if (observable == Observable::bed_height) {
+    for (const Place& place : places_) times_.push_back(place.t);
+    std::sort(times_.begin(), times_.end());
+    times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
+    return;
+  }
+  const std::vector<Entry> all = shearfront::entries(scene.spec());
+  const auto has_derivative = [&](const Entry& entry) { return method_.has_derivative(scene, entry); };
+  has_derivatives_ =
+      std::all_of(entries_.begin(), entries_.end(), [&](std::size_t i) { return has_derivative(all[i]); });
+  can_linearise_ = has_derivatives_ || std::any_of(all.begin(), all.end(), has_derivative);
+  is_smooth_ = is_smooth_ || can_linearise_;
 }
 
-std::vector<std::string> forward_names() {
-  std::vector<std::string> names;
-  SolverList::for_each([&]<class S>() { names.emplace_back(S::kName); });
-  return names;
+Prediction Forward::predict(const VectorXd& values, bool with_derivatives) const {
+  Prediction prediction;
+  const auto scene = parameters_.scene_at(values, prediction.failure);
+  if (!scene) return prediction;
+  if (prediction.failure = method_.refusal(*scene); !prediction.is_valid()) return prediction;
+  if (observable_ == Observable::bed_height)
+    predict_heights(*scene, prediction);
+  else
+    predict_samples(*scene, with_derivatives && has_derivatives_, prediction);
+  return prediction;
+}
+
+void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const {
+  if (!can_linearise_) {
+    const PlaceSamples result = sample(scene, method_, places_);
+    if (!result.summary.usable()) prediction.failure = result.summary.message;
+    return take(result.samples, prediction);
+  }
+  const std::vector<std::size_t> none;
+  const Linearisation result = method_.linearise(scene, places_, with_derivatives ? entries_ : none, memory_);
+  if (!result.summary.usable()) {
+    prediction.failure = result.summary.message;
+    return;
+  }
+  take(result.samples, prediction);
+  if (!with_derivatives) return;
+  const std::size_t n = entries_.size();
+  prediction.derivatives.resize(static_cast<Index>(places_.size()), static_cast<Index>(n));
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    for (std::size_t k = 0; k < n; ++k) {
+      const Sample& d = result.derivatives[i * n + k];
+      prediction.derivatives(static_cast<Index>(i), static_cast<Index>(k)) =
+          observable_ == Observable::phi ? d.phi : d.M;
+    }
+}
+
+void Forward::predict_heights(const Scene<double>& scene, Prediction& prediction) const {
+  const BedHeight bed(scene);
+  SolverRequest request;
+  request.times = times_;
+  request.integrand = bed.integrand();
+  const SolverResult result = solve(scene, method_, request);
+  if (!result.summary.usable()) {
+    prediction.failure = result.summary.message;
+    return;
+  }
+  prediction.values.resize(static_cast<Index>(places_.size()));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto at = std::lower_bound(times_.begin(), times_.end(), places_[i].t) - times_.begin();
+    prediction.values[static_cast<Index>(i)] = bed.height(result.integrals[static_cast<std::size_t>(at)]);
+  }
+}
+
+void Forward::take(const std::vector<Sample>& samples, Prediction& prediction) const {
+  prediction.values.resize(static_cast<Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    prediction.values[static_cast<Index>(i)] = observable_ == Observable::phi ? samples[i].phi : samples[i].M;
 }
 
 }  // namespace shearfront::fit

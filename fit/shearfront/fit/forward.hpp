@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
-#include <memory>
+#include <any>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "shearfront/fit/parameters.hpp"
+#include "shearfront/solver/method.hpp"
 
 namespace shearfront::fit {
 
-/// A place where the solution is wanted.
-struct Point {
-  double t = 0, z = 0;
-  friend auto operator<=>(const Point&, const Point&) = default;
-};
-
-/// What the observations are made of. The height of the bed has no place in it: z of its points does not
+/// What the observations are made of. The height of the bed has no place in it: z of its places does not
 /// matter.
 enum class Observable { phi, M, bed_height };
 
-/// Values at the points and, if asked for, their derivatives: row = point, column = parameter.
+/// Values at the places and, if asked for, their derivatives: row = place, column = parameter.
 struct Prediction {
   Eigen::VectorXd values;
   Eigen::MatrixXd derivatives;
@@ -28,27 +22,37 @@ struct Prediction {
   [[nodiscard]] bool is_valid() const { return failure.empty(); }
 };
 
-/// The solution at fixed points as a function of the parameters, by any solver of SolverList.
+/// The solution at fixed places as a function of the parameters, by any solver.
+///
+/// Derivatives come from solvers that can differentiate (DifferentiableSolver), if they can for every parameter; others
+/// are differentiated numerically by the caller (numeric_step.hpp). Not for use by several threads at once.
 class Forward {
  public:
-  virtual ~Forward() = default;
+  /// Errors: InputError (forward.method, misfit.quantity) if the method does not solve the scene at the start values.
+  Forward(const Parameters& parameters, const ForwardSpec& forward, Observable observable,
+          std::vector<Place> places);
+
   /// Whether predict() gives derivatives, exact up to rounding.
-  [[nodiscard]] virtual bool has_derivatives() const = 0;
+  [[nodiscard]] bool has_derivatives() const { return has_derivatives_; }
   /// No numeric differentiation below this step: what a grid or a polygonal flux adds to the solution jumps
   /// when a cell, a time step or a level appears.
-  [[nodiscard]] virtual double smallest_step() const = 0;
-  [[nodiscard]] virtual Prediction predict(const Eigen::VectorXd& values, bool with_derivatives) const = 0;
+  [[nodiscard]] double smallest_step() const { return is_smooth_ ? 1e-6 : 1e-3; }
+  /// Cost: one run of the solver.
+  [[nodiscard]] Prediction predict(const Eigen::VectorXd& values, bool with_derivatives) const;
+
+ private:
+  void take(const std::vector<Sample>& samples, Prediction& prediction) const;
+  void predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const;
+  void predict_heights(const Scene<double>& scene, Prediction& prediction) const;
+
+  Parameters parameters_;
+  Method method_;
+  Observable observable_;
+  std::vector<Place> places_;
+  std::vector<double> times_;         ///< of the places, each once, ascending
+  std::vector<std::size_t> entries_;  ///< of the parameters among those of the scene
+  bool has_derivatives_ = false, can_linearise_ = false, is_smooth_ = false;
+  mutable std::any memory_;  ///< of the solver, from one set of values to the next
 };
-
-/// The forward model for these points. The exact solver gives derivatives if every parameter is one of
-/// shear_rate.values, .breaks, .amplitude, .decay, .scale, initial.breaks, initial.values; crank-nicolson for
-/// those of DiffusionForward; other solvers and parameters are differentiated numerically by the caller
-/// (numeric_step.hpp).
-/// Errors: InputError if there is no solver of this name. Cost of predict(): one run of the solver.
-[[nodiscard]] std::unique_ptr<Forward> make_forward(const Parameters& parameters, const ForwardSpec& forward,
-                                                    Observable field, std::vector<Point> points);
-
-/// Names of the solvers a fit may use.
-[[nodiscard]] std::vector<std::string> forward_names();
 
 }  // namespace shearfront::fit

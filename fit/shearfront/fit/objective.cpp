@@ -31,7 +31,7 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
       rows_(std::move(rows)),
       loss_(loss),
       control_(&control),
-      forward_(make_forward(parameters, forward, rows_.field, rows_.points)) {}
+      forward_(parameters, forward, rows_.field, rows_.points) {}
 
 void Objective::set_loss(Loss loss) {
   loss_ = loss;
@@ -51,7 +51,7 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   const VectorXd values = coordinates_->values(u);
   if (!values.allFinite() || !parameters_->within_bounds(values)) return at;
   const bool exact = with_jacobian && has_derivatives();
-  const Prediction prediction = forward_->predict(values, exact);
+  const Prediction prediction = forward_.predict(values, exact);
   at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
@@ -81,7 +81,7 @@ void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* con
     if (control) control->count(std::numeric_limits<double>::infinity());
     return there.is_valid ? there.residuals : VectorXd();
   };
-  if (step_.size() == 0) step_ = numeric_steps(residuals, u, at.residuals, forward_->smallest_step());
+  if (step_.size() == 0) step_ = numeric_steps(residuals, u, at.residuals, forward_.smallest_step());
   at.jacobian.resize(at.residuals.size(), u.size());
   if (!control) at.column_error = VectorXd::Zero(u.size());
   for (Index j = 0; j < u.size(); ++j) {

@@ -51,9 +51,9 @@ class Objective {
   [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }
   [[nodiscard]] const ResidualRows& rows() const { return rows_; }
   [[nodiscard]] const Loss& loss() const { return loss_; }
-  [[nodiscard]] const Forward& forward() const { return *forward_; }
+  [[nodiscard]] const Forward& forward() const { return forward_; }
   [[nodiscard]] RunControl& control() const { return *control_; }
-  [[nodiscard]] bool has_derivatives() const { return forward_->has_derivatives(); }
+  [[nodiscard]] bool has_derivatives() const { return forward_.has_derivatives(); }
   void set_loss(Loss loss);
   /// Adds the residuals tether * (u - centre): keeps directions the data hardly see near the centre.
   void set_tether(Eigen::VectorXd centre, double tether);
@@ -71,7 +71,7 @@ class Objective {
   RunControl* control_;
   Eigen::VectorXd centre_;
   double tether_ = 0;
-  std::unique_ptr<Forward> forward_;
+  Forward forward_;
   mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
   Eigen::VectorXd last_u_;
   Evaluation last_;

@@ -49,7 +49,7 @@ Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
 }
 
 void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
-  const std::vector<Entry> all = entries(scene_.spec());
+  const std::vector<Entry> all = shearfront::entries(scene_.spec());
   std::set<std::size_t> taken;
   if (unknown.parameters.empty())
     complaints.push_back({"unknown.parameters", count_text(0),
@@ -132,7 +132,7 @@ void Parameters::check_shape(Complaints& complaints) const {
   if (shape_ == Shape::none) return;
   const std::string name = shape_ == Shape::decreasing ? "\"decreasing\"" : "\"convex\"";
   std::size_t n_values = 0;
-  for (const Entry& entry : entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
+  for (const Entry& entry : shearfront::entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
   std::vector<double> values;
   for (const Parameter& p : parameters_)
     if (p.entry.field == "shear_rate.values") {

@@ -39,6 +39,8 @@ class Parameters {
   [[nodiscard]] auto end() const { return parameters_.end(); }
   [[nodiscard]] Shape shape() const { return shape_; }
   [[nodiscard]] const Scene<double>& scene() const { return scene_; }
+  /// Place of each parameter among entries(scene().spec()).
+  [[nodiscard]] const std::vector<std::size_t>& entries() const { return places_; }
   [[nodiscard]] Eigen::VectorXd start() const;
   /// Whether all values keep their bounds.
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;

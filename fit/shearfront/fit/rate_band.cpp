@@ -50,8 +50,7 @@ std::vector<Place> places_of(const Scene<double>& scene) {
     return places;
   }
   for (std::size_t i = 0; i < kHeights; ++i)
-    knots.push_back(scene.bottom() +
-                    (scene.top() - scene.bottom()) * static_cast<double>(i) / (kHeights - 1));
+    knots.push_back(std::lerp(scene.bottom(), scene.top(), static_cast<double>(i) / (kHeights - 1)));
   std::sort(knots.begin(), knots.end());
   for (const double z : knots) places.push_back({z, z});
   return places;

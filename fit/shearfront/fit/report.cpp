@@ -32,8 +32,8 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
     if (name_of(spec.observations.quantity) == M::kName)
       rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
-  const auto forward = make_forward(parameters, spec.forward, rows.field, rows.points);
-  const Prediction at = forward->predict(values, false);
+  const Forward forward(parameters, spec.forward, rows.field, rows.points);
+  const Prediction at = forward.predict(values, false);
   std::vector<double> predicted(spec.observations.rows.size(), kNaN);
   if (!at.is_valid()) return predicted;
   const VectorXd r = rows.residuals(at.values);
@@ -151,7 +151,7 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
                 const SearchResult& found) {
   Estimate estimate;
   estimate.name = spec.name;
-  estimate.method = spec.forward.method;
+  estimate.method = spec.forward.method.name();
   estimate.algorithm = spec.search.algorithm;
   estimate.status = found.status;
   estimate.message = found.message;

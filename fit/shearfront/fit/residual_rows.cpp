@@ -40,7 +40,7 @@ std::size_t RowBuilder::place(double t, double z) {
   const double slack = kSamePlace * std::max(std::abs(z), 1.0);
   const auto near = places_.lower_bound({t, z - slack});
   if (near != places_.end() && near->first.t == t && near->first.z <= z + slack) return near->second;
-  places_.emplace(Point{t, z}, rows_.points.size());
+  places_.emplace(Place{t, z}, rows_.points.size());
   rows_.points.push_back({t, z});
   return rows_.points.size() - 1;
 }

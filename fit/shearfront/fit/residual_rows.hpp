@@ -31,7 +31,7 @@ struct ResidualRows {
     double target = 0, weight = 1;
   };
   Observable field = Observable::phi;
-  std::vector<Point> points;
+  std::vector<Place> points;
   std::vector<Row> rows;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
@@ -68,7 +68,7 @@ class RowBuilder {
   const Observations* observations_;
   ResidualRows rows_;
   ResidualRows::Row row_;
-  std::map<Point, std::size_t> places_;
+  std::map<Place, std::size_t> places_;
 };
 
 /// The observations of one time, by ascending height.

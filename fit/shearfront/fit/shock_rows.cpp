@@ -52,16 +52,16 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
                                      const Observations& observations, const Eigen::VectorXd& values) {
   std::vector<bool> keep(observations.rows.size(), true);
   const auto near = neighbourhoods(observations, parameters.scene().bottom(), parameters.scene().top());
-  std::vector<Point> ends;
+  std::vector<Place> ends;
   for (const Neighbourhood& here : near) {
     ends.push_back({here.t, here.low});
     ends.push_back({here.t, here.high});
   }
   if (ends.empty()) return keep;
-  const Prediction at_ends = make_forward(parameters, forward, Observable::phi, ends)->predict(values, false);
+  const Prediction at_ends = Forward(parameters, forward, Observable::phi, ends).predict(values, false);
   if (!at_ends.is_valid()) return keep;
   std::vector<Neighbourhood> steep;
-  std::vector<Point> inside;
+  std::vector<Place> inside;
   for (std::size_t i = 0; i < near.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(2 * i);
     if (!(std::abs(at_ends.values[k + 1] - at_ends.values[k]) > kJump)) continue;
@@ -71,7 +71,7 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
           {near[i].t, near[i].low + (near[i].high - near[i].low) * static_cast<double>(part) / kParts});
   }
   if (inside.empty()) return keep;
-  const Prediction at = make_forward(parameters, forward, Observable::phi, inside)->predict(values, false);
+  const Prediction at = Forward(parameters, forward, Observable::phi, inside).predict(values, false);
   if (!at.is_valid()) return keep;
   for (std::size_t i = 0; i < steep.size(); ++i) {
     keep[steep[i].row] =

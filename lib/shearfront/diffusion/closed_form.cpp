@@ -16,7 +16,6 @@ namespace {
 
 using Result = std::variant<ClosedForm, std::string>;
 
-constexpr const char* kOther = "; use crank-nicolson";
 /// How far a width or a number of waves may be from the one meant: rounding of decimal numbers.
 constexpr double kRounding = 1e-12;
 
@@ -37,7 +36,7 @@ Result uniform_start(const Scene<double>& scene, double rate) {
   const auto& values = scene.initial_values();
   if (scene.spec().initial_state || !scene.has_walls() ||
       std::any_of(values.begin(), values.end(), [&](double phi) { return phi != values.front(); }))
-    return std::string("only beds that start uniform between walls, and kinks, have a closed form") + kOther;
+    return std::string("only beds that start uniform between walls, and kinks, have a closed form");
   const auto form = std::make_shared<UniformStart<double>>(
       scene.bottom(), scene.top(), rate, scene.diffusivity_at(scene.bottom()), values.front());
   return [form](double z, double t) {
@@ -51,9 +50,7 @@ Result travelling_kink(const Scene<double>& scene, const KinkInitial<double>& ki
   if (!scene.spec().is_neumann || rate < 0 || kink.above != 0 || !(kink.below > 0) ||
       !is_close(kink.width, D / (rate * kink.below)))
     return std::string(
-               "a kink has a closed form between Neumann ends, with above = 0 and width = D / (s a "
-               "below)") +
-           kOther;
+        "a kink has a closed form between Neumann ends, with above = 0 and width = D / (s a below)");
   const auto form =
       std::make_shared<Kink<double>>(scene.bottom(), rate, D, kink.centre, rate * (kink.below - 1));
   return [form](double z, double t) {
@@ -69,8 +66,7 @@ Result periodic_burgers(const Scene<double>& scene, double rate) {
   const double height = scene.top() - scene.bottom();
   const double waves = sine ? height / sine->wavelength : 0;
   if (!sine || !scene.spec().is_periodic || !(waves > 0.5) || !is_close(waves, std::round(waves)))
-    return std::string("Burgers' flux has a closed form in a periodic domain of whole waves of a sine") +
-           kOther;
+    return std::string("Burgers' flux has a closed form in a periodic domain of whole waves of a sine");
   // v = r u obeys Burgers' equation, in the frame that moves with the mean.
   const double wave_number = boost::math::constants::two_pi<double>() / sine->wavelength;
   const auto form = std::make_shared<PeriodicBurgers<double>>(scene.diffusivity_at(scene.bottom()),
@@ -88,16 +84,16 @@ Result periodic_burgers(const Scene<double>& scene, double rate) {
 
 Result closed_form(const Scene<double>& scene) {
   if (!scene.has_diffusion())
-    return std::string("grains do not diffuse in this bed (no D > 0); use exact or front-tracking");
+    return std::string("grains do not diffuse in this bed (no D > 0)");
   if (scene.fluxes().size() > 1 || scene.spec().solid_fraction || !has_constant_coefficients(scene))
-    return std::string("a closed form needs one flux, c = 1, and constant s a(z), T(z) and D(z)") + kOther;
+    return std::string("a closed form needs one flux, c = 1, and constant s a(z), T(z) and D(z)");
   const double rate = scene.scale() * scene.rate_at(scene.bottom());
   const Flux<double>& flux = scene.fluxes()[0];
   if (const auto* burgers = std::get_if<Burgers<double>>(&flux); burgers)
     return periodic_burgers(scene, rate);
   const auto* packed = std::get_if<Packed<double>>(&flux);
   if (!packed && !std::holds_alternative<Quadratic<double>>(flux))
-    return std::string("no closed form is known for this flux with diffusion") + kOther;
+    return std::string("no closed form is known for this flux with diffusion");
   const double signed_rate = packed && packed->grains == Grains::large ? -rate : rate;
   if (scene.spec().initial_state)
     if (const auto* kink = std::get_if<KinkInitial<double>>(&*scene.spec().initial_state))

@@ -2,7 +2,8 @@
 #include "shearfront/diffusion/cole_hopf_solver.hpp"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <chrono>
+#include <utility>
+#include <variant>
 
 #include "shearfront/diffusion/closed_form.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -10,46 +11,64 @@
 namespace shearfront {
 namespace {
 
-/// int g(phi) dz over the bed, c = 1: phi is analytic for t > 0.
-double integral_of(const diffusion::ClosedForm& form, const Scene<double>& scene, double t,
-                   const ShareFunction& g) {
-  constexpr unsigned kMostHalvings = 12;
-  constexpr double kTolerance = 1e-11;
-  return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-      [&](double z) { return g.value(form(z, t).phi); }, scene.bottom(), scene.top(), kMostHalvings,
-      kTolerance);
-}
+class ColeHopfField final : public Field {
+ public:
+  ColeHopfField(const Scene<double>& scene, diffusion::ClosedForm form) : scene_(scene), form_(std::move(form)) {}
+
+  double t = 0;
+
+  [[nodiscard]] Sample at(double z) const override {
+    const diffusion::ClosedFormValue value = form_(z, t);
+    return {value.phi, value.M};
+  }
+  /// c = 1, and phi is analytic for t > 0.
+  [[nodiscard]] double integral(const ShareFunction& g) const override {
+    constexpr unsigned kMostHalvings = 12;
+    constexpr double kTolerance = 1e-11;
+    return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+        [&](double z) { return g.value(form_(z, t).phi); }, scene_.bottom(), scene_.top(), kMostHalvings, kTolerance);
+  }
+
+ private:
+  const Scene<double>& scene_;
+  diffusion::ClosedForm form_;
+};
+
+class ColeHopfRun final : public Run {
+ public:
+  ColeHopfRun(const Scene<double>& scene, diffusion::ClosedForm form, Progress progress)
+      : progress_(std::move(progress)), field_(scene, std::move(form)) {}
+
+  Status advance(double t) override {
+    field_.t = t;
+    if (progress_ && !progress_(t, 0)) status_ = Status::interrupted;
+    return status_;
+  }
+  [[nodiscard]] const Field& field() override { return field_; }
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.message = status_ == Status::ok ? "exact to rounding" : "interrupted at t = " + number_text(field_.t);
+    return summary;
+  }
+
+ private:
+  Progress progress_;
+  ColeHopfField field_;
+  Status status_ = Status::ok;
+};
 
 }  // namespace
 
-SolverResult ColeHopfSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                   const SolverOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  SolverResult result;
+std::string ColeHopfSolver::refusal(const Scene<double>& scene, const Options&) {
   const auto found = diffusion::closed_form(scene);
-  if (const auto* why = std::get_if<std::string>(&found)) {
-    result.summary.status = Status::unsupported;
-    result.summary.message = *why;
-    return result;
-  }
-  const auto& form = std::get<diffusion::ClosedForm>(found);
-  result.summary.status = Status::ok;
-  result.summary.message = "exact to rounding";
-  for (const double t : request.times) {
-    if (options.progress && !options.progress(t, 0)) {
-      result.summary.status = Status::interrupted;
-      result.summary.message = "interrupted at t = " + number_text(t);
-      result.samples.clear(), result.integrals.clear();
-      break;
-    }
-    for (const double z : request.heights) {
-      const diffusion::ClosedFormValue at = form(z, t);
-      result.samples.push_back({at.phi, at.M});
-    }
-    if (request.integrand) result.integrals.push_back(integral_of(form, scene, t, request.integrand));
-  }
-  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  const auto* why = std::get_if<std::string>(&found);
+  return why ? *why : std::string();
+}
+
+std::unique_ptr<Run> ColeHopfSolver::start(const Scene<double>& scene, const Options&, const Watch& watch) {
+  return std::make_unique<ColeHopfRun>(scene, std::get<diffusion::ClosedForm>(diffusion::closed_form(scene)),
+                                       watch.progress);
 }
 
 }  // namespace shearfront

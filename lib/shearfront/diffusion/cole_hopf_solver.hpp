@@ -10,19 +10,24 @@ namespace shearfront {
 ///   - the travelling kink, initial.model = "kink" with above = 0 and width = D / (s a below), Neumann ends
 ///     (diffusion::Kink): exact as long as its slope at the ends is below rounding;
 ///   - Burgers' flux from a sine in a periodic domain of whole wavelengths (diffusion::PeriodicBurgers).
-/// Others: Status::unsupported with a message that names crank-nicolson. No options. Guarantees: those of
-/// the classes. Cost: 0.1 to 10 us a point.
+/// No options. Guarantees: those of the classes. Cost: 0.1 to 10 us a point.
 struct ColeHopfSolver {
   static constexpr std::string_view kName = "cole-hopf";
   static constexpr std::string_view kDescription = "beds with diffusion that have a closed form: exact";
+  static constexpr std::string_view kScenes = "uniform starts, kinks and periodic Burgers with diffusion";
+
+  struct Options {
+    template <class Self, class Visit>
+    static void fields(Self&, Visit&&) {}
+  };
+
   static Guarantees guarantees() {
     Guarantees g;
-    g.exact = g.conservative = g.bounded = true;
-    g.scope = Scope::with_closed_form_of_diffusion();
+    g.diffusion = g.exact = g.conservative = g.bounded = true;
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<ColeHopfSolver>);
 

@@ -2,47 +2,29 @@
 #include "shearfront/diffusion/crank_nicolson_solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/diffusion/problem_tangents.hpp"
 #include "shearfront/diffusion/refinement.hpp"
 #include "shearfront/diffusion/setup.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/solution/share_integral.hpp"
 
 namespace shearfront {
+namespace {
 
-std::string diffusion::refusal(const Scene<double>& scene, const SolverOptions& options) {
-  constexpr std::size_t kMostCells = 10'000'000;
-  if (std::string why = refusal(scene); !why.empty()) return why;
-  if (options.cells < 2 || options.cells > kMostCells)
-    return "cells = " + std::to_string(options.cells) + "; must be >= 2 and <= " + std::to_string(kMostCells);
-  if (!(options.time_step >= 0 && std::isfinite(options.time_step)))
-    return "time_step = " + number_text(options.time_step) + "; must be >= 0";
-  if (!(options.tolerance > 0 && options.tolerance <= 1))
-    return "tolerance = " + number_text(options.tolerance) + "; must be > 0 and <= 1";
-  if (options.cell_tolerance != 0 && !(options.cell_tolerance >= 1e-6 && options.cell_tolerance <= 0.1))
-    return "cell_tolerance = " + number_text(options.cell_tolerance) + "; must be >= 1e-6 and <= 0.1, or 0";
-  if (options.cell_tolerance > 0 && options.cells > Refinement::kMostCells)
-    return "cells = " + std::to_string(options.cells) +
-           "; must be <= " + std::to_string(Refinement::kMostCells) + " with a cell_tolerance";
-  return "";
-}
-
-diffusion::Options diffusion::options_of(const SolverOptions& options) {
-  Options own;
+diffusion::Options engine_options(const CrankNicolsonSolver::Options& options, const Progress& progress) {
+  diffusion::Options own;
   own.dt = options.time_step;
   own.tolerance = options.tolerance;
-  own.scheme = options.monotone ? Scheme::fitted : Scheme::central;
-  own.progress = options.progress;
+  own.scheme = options.monotone ? diffusion::Scheme::fitted : diffusion::Scheme::central;
+  own.progress = progress;
   return own;
 }
-
-namespace {
 
 /// On to time t, or until the bed is at rest.
 Status march(diffusion::CrankNicolson& engine, double t) {
@@ -66,61 +48,158 @@ void follow(diffusion::Refinement& refinement, diffusion::Options& options) {
   };
 }
 
+class CrankNicolsonRun final : public Run {
+ public:
+  CrankNicolsonRun(const Scene<double>& scene, const CrankNicolsonSolver::Options& options, const Watch& watch)
+      : scene_(scene), has_fixed_steps_(options.time_step > 0) {
+    diffusion::Options own = engine_options(options, watch.progress);
+    const auto cells = static_cast<std::size_t>(options.cells);
+    if (options.cell_tolerance > 0) follow(refinement_.emplace(scene, cells, options.cell_tolerance), own);
+    engine_.emplace(refinement_ ? refinement_->start() : diffusion::problem_of(scene, cells), own);
+  }
+
+  Status advance(double t) override {
+    field_.reset();
+    if (has_fixed_steps_ && std::isinf(t)) {
+      refused_ = "fixed steps do not reach the steady state: leave time_step out";
+      return status_ = Status::unsupported;
+    }
+    status_ = march(*engine_, t);
+    if (is_exhausted()) status_ = Status::budget_reached;
+    return status_;
+  }
+  [[nodiscard]] const Field& field() override {
+    if (!field_) field_.emplace(scene_, diffusion::profile_of(engine_->problem(), engine_->states()));
+    return *field_;
+  }
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.message = refused_.empty() ? message() : refused_;
+    summary.cell_updates = engine_->n_cell_updates();
+    return summary;
+  }
+
+ private:
+  [[nodiscard]] bool is_exhausted() const { return refinement_ && refinement_->is_exhausted(); }
+  [[nodiscard]] std::string message() const {
+    const bool is_usable = status_ == Status::ok || status_ == Status::steady;
+    return (is_exhausted() ? "more than " + std::to_string(diffusion::Refinement::kMostCells) +
+                                 " cells wanted, or narrower ones than heights can tell apart, at t = " +
+                                 number_text(engine_->time()) + "; take a larger cell_tolerance"
+            : !is_usable           ? engine_->message()
+            : engine_->is_steady() ? "steady state reached"
+                                   : "reached the last time") +
+           ", " + std::to_string(engine_->n_steps()) + " steps";
+  }
+
+  const Scene<double>& scene_;
+  bool has_fixed_steps_;
+  std::optional<diffusion::Refinement> refinement_;
+  std::optional<diffusion::CrankNicolson> engine_;
+  Status status_ = Status::ok;
+  std::string refused_;
+  std::optional<ProfileField> field_;
+};
+
+/// The steps from each time to the next, and the numbers of the scene they were chosen for.
+struct Plan {
+  std::vector<double> numbers;
+  std::vector<std::vector<diffusion::TimeStep>> parts;
+};
+
+/// The places of one time.
+struct Row {
+  std::vector<double> heights;
+  std::vector<std::size_t> places;
+};
+
+/// One run through all rows, by the steps of `repeated` if there are some.
+Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_places, const diffusion::Problem& problem,
+                          const std::vector<diffusion::Tangent>& tangents,
+                          const CrankNicolsonSolver::Options& options, const Plan* repeated, Plan& made) {
+  diffusion::CrankNicolson engine(problem, engine_options(options, {}), tangents);
+  Linearisation result;
+  result.samples.resize(n_places);
+  result.derivatives.resize(n_places * tangents.size());
+  for (const auto& [t, row] : rows) {
+    const std::size_t before = engine.steps().size();
+    const Status status = repeated ? engine.repeat(repeated->parts[made.parts.size()]) : march(engine, t);
+    result.summary.status = status;
+    result.summary.message = repeated ? "the iteration does not converge" : engine.message();
+    if (status != Status::ok && status != Status::steady) return result;
+    const auto& steps = engine.steps();
+    made.parts.emplace_back(steps.begin() + static_cast<std::ptrdiff_t>(before), steps.end());
+    const auto values = diffusion::profile_of(problem, engine.states()).at(row.heights);
+    for (std::size_t i = 0; i < values.size(); ++i) result.samples[row.places[i]] = {values[i].phi, values[i].M};
+    for (std::size_t k = 0; k < tangents.size(); ++k) {
+      const auto slopes = diffusion::profile_tangent(problem, engine.states(), engine.tangent(k)).at(row.heights);
+      for (std::size_t i = 0; i < slopes.size(); ++i)
+        result.derivatives[row.places[i] * tangents.size() + k] = {slopes[i].phi, slopes[i].M};
+    }
+  }
+  result.summary.status = Status::ok;
+  return result;
+}
+
+bool is_near(const std::vector<double>& xs, const std::vector<double>& ys) {
+  return std::equal(xs.begin(), xs.end(), ys.begin(), ys.end(), [](double x, double y) {
+    return std::abs(x - y) <= CrankNicolsonSolver::kReach * std::abs(y);
+  });
+}
+
 }  // namespace
 
-SolverResult CrankNicolsonSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                        const SolverOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  SolverResult result;
-  Summary& summary = result.summary;
-  if (summary.message = diffusion::refusal(scene, options); !summary.message.empty()) {
-    summary.status = Status::unsupported;
-    return result;
+std::string CrankNicolsonSolver::refusal(const Scene<double>& scene, const Options& options) {
+  constexpr std::uint64_t kMostCells = 10'000'000;
+  if (std::string why = diffusion::refusal(scene); !why.empty()) return why;
+  if (options.cells < 2 || options.cells > kMostCells)
+    return "cells = " + std::to_string(options.cells) + "; must be >= 2 and <= " + std::to_string(kMostCells);
+  if (!(options.time_step >= 0 && std::isfinite(options.time_step)))
+    return "time_step = " + number_text(options.time_step) + "; must be >= 0";
+  if (!(options.tolerance > 0 && options.tolerance <= 1))
+    return "tolerance = " + number_text(options.tolerance) + "; must be > 0 and <= 1";
+  if (options.cell_tolerance != 0 && !(options.cell_tolerance >= 1e-6 && options.cell_tolerance <= 0.1))
+    return "cell_tolerance = " + number_text(options.cell_tolerance) + "; must be >= 1e-6 and <= 0.1, or 0";
+  if (options.cell_tolerance > 0 && options.cells > diffusion::Refinement::kMostCells)
+    return "cells = " + std::to_string(options.cells) +
+           "; must be <= " + std::to_string(diffusion::Refinement::kMostCells) + " with a cell_tolerance";
+  return "";
+}
+
+std::unique_ptr<Run> CrankNicolsonSolver::start(const Scene<double>& scene, const Options& options,
+                                                const Watch& watch) {
+  return std::make_unique<CrankNicolsonRun>(scene, options, watch);
+}
+
+std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const Options& options, const Entry& entry) {
+  if (options.cell_tolerance > 0) return "cells that follow the fronts have no derivatives";
+  return diffusion::has_problem_tangent(entry) ? "" : entry.name() + " changes the flux or the grid";
+}
+
+Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const Options& options,
+                                             const std::vector<Place>& places,
+                                             const std::vector<std::size_t>& wanted, std::any& memory) {
+  std::map<double, Row> rows;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Row& row = rows[places[i].t];
+    row.heights.push_back(places[i].z);
+    row.places.push_back(i);
   }
-  if (options.time_step > 0 &&
-      std::any_of(request.times.begin(), request.times.end(), [](double t) { return std::isinf(t); })) {
-    summary.status = Status::unsupported;
-    summary.message = "fixed steps do not reach the steady state: leave time_step out";
-    return result;
+  const auto cells = static_cast<std::size_t>(options.cells);
+  const diffusion::Problem problem = diffusion::problem_of(scene, cells);
+  const std::vector<diffusion::Tangent> tangents = diffusion::problem_tangents(scene, wanted, cells);
+  Plan made;
+  SceneSpec<double> spec = scene.spec();
+  for (const double* number : entry_places(spec)) made.numbers.push_back(*number);
+  if (const Plan* plan = std::any_cast<Plan>(&memory);
+      plan && plan->parts.size() == rows.size() && is_near(made.numbers, plan->numbers)) {
+    Plan same;
+    Linearisation result = run_through(rows, places.size(), problem, tangents, options, plan, same);
+    if (result.summary.usable()) return result;
   }
-  diffusion::Options own = diffusion::options_of(options);
-  std::optional<diffusion::Refinement> refinement;
-  if (options.cell_tolerance > 0)
-    follow(refinement.emplace(scene, options.cells, options.cell_tolerance), own);
-  diffusion::CrankNicolson engine(
-      refinement ? refinement->start() : diffusion::problem_of(scene, options.cells), own);
-  const std::size_t n = request.heights.size();
-  std::vector<std::size_t> order(request.times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
-  result.samples.resize(request.times.size() * n);
-  if (request.profiles) result.profiles.resize(request.times.size());
-  if (request.integrand) result.integrals.resize(request.times.size());
-  Status status = Status::ok;
-  const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
-  for (const std::size_t i : order) {
-    status = march(engine, request.times[i]);
-    if (!is_usable()) break;
-    Profile<double> profile = diffusion::profile_of(engine.problem(), engine.states());
-    const auto values = profile.at(request.heights);
-    for (std::size_t j = 0; j < n; ++j) result.samples[i * n + j] = {values[j].phi, values[j].M};
-    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
-    if (request.profiles) result.profiles[i] = std::move(profile);
-  }
-  if (refinement && refinement->is_exhausted()) status = Status::budget_reached;
-  if (!is_usable()) result.samples.clear(), result.profiles.clear(), result.integrals.clear();
-  summary.status = status;
-  summary.message = refinement && refinement->is_exhausted()
-                        ? "more than " + std::to_string(diffusion::Refinement::kMostCells) +
-                              " cells wanted, or narrower ones than heights can tell apart, at t = " +
-                              number_text(engine.time()) + "; take a larger cell_tolerance"
-                    : !is_usable()       ? engine.message()
-                    : engine.is_steady() ? "steady state reached"
-                                         : "reached the last time";
-  summary.message += ", " + std::to_string(engine.n_steps()) + " steps";
-  summary.cell_updates = engine.n_cell_updates();
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  Linearisation result = run_through(rows, places.size(), problem, tangents, options, nullptr, made);
+  if (result.summary.usable()) memory = std::move(made);
   return result;
 }
 

@@ -117,9 +117,8 @@ void set_initial(const Scene<double>& scene, Problem& problem) {
 
 std::string refusal(const Scene<double>& scene) {
   if (!scene.has_diffusion())
-    return "grains do not diffuse in this bed (no D > 0); use exact, front-tracking or a finite-volume "
-           "method";
-  if (scene.spec().solid_fraction) return "packing and diffusion together are not covered";
+    return "grains do not diffuse in this bed (no D > 0)";
+  if (scene.spec().solid_fraction) return "solid fraction and diffusion together are not covered";
   if (scene.spec().outside_bottom || scene.spec().outside_top)
     return "states beyond open ends are not covered with diffusion; boundary.neumann and boundary.periodic "
            "are";

@@ -9,8 +9,6 @@ namespace shearfront::exact {
 
 namespace {
 
-constexpr const char* kOthers = ": only front tracking and finite volumes apply";
-
 /// "cubic with gamma = 0.9".
 template <class Model>
 std::string description(const Model& flux) {
@@ -30,11 +28,11 @@ std::string refusal_of(const Model& flux) {
   const auto range = flux.range();
   const std::size_t extrema = flux.extrema().size();
   if (flux.curvature() == Curvature::mixed)
-    return description(flux) + " is neither convex nor concave" + kOthers;
+    return description(flux) + " is neither convex nor concave";
   if (!(flux.value(range.lowest) == 0) || !(flux.value(range.highest) == 0))
-    return description(flux) + " does not vanish at both ends of its range" + kOthers;
+    return description(flux) + " does not vanish at both ends of its range";
   if (extrema != 1)
-    return description(flux) + " has " + std::to_string(extrema) + " extrema instead of one" + kOthers;
+    return description(flux) + " has " + std::to_string(extrema) + " extrema instead of one";
   return {};
 }
 
@@ -44,7 +42,7 @@ template <Real Scalar>
 std::string refusal(const Scene<Scalar>& scene) {
   if (scene.is_plain()) return {};
   if (scene.has_diffusion())
-    return "grains diffuse in this bed: crank-nicolson applies, cole-hopf where it has a closed form";
+    return "grains diffuse in this bed";
   const auto curvature = [](const Flux<Scalar>& flux) {
     return std::visit([](const auto& f) { return f.curvature(); }, flux);
   };
@@ -52,9 +50,9 @@ std::string refusal(const Scene<Scalar>& scene) {
     if (std::string text = std::visit([](const auto& f) { return refusal_of(f); }, flux); !text.empty())
       return text;
     if (curvature(flux) != curvature(scene.fluxes().front()))
-      return std::string("a convex flux beside a concave one has no exact solution") + kOthers;
+      return std::string("a convex flux beside a concave one has no exact solution");
   }
-  if (!scene.has_walls()) return std::string("open and periodic ends have no exact solution") + kOthers;
+  if (!scene.has_walls()) return std::string("open and periodic ends have no exact solution");
   return {};
 }
 

@@ -2,69 +2,117 @@
 #include "shearfront/exact/solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_share_integral.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/exact/sensitivities.hpp"
 
 namespace shearfront {
-
 namespace {
 
-void check_request(const Scene<double>& scene, const SolverRequest& request) {
-  Complaints complaints;
-  for (std::size_t i = 0; i < request.times.size(); ++i)
-    if (!(request.times[i] >= 0))
-      complaints.push_back({"times[" + std::to_string(i) + "]", number_text(request.times[i]), "must be >= 0"});
-  for (std::size_t i = 0; i < request.heights.size(); ++i)
-    if (!(request.heights[i] >= scene.bottom() && request.heights[i] <= scene.top()))
-      complaints.push_back({"depths[" + std::to_string(i) + "]", number_text(request.heights[i]),
-                          "must be inside the domain [" + number_text(scene.bottom()) + ", " +
-                              number_text(scene.top()) + "]"});
-  if (!complaints.empty()) throw InputError(std::move(complaints));
+class ExactField final : public Field {
+ public:
+  explicit ExactField(const ExactSolution<double>& solution) : solution_(solution) {}
+
+  double t = 0;
+  mutable double worst_M = 0;  ///< largest estimated error of M so far
+
+  [[nodiscard]] Sample at(double z) const override {
+    const auto value = solution_.at(z, t);
+    worst_M = std::max(worst_M, value.M_error);
+    return {value.phi, value.M};
+  }
+  [[nodiscard]] double integral(const ShareFunction& g) const override { return share_integral(solution_, t, g); }
+
+ private:
+  const ExactSolution<double>& solution_;
+};
+
+class ExactRun final : public Run {
+ public:
+  ExactRun(const Scene<double>& scene, const ExactSolver::Options& options, const Watch& watch)
+      : scene_(scene), layers_(static_cast<std::size_t>(options.layers)), progress_(watch.progress),
+        solution_(scene, {layers_}), field_(solution_) {}
+
+  Status advance(double t) override {
+    field_.t = t;
+    if (progress_ && !progress_(t, 0)) status_ = Status::interrupted;
+    return status_;
+  }
+  [[nodiscard]] const Field& field() override { return field_; }
+  [[nodiscard]] std::optional<Timeline<double>> timeline() override {
+    return exact_timeline(scene_, {.layers = layers_});
+  }
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.layers = solution_.n_layers();
+    summary.message = status_ != Status::ok   ? "interrupted at t = " + number_text(field_.t)
+                      : solution_.is_exact() ? "exact to rounding"
+                                             : "exact for a staircase of " + std::to_string(solution_.n_layers()) +
+                                                   " layers; estimated error of M " + number_text(field_.worst_M);
+    return summary;
+  }
+
+ private:
+  const Scene<double>& scene_;
+  std::size_t layers_;
+  Progress progress_;
+  ExactSolution<double> solution_;
+  ExactField field_;
+  Status status_ = Status::ok;
+};
+
+/// The part of a gradient that belongs to a field of the scene file; empty if there is none.
+std::span<const double> part_of(const Gradient<double>& gradient, std::string_view field) {
+  if (field == "shear_rate.values") return gradient.shear_rate_values();
+  if (field == "shear_rate.breaks") return gradient.shear_rate_breaks();
+  if (field == "shear_rate.amplitude") return {&gradient.amplitude, 1};
+  if (field == "shear_rate.decay") return {&gradient.decay, 1};
+  if (field == "shear_rate.scale") return {&gradient.scale, 1};
+  if (field == "initial.breaks") return gradient.initial_breaks();
+  if (field == "initial.values") return gradient.initial_values();
+  return {};
 }
 
 }  // namespace
 
-SolverResult ExactSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                const SolverOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  check_request(scene, request);
-  SolverResult result;
-  if (std::string reason = exact::refusal(scene); !reason.empty()) {
-    result.summary.status = Status::unsupported;
-    result.summary.message = std::move(reason);
-    return result;
-  }
-  const ExactSolution<double> solution(scene, {options.layers});
-  result.summary.layers = solution.n_layers();
+std::string ExactSolver::refusal(const Scene<double>& scene, const Options&) { return exact::refusal(scene); }
+
+std::unique_ptr<Run> ExactSolver::start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+  return std::make_unique<ExactRun>(scene, options, watch);
+}
+
+std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry) {
+  const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
+  if (std::string why = sensitivity_refusal(solution); !why.empty()) return why;
+  const auto probe = sensitivities(solution, scene.bottom(), 0.0);
+  return entry.index < part_of(probe.M, entry.field).size() ? "" : entry.name() + " has no exact derivative";
+}
+
+Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& options,
+                                     const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
+                                     std::any&) {
+  const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
+  const std::vector<Entry> all = entries(scene.spec());
+  Linearisation result;
   result.summary.status = Status::ok;
-  result.summary.message = "exact to rounding";
-  double worst_M = 0;
-  result.samples.reserve(request.times.size() * request.heights.size());
-  for (const double t : request.times) {
-    if (options.progress && !options.progress(t, 0)) {
-      result.summary.status = Status::interrupted;
-      result.summary.message = "interrupted at t = " + number_text(t);
-      result.samples.clear();
-      result.integrals.clear();
-      break;
-    }
-    for (const double z : request.heights) {
-      const auto value = solution.at(z, t);
+  result.samples.reserve(places.size());
+  result.derivatives.reserve(places.size() * wanted.size());
+  for (const Place& place : places) {
+    if (wanted.empty()) {
+      const auto value = solution.at(place.z, place.t);
       result.samples.push_back({value.phi, value.M});
-      worst_M = std::max(worst_M, value.M_error);
+      continue;
     }
-    if (request.integrand) result.integrals.push_back(share_integral(solution, t, request.integrand));
+    const auto at = sensitivities(solution, place.z, place.t);
+    result.samples.push_back({at.value.phi, at.value.M});
+    for (const std::size_t i : wanted)
+      result.derivatives.push_back(
+          {part_of(at.phi, all[i].field)[all[i].index], part_of(at.M, all[i].field)[all[i].index]});
   }
-  if (result.summary.usable() && request.timeline)
-    result.timeline = exact_timeline(scene, {.layers = options.layers});
-  if (result.summary.usable() && !solution.is_exact())
-    result.summary.message = "exact for a staircase of " + std::to_string(solution.n_layers()) +
-                             " layers; estimated error of M " + number_text(worst_M);
-  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

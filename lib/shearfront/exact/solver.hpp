@@ -8,15 +8,32 @@ namespace shearfront {
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription = "Lax-Hopf formula, exact to rounding";
+  static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
+
+  struct Options {
+    std::uint64_t layers = 0;  ///< 0: ExactSolution::default_layers()
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit(OptionInfo{"layers", "smooth shear rates: number of layers of the staircase", {1, 1e6}, {},
+                       "1024, 128 where a flux is no parabola"},
+            self.layers);
+    }
+  };
+
   static Guarantees guarantees() {
     Guarantees g;
     g.exact = g.conservative = g.bounded = g.has_timeline = true;
-    g.scope = {FluxScope::convex_or_concave, true, false};
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  /// There are none where c, T or a general flux vary smoothly, and for entries other than those of shear_rate and
+  /// initial.
+  static std::string derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry);
+  static Linearisation linearise(const Scene<double>& scene, const Options& options, const std::vector<Place>& places,
+                                 const std::vector<std::size_t>& entries, std::any& memory);
 };
-static_assert(Solver<ExactSolver>);
+static_assert(DifferentiableSolver<ExactSolver>);
 
 }  // namespace shearfront

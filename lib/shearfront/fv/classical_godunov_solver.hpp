@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront {
 
@@ -16,14 +16,17 @@ struct ClassicalGodunovSolver {
   static constexpr std::string_view kName = "classical-godunov";
   static constexpr std::string_view kDescription =
       "Godunov scheme that does not match fluxes at jumps; overshoots";
+  static constexpr std::string_view kScenes = "parabolas, open ends";
+
+  using Options = fv::GridOptions;
+
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.has_profiles = true;
-    g.scope = {FluxScope::parabola};
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<ClassicalGodunovSolver>);
 

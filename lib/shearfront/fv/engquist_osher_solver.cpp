@@ -4,10 +4,22 @@
 #include "shearfront/fv/solve.hpp"
 
 namespace shearfront {
+namespace {
 
-SolverResult EngquistOsherSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                        const SolverOptions& options) {
-  return fv::solve(fv::Scheme::engquist_osher, scene, request, options);
+fv::SolverOptions own_options(const EngquistOsherSolver::Options& options, const Progress& progress) {
+  fv::SolverOptions own{options, {}, {}, progress};
+  own.face_coefficient = options.face_coefficient;
+  return own;
+}
+
+}  // namespace
+
+std::string EngquistOsherSolver::refusal(const Scene<double>& scene, const Options& options) {
+  return fv::refusal(fv::Scheme::engquist_osher, scene, own_options(options, {}));
+}
+
+std::unique_ptr<Run> EngquistOsherSolver::start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+  return fv::start(fv::Scheme::engquist_osher, scene, own_options(options, watch.progress));
 }
 
 }  // namespace shearfront

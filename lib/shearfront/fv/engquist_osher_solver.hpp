@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront {
 
@@ -18,6 +18,20 @@ namespace shearfront {
 struct EngquistOsherSolver {
   static constexpr std::string_view kName = "engquist-osher";
   static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
+  static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
+
+  struct Options : fv::GridOptions {
+    /// Coefficient of a face: harmonic mean of a between the middles of the cells, or a(z) there.
+    FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      fv::GridOptions::fields(self, visit);
+      visit(OptionInfo{"face-coefficient", "harmonic mean of a(z) between the middles of two cells, or its value at "
+                                           "their face", {}, kFaceCoefficientNames}, self.face_coefficient);
+    }
+  };
+
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.has_profiles = true;
@@ -25,8 +39,8 @@ struct EngquistOsherSolver {
     g.order_M = 1;
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<EngquistOsherSolver>);
 

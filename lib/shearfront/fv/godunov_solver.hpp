@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront {
 
@@ -19,6 +19,10 @@ namespace shearfront {
 struct GodunovSolver {
   static constexpr std::string_view kName = "godunov";
   static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
+  static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
+
+  using Options = fv::GridOptions;
+
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.has_profiles = true;
@@ -26,8 +30,8 @@ struct GodunovSolver {
     g.order_M = 1;
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<GodunovSolver>);
 

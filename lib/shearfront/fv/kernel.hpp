@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "shearfront/fv/unimodal_flux.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 

@@ -4,10 +4,22 @@
 #include "shearfront/fv/solve.hpp"
 
 namespace shearfront {
+namespace {
 
-SolverResult MusclSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                const SolverOptions& options) {
-  return fv::solve(fv::Scheme::muscl, scene, request, options);
+fv::SolverOptions own_options(const MusclSolver::Options& options, const Progress& progress) {
+  fv::SolverOptions own{options, {}, {}, progress};
+  own.limiter = options.limiter;
+  return own;
+}
+
+}  // namespace
+
+std::string MusclSolver::refusal(const Scene<double>& scene, const Options& options) {
+  return fv::refusal(fv::Scheme::muscl, scene, own_options(options, {}));
+}
+
+std::unique_ptr<Run> MusclSolver::start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+  return fv::start(fv::Scheme::muscl, scene, own_options(options, watch.progress));
 }
 
 }  // namespace shearfront

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront {
 
@@ -22,16 +22,27 @@ namespace shearfront {
 struct MusclSolver {
   static constexpr std::string_view kName = "muscl";
   static constexpr std::string_view kDescription = "MUSCL scheme of second order with a choice of limiters";
+  static constexpr std::string_view kScenes = "fluxes with one extremum, the same everywhere, walls";
+
+  struct Options : fv::GridOptions {
+    Limiter limiter = Limiter::mc;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      fv::GridOptions::fields(self, visit);
+      visit(OptionInfo{"limiter", "what bounds the slopes", {}, kLimiterNames}, self.limiter);
+    }
+  };
+
   static Guarantees guarantees() {
     Guarantees g;
     g.conservative = g.bounded = g.has_profiles = true;
-    g.scope = {FluxScope::one_extremum, false, false};
     g.order_phi = 0.5;
     g.order_M = 1;
     return g;
   }
-  static SolverResult solve(const Scene<double>& scene, const SolverRequest& request,
-                            const SolverOptions& options);
+  static std::string refusal(const Scene<double>& scene, const Options& options);
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<MusclSolver>);
 

@@ -5,7 +5,7 @@
 
 #include "shearfront/fv/grid.hpp"
 #include "shearfront/fv/march.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 

@@ -8,7 +8,7 @@
 #include "shearfront/fv/face_rule.hpp"
 #include "shearfront/fv/grid.hpp"
 #include "shearfront/numeric/sum.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 

@@ -9,7 +9,7 @@
 #include "shearfront/fv/march.hpp"
 #include "shearfront/fv/plain_march.hpp"
 #include "shearfront/fv/unimodal_flux.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 

@@ -2,29 +2,20 @@
 #include "shearfront/fv/solve.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "shearfront/fv/run.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/solution/share_integral.hpp"
 
 namespace shearfront::fv {
 namespace {
 
 constexpr std::size_t kMostCells = 100'000'000;  // 6 to 14 GB
 
-SolverResult unsupported(std::string why) {
-  SolverResult result;
-  result.summary.status = Status::unsupported;
-  result.summary.message = std::move(why);
-  return result;
-}
-
 std::string refusal(const Scene<double>& scene, const SolverOptions& options) {
-  if (scene.has_diffusion()) return "this scheme knows no diffusion; use crank-nicolson";
+  if (scene.has_diffusion()) return "this scheme knows no diffusion";
   if (options.cells < 1) return "cells = 0; must be >= 1";
   if (options.cells > kMostCells)
     return "cells = " + std::to_string(options.cells) + "; must be <= " + std::to_string(kMostCells);
@@ -39,7 +30,7 @@ bool is_for_kernels(const Scene<double>& scene, const UnimodalFlux& flux) {
 
 /// Why the plain march cannot solve the scene; empty if it can.
 std::string refusal(FaceRule rule, const Scene<double>& scene) {
-  const bool has_jumps = !is_uniform(scene);
+  const bool has_jumps = !scene.is_uniform();
   for (const Flux<double>& flux : scene.fluxes()) {
     const FluxBranches branches = flux_branches(flux);
     const std::string name = std::visit([](const auto& f) { return std::string(f.kName); }, flux);
@@ -49,7 +40,7 @@ std::string refusal(FaceRule rule, const Scene<double>& scene) {
     if (has_jumps && !(branches.has_one_extremum() && branches.vanishes))
       return "flux " + name +
              " has no exact flux between cells of unequal rate or packing: it must have one extremum and "
-             "vanish at both ends of its range; front-tracking may cover it";
+             "vanish at both ends of its range";
   }
   return "";
 }
@@ -78,44 +69,49 @@ bool is_finite(const CellStates& cells) {
   return std::all_of(cells.phi.begin(), cells.phi.end(), [](double phi) { return std::isfinite(phi); });
 }
 
-using Clock = std::chrono::steady_clock;
+class FvRun final : public shearfront::Run {
+ public:
+  template <class Make>
+  FvRun(const Scene<double>& scene, SolverOptions options, std::shared_ptr<const Kernel> kernel, UnimodalFlux flux,
+        Make&& make)
+      : scene_(scene), options_(std::move(options)), kernel_(std::move(kernel)), flux_(std::move(flux)),
+        run_(make(options_, flux_)), output_(scene, run_->grid()) {}
 
-SolverResult outcome(Run& run, const Scene<double>& scene, const SolverRequest& request,
-                     Clock::time_point begin) {
-  SolverResult result;
-  Status status = Status::ok;
-  const CellOutput output(scene, run.grid());
-  std::vector<std::size_t> order(request.times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
-  const std::size_t n = request.heights.size();
-  result.samples.resize(request.times.size() * n);
-  if (request.profiles) result.profiles.resize(request.times.size());
-  if (request.integrand) result.integrals.resize(request.times.size());
-  for (const std::size_t i : order) {
-    const CellStates cells = run.at(request.times[i], status);
-    if (status == Status::ok && !is_finite(cells)) status = Status::diverged;
-    if (status != Status::ok) break;
-    const auto samples = output.samples(cells, request.heights);
-    std::copy(samples.begin(), samples.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
-    if (!request.integrand && !request.profiles) continue;
-    Profile<double> profile = output.profile(cells);
-    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
-    if (request.profiles) result.profiles[i] = std::move(profile);
+  Status advance(double t) override {
+    field_.reset();
+    cells_ = run_->at(t, status_);
+    if (status_ == Status::ok && !is_finite(cells_)) status_ = Status::diverged;
+    return status_;
   }
-  if (status == Status::ok && run.is_at_rest()) status = Status::steady;
-  if (status != Status::ok && status != Status::steady) {
-    result.samples.clear();
-    result.profiles.clear();
-    result.integrals.clear();
+  [[nodiscard]] const Field& field() override {
+    if (!field_) field_.emplace(scene_, output_.profile(cells_));
+    return *field_;
   }
-  result.summary.status = status;
-  result.summary.message = message_of(status, run.n_updates(), scene.has_walls());
-  result.summary.cell_updates = run.n_updates();
-  result.summary.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  return result;
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_ == Status::ok && run_->is_at_rest() ? Status::steady : status_;
+    summary.message = message_of(summary.status, run_->n_updates(), scene_.has_walls());
+    summary.cell_updates = run_->n_updates();
+    return summary;
+  }
+
+ private:
+  const Scene<double>& scene_;
+  SolverOptions options_;
+  std::shared_ptr<const Kernel> kernel_;
+  UnimodalFlux flux_;
+  std::unique_ptr<fv::Run> run_;
+  CellOutput output_;
+  CellStates cells_;
+  Status status_ = Status::ok;
+  std::optional<ProfileField> field_;
+};
+
+UnimodalFlux flux_of(const Scene<double>& scene) {
+  return std::visit([](const auto& f) { return unimodal_flux(f); }, scene.fluxes()[0]);
 }
+
+FaceRule rule_of(Scheme scheme) { return scheme == Scheme::godunov ? FaceRule::godunov : FaceRule::engquist_osher; }
 
 }  // namespace
 
@@ -124,38 +120,39 @@ Grid grid_of(const Scene<double>& scene, const SolverOptions& options) {
                              : Grid{scene.bottom(), scene.top(), options.cells, {}, {}};
 }
 
-SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel, const Scene<double>& scene,
-                   const SolverRequest& request, const SolverOptions& options) {
-  if (std::string why = refusal(scene, options); !why.empty()) return unsupported(std::move(why));
-  if (!flux.refusal.empty()) return unsupported(flux.refusal);
-  const auto begin = Clock::now();
-  return outcome(*kernel_run(scheme, flux, kernel, scene, options), scene, request, begin);
+std::unique_ptr<shearfront::Run> start(Scheme scheme, const UnimodalFlux& flux, std::shared_ptr<const Kernel> kernel,
+                                       const Scene<double>& scene, SolverOptions options) {
+  return std::make_unique<FvRun>(scene, std::move(options), kernel, flux,
+                                 [&](const SolverOptions& own, const UnimodalFlux& own_flux) {
+                                   return kernel_run(scheme, own_flux, *kernel, scene, own);
+                                 });
 }
 
-SolverResult solve(FaceRule rule, const Scene<double>& scene, const SolverRequest& request,
-                   const SolverOptions& options) {
+std::unique_ptr<shearfront::Run> start(FaceRule rule, const Scene<double>& scene, SolverOptions options) {
+  return std::make_unique<FvRun>(
+      scene, std::move(options), nullptr, UnimodalFlux{},
+      [&](const SolverOptions& own, const UnimodalFlux&) { return plain_run(rule, scene, own); });
+}
+
+std::unique_ptr<shearfront::Run> start(Scheme scheme, const Scene<double>& scene, SolverOptions options) {
+  const UnimodalFlux flux = flux_of(scene);
+  if (!is_for_kernels(scene, flux)) return start(rule_of(scheme), scene, std::move(options));
+  std::shared_ptr<const Kernel> kernel = flux.is_quadratic ? quadratic_kernel(scheme, options.limiter)
+                                                           : unimodal_kernel(scheme, flux, options.limiter);
+  return start(scheme, flux, std::move(kernel), scene, std::move(options));
+}
+
+std::string refusal(FaceRule rule, const Scene<double>& scene, const SolverOptions& options) {
   std::string why = refusal(scene, options);
-  if (why.empty()) why = refusal(rule, scene);
-  if (!why.empty()) return unsupported(std::move(why));
-  const auto begin = Clock::now();
-  return outcome(*plain_run(rule, scene, options), scene, request, begin);
+  return why.empty() ? refusal(rule, scene) : why;
 }
 
-SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
-                   const SolverOptions& options) {
-  if (std::string why = refusal(scene, options); !why.empty()) return unsupported(std::move(why));
-  const UnimodalFlux flux = std::visit([](const auto& f) { return unimodal_flux(f); }, scene.fluxes()[0]);
-  if (is_for_kernels(scene, flux)) {
-    const auto kernel = flux.is_quadratic ? quadratic_kernel(scheme, options.limiter)
-                                          : unimodal_kernel(scheme, flux, options.limiter);
-    return solve(scheme, flux, *kernel, scene, request, options);
-  }
+std::string refusal(Scheme scheme, const Scene<double>& scene, const SolverOptions& options) {
+  if (std::string why = refusal(scene, options); !why.empty()) return why;
+  if (is_for_kernels(scene, flux_of(scene))) return "";
   if (scheme == Scheme::muscl)
-    return unsupported(
-        "muscl takes one flux with one extremum that vanishes at both ends of its range, and walls; use "
-        "godunov");
-  return solve(scheme == Scheme::godunov ? FaceRule::godunov : FaceRule::engquist_osher, scene, request,
-               options);
+    return "muscl takes one flux with one extremum that vanishes at both ends of its range, and walls";
+  return refusal(rule_of(scheme), scene);
 }
 
 }  // namespace shearfront::fv

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <vector>
+#include <memory>
+#include <string>
 
 #include "shearfront/fv/face_rule.hpp"
 #include "shearfront/fv/grid.hpp"
@@ -8,7 +9,7 @@
 #include "shearfront/fv/march.hpp"
 #include "shearfront/fv/output.hpp"
 #include "shearfront/fv/unimodal_flux.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 
@@ -43,16 +44,16 @@ namespace shearfront::fv {
 /// Cost: cells * (t / dt) cell updates, with local steps each cell by its own dt; tests/bench/fv_bench.cpp.
 /// The plain march, and kernels where c varies from cell to cell, take about 25 times as long per update.
 /// Memory: 56 bytes per cell, 72 for muscl; 66 more where cells or steps differ; 32 per cell of a profile.
-[[nodiscard]] SolverResult solve(Scheme scheme, const Scene<double>& scene, const SolverRequest& request,
-                                 const SolverOptions& options);
+[[nodiscard]] std::unique_ptr<shearfront::Run> start(Scheme scheme, const Scene<double>& scene, SolverOptions options);
+[[nodiscard]] std::string refusal(Scheme scheme, const Scene<double>& scene, const SolverOptions& options);
 
 /// By the plain march and a rule of its own (fv/plain_march.hpp), whatever the scene.
-[[nodiscard]] SolverResult solve(FaceRule rule, const Scene<double>& scene, const SolverRequest& request,
-                                 const SolverOptions& options);
+[[nodiscard]] std::unique_ptr<shearfront::Run> start(FaceRule rule, const Scene<double>& scene, SolverOptions options);
+[[nodiscard]] std::string refusal(FaceRule rule, const Scene<double>& scene, const SolverOptions& options);
 
 /// The same with a flux and a kernel of the caller's choice, in place of the scene's flux.
-[[nodiscard]] SolverResult solve(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel,
-                                 const Scene<double>& scene, const SolverRequest& request,
-                                 const SolverOptions& options);
+[[nodiscard]] std::unique_ptr<shearfront::Run> start(Scheme scheme, const UnimodalFlux& flux,
+                                                     std::shared_ptr<const Kernel> kernel, const Scene<double>& scene,
+                                                     SolverOptions options);
 
 }  // namespace shearfront::fv

@@ -85,6 +85,8 @@ class Scene {
     return layered(spec_.shear_rate) && (!spec_.solid_fraction || layered(*spec_.solid_fraction)) &&
            (!spec_.temperature || layered(*spec_.temperature));
   }
+  /// Whether flux, a, c and T are the same all over the bed.
+  [[nodiscard]] bool is_uniform() const { return is_layered() && knots().empty(); }
   /// Heights inside the domain where the flux, a, c, T or one of their slopes jumps; ascending.
   [[nodiscard]] std::vector<Scalar> knots() const {
     std::vector<Scalar> all = depth_knots(spec_);

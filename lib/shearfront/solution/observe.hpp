@@ -6,7 +6,7 @@
 
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/observation.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 /// Synthetic observations: what an instrument would have read where a solver has computed.
 ///

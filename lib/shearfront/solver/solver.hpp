@@ -1,91 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <array>
+#include <any>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/field.hpp"
 #include "shearfront/solution/front_segment.hpp"
-#include "shearfront/solution/profile.hpp"
-#include "shearfront/solution/share_function.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
-#include "shearfront/solver/scope.hpp"
+#include "shearfront/solver/option.hpp"
 
 /// What every solver offers to the program, the fits and the cross tests. A solver never includes another
 /// solver.
 namespace shearfront {
 
-enum class GridKind { levels, singular_mapping };
-enum class Reconstruction { constant, linear };
-enum class Limiter { minmod, mc, van_leer };
-enum class FaceCoefficient { harmonic, value };
-/// Their names in files and on the command line, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 2> kGridNames{"levels", "singular-mapping"};
-inline constexpr std::array<std::string_view, 2> kReconstructionNames{"constant", "linear"};
-inline constexpr std::array<std::string_view, 3> kLimiterNames{"minmod", "mc", "van-leer"};
-inline constexpr std::array<std::string_view, 2> kFaceCoefficientNames{"harmonic", "value"};
+/// Called now and then with (t, collisions or cell updates so far); returns false to stop with
+/// Status::interrupted.
+using Progress = std::function<bool(double, std::uint64_t)>;
 
-/// Settings of all solvers; each reads those it knows.
-struct SolverOptions {
-  double resolution =
-      0.01;  ///< front tracking: largest spacing of phi between neighbouring states of a fan, (0, 1]
-  GridKind grid = GridKind::levels;
-  Reconstruction reconstruct = Reconstruction::constant;
-  std::size_t layers = 0;                        ///< smooth a(z): number of layers; 0 lets the solver choose
-  std::uint64_t max_collisions = 4'000'000'000;  ///< stop with Status::budget_reached after so many
-  std::size_t cells = 400;                       ///< finite volumes: number of cells, 1 to 1e8
-  /// Finite volumes: time step in terms of the largest for which phi is proved to stay in its range, (0, 1].
-  /// That step has the Courant number s max a max |f'| dt / dz = 1 in first order and 1/2 in second.
-  double cfl = 1.0;
-  Limiter limiter = Limiter::mc;  ///< muscl: what bounds the slopes
-  /// engquist-osher: coefficient of a face, harmonic mean of a between the middles of the cells or a(z) there
-  FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
-  bool align_cells = false;  ///< finite volumes: edges of cells on interfaces, equal cells within a layer
-  bool local_steps = false;  ///< finite volumes: slow parts of the bed take longer steps
-  double time_step = 0;      ///< crank-nicolson: fixed time step; 0: chosen by the tolerance
-  double tolerance = 1e-5;   ///< crank-nicolson: aim for the error that time steps make in phi
-  /// crank-nicolson: cells are halved where phi bends by more than this from one to the next; 0: equal cells
-  double cell_tolerance = 0;
-  bool monotone = false;  ///< crank-nicolson: no wiggles where cells are coarse, of first order
-  /// Called now and then with (t, collisions or cell updates so far); return false to stop with
-  /// Status::interrupted.
-  std::function<bool(double, std::uint64_t)> progress;
+/// What a run is to keep beside the solution.
+struct Watch {
+  bool timeline = false;  ///< event times are wanted (solvers with has_timeline)
+  bool fronts = false;    ///< front segments are wanted (solvers with has_fronts)
+  Progress progress;
 };
 
-/// What to compute. Times in any order, >= 0; +infinity asks for the steady state. Heights in any order,
-/// inside the domain.
-struct SolverRequest {
-  std::vector<double> times;
-  std::vector<double> heights;
-  bool timeline = false;      ///< event times wanted
-  bool fronts = false;        ///< front segments wanted (solvers that have fronts)
-  bool profiles = false;      ///< phi over the whole domain wanted (solvers that have profiles)
-  ShareFunction integrand{};  ///< g, if int c g(phi / c) dz over the bed is wanted
-};
+/// A computation under way, from t = 0 on.
+class Run {
+ public:
+  virtual ~Run() = default;
 
-struct Sample {
-  double phi = 0;  ///< concentration; at a jump the value above it, at the top wall the value below
-  double M = 0;    ///< int_bottom^z phi
-};
-
-struct SolverResult {
-  std::vector<Sample> samples;  ///< samples[i * heights.size() + j] belongs to times[i], heights[j]
-  std::optional<Timeline<double>> timeline;
-  std::vector<FrontSegment<double>> fronts;
-  std::vector<Profile<double>> profiles;  ///< profiles[i] belongs to times[i]; the samples are its values
-  std::vector<double> integrals;          ///< integrals[i], of the integrand, belongs to times[i]
-  Summary summary;
+  /// Goes on to time t, not before the time reached; +infinity asks for the steady state. Status::ok, or steady: nothing
+  /// changes any more; otherwise summary() says why it ended, and there is no field.
+  virtual Status advance(double t) = 0;
+  /// The solution at the time reached; valid until the next advance(). Precondition: advance() was called, with success.
+  [[nodiscard]] virtual const Field& field() = 0;
+  /// Event times; empty if the solver knows none. May go on to the steady state.
+  [[nodiscard]] virtual std::optional<Timeline<double>> timeline() { return std::nullopt; }
+  /// The fronts up to the time reached.
+  [[nodiscard]] virtual std::vector<FrontSegment<double>> fronts() { return {}; }
+  /// How it went so far.
+  [[nodiscard]] virtual Summary summary() const = 0;
 };
 
 /// What a solver promises; the cross tests check exactly what is promised here.
 struct Guarantees {
-  Scope scope;                ///< what it solves; anything else is Status::unsupported
+  bool diffusion = false;     ///< solves beds with diffusion, and no others
   bool exact = false;         ///< M and phi to rounding
   bool conservative = false;  ///< M(top, t) equals the initial mass to rounding
   bool bounded = false;       ///< phi stays in the range of the flux
@@ -96,13 +65,46 @@ struct Guarantees {
   bool has_profiles = false;  ///< can return the solution as a function of z: it is linear in pieces
 };
 
+/// A place in the (t, z) plane.
+struct Place {
+  double t = 0, z = 0;
+  friend auto operator<=>(const Place&, const Place&) = default;
+};
+
+/// Samples at some places and their derivatives with respect to some numbers of the scene.
+struct Linearisation {
+  std::vector<Sample> samples;      ///< one per place
+  std::vector<Sample> derivatives;  ///< [place * number of entries + entry]: d phi, d M
+  Summary summary;
+};
+
+/// A solver. Its Options list their fields (solver/option.hpp).
+///
+///   refusal   why it cannot solve the scene with these options, in one clause; empty if it can. It names no other
+///             solver: what can solve the scene instead is found by asking all (solver/method.hpp)
+///   start     precondition: refusal is empty. The scene must outlive the run
 template <class S>
-concept Solver = requires(const Scene<double>& scene, const SolverRequest& request,
-                          const SolverOptions& options) {
+concept Solver = requires(const Scene<double>& scene, const typename S::Options& options, const Watch& watch) {
   { S::kName } -> std::convertible_to<std::string_view>;
   { S::kDescription } -> std::convertible_to<std::string_view>;
+  { S::kScenes } -> std::convertible_to<std::string_view>;  ///< which scenes it solves, for `shearfront list`
   { S::guarantees() } -> std::same_as<Guarantees>;
-  { S::solve(scene, request, options) } -> std::same_as<SolverResult>;
+  { S::refusal(scene, options) } -> std::same_as<std::string>;
+  { S::start(scene, options, watch) } -> std::same_as<std::unique_ptr<Run>>;
 };
+
+/// A solver that can differentiate its solution, exactly up to rounding.
+///
+///   derivative_refusal  why it has no derivatives with respect to an entry of the scene; empty if it has
+///   linearise           samples at the places, and derivatives with respect to entries(scene.spec())[i] for i of
+///                       `entries` (none: samples only). `memory` is what the solver likes to keep from one call to the
+///                       next, with numbers near by; empty at first. Preconditions: both refusals are empty
+template <class S>
+concept DifferentiableSolver =
+    Solver<S> && requires(const Scene<double>& scene, const typename S::Options& options, const Entry& entry,
+                          const std::vector<Place>& places, const std::vector<std::size_t>& entries, std::any& memory) {
+      { S::derivative_refusal(scene, options, entry) } -> std::same_as<std::string>;
+      { S::linearise(scene, options, places, entries, memory) } -> std::same_as<Linearisation>;
+    };
 
 }  // namespace shearfront

@@ -2,13 +2,11 @@
 #include "shearfront/track/solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <type_traits>
 
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/solution/share_integral.hpp"
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
@@ -25,7 +23,7 @@ template <class Grid>
 constexpr bool kIsLevelGrid = std::is_same_v<Grid, LevelGrid<double>>;
 
 /// Why the grid cannot be built; empty if it can.
-std::string refusal_of_levels(const LayerStack<double>& stack, const SolverOptions& options) {
+std::string refusal_of_levels(const LayerStack<double>& stack, const FrontTrackingSolver::Options& options) {
   if (options.grid == GridKind::levels) {
     if (const double n = LevelGrid<double>::exact_level_count(stack, options.resolution); n > kMaxLevels)
       return "the grid would need " + number_text(std::floor(n)) + " levels; use a coarser resolution";
@@ -41,7 +39,7 @@ std::string refusal_of_levels(const LayerStack<double>& stack, const SolverOptio
 
 /// A flux that does not vanish at the ends of its range may bring more to a layer than that can carry.
 std::string refusal_between_layers(const Scene<double>& scene) {
-  if (is_uniform(scene)) return {};
+  if (scene.is_uniform()) return {};
   for (const Flux<double>& flux : scene.fluxes())
     if (std::string name = std::visit(
             [](const auto& f) {
@@ -54,16 +52,8 @@ std::string refusal_between_layers(const Scene<double>& scene) {
   return {};
 }
 
-std::string refusal(const Scene<double>& scene, const SolverRequest& request, const LayerStack<double>& stack,
-                    const SolverOptions& options) {
-  if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
-    return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
-  if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
-  if (scene.has_diffusion()) return "there are no fronts where grains diffuse; use crank-nicolson";
-  if (request.timeline && !scene.has_walls()) return "event times are those of a bed between walls";
-  if (scene.spec().is_periodic &&
-      std::any_of(request.times.begin(), request.times.end(), [](double t) { return !std::isfinite(t); }))
-    return "a periodic bed has no steady state; ask for a finite time";
+std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& stack,
+                       const FrontTrackingSolver::Options& options) {
   if (stack.is_plain()) return refusal_of_levels(stack, options);
   if (options.grid != GridKind::levels)
     return "the singular-mapping grid is known for the quadratic flux only";
@@ -72,6 +62,10 @@ std::string refusal(const Scene<double>& scene, const SolverRequest& request, co
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
+}
+
+LayerStack<double> layers_of(const Scene<double>& scene, const FrontTrackingSolver::Options& options) {
+  return tracking_layers(scene, std::min(options.resolution, 1.0), static_cast<std::size_t>(options.layers));
 }
 
 std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
@@ -99,80 +93,99 @@ Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene
 }
 
 template <class Grid, class Observer>
-SolverResult track(const Scene<double>& scene, const SolverRequest& request, const SolverOptions& options,
-                   LayerStack<double> stack) {
-  SolverResult result;
-  Summary& summary = result.summary;
-  const TrackingSetup<double, Grid> setup(scene, std::move(stack), options.resolution, options.grid);
-  Tracker<Grid, Observer> tracker(setup.grid, setup.pieces, setup.ends);
-  summary.levels = setup.grid.n_levels();
-  summary.layers = setup.stack.n_layers();
+class TrackRun final : public Run {
+ public:
+  TrackRun(const Scene<double>& scene, const FrontTrackingSolver::Options& options, const Watch& watch,
+           LayerStack<double> stack)
+      : scene_(scene),
+        reconstruct_(options.reconstruct),
+        limits_{options.max_collisions, watch.progress},
+        setup_(scene, std::move(stack), options.resolution, options.grid),
+        tracker_(setup_.grid, setup_.pieces, setup_.ends) {}
 
-  std::vector<std::size_t> order(request.times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return request.times[a] < request.times[b]; });
-  result.samples.resize(request.times.size() * request.heights.size());
-  const RunLimits limits{options.max_collisions, options.progress};
-  Status status = Status::ok;
-  const auto is_usable = [&] { return status == Status::ok || status == Status::steady; };
-  if (request.profiles) result.profiles.resize(request.times.size());
-  if (request.integrand) result.integrals.resize(request.times.size());
-  for (const std::size_t i : order) {
-    status = tracker.advance_to(request.times[i], limits);
-    if (!is_usable()) break;
-    Profile<double> profile = profile_of(tracker, scene, setup.stack, options.reconstruct);
-    const auto values = profile.at(request.heights);
-    for (std::size_t j = 0; j < values.size(); ++j)
-      result.samples[i * request.heights.size() + j] = {values[j].phi, values[j].M};
-    if (request.integrand) result.integrals[i] = share_integral(scene, profile, request.integrand);
-    if (request.profiles) result.profiles[i] = std::move(profile);
+  Status advance(double t) override {
+    field_.reset();
+    if (scene_.spec().is_periodic && !std::isfinite(t)) {
+      refused_ = "a periodic bed has no steady state; ask for a finite time";
+      return status_ = Status::unsupported;
+    }
+    return status_ = tracker_.advance_to(t, limits_);
   }
-  if (request.timeline && is_usable()) {
-    status = tracker.run_to_steady(limits);
-    if (is_usable()) result.timeline = tracked_timeline(tracker, scene, setup.stack);
+  [[nodiscard]] const Field& field() override {
+    if (!field_) field_.emplace(scene_, profile_of(tracker_, scene_, setup_.stack, reconstruct_));
+    return *field_;
   }
-  if constexpr (Observer::kActive) {
-    tracker.close_record();
-    result.fronts = tracker.observer().segments();
+  [[nodiscard]] std::optional<Timeline<double>> timeline() override {
+    if (!scene_.has_walls()) {
+      refused_ = "event times are those of a bed between walls";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
+    status_ = tracker_.run_to_steady(limits_);
+    if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
+    return tracked_timeline(tracker_, scene_, setup_.stack);
   }
-  if (!is_usable()) {
-    result.profiles.clear();
-    result.integrals.clear();
+  [[nodiscard]] std::vector<FrontSegment<double>> fronts() override {
+    if constexpr (Observer::kActive) {
+      tracker_.close_record();
+      return tracker_.observer().segments();
+    } else {
+      return {};
+    }
   }
-  summary.status = status;
-  summary.message = message_of(status, tracker.n_collisions(), tracker.n_unreachable());
-  summary.collisions = tracker.n_collisions();
-  summary.fronts_max = tracker.n_fronts_max();
-  return result;
-}
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.message =
+        refused_.empty() ? message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable()) : refused_;
+    summary.collisions = tracker_.n_collisions();
+    summary.fronts_max = tracker_.n_fronts_max();
+    summary.levels = setup_.grid.n_levels();
+    summary.layers = setup_.stack.n_layers();
+    return summary;
+  }
+
+ private:
+  const Scene<double>& scene_;
+  Reconstruction reconstruct_;
+  RunLimits limits_;
+  TrackingSetup<double, Grid> setup_;
+  Tracker<Grid, Observer> tracker_;
+  Status status_ = Status::ok;
+  std::string refused_;
+  std::optional<ProfileField> field_;
+};
 
 template <class Grid>
-SolverResult track_on(const Scene<double>& scene, const SolverRequest& request, const SolverOptions& options,
-                      LayerStack<double> stack) {
-  return request.fronts ? track<Grid, SegmentRecord<double>>(scene, request, options, std::move(stack))
-                        : track<Grid, NoObserver>(scene, request, options, std::move(stack));
+std::unique_ptr<Run> start_on(const Scene<double>& scene, const FrontTrackingSolver::Options& options,
+                              const Watch& watch, LayerStack<double> stack) {
+  if (watch.fronts)
+    return std::make_unique<TrackRun<Grid, SegmentRecord<double>>>(scene, options, watch, std::move(stack));
+  return std::make_unique<TrackRun<Grid, NoObserver>>(scene, options, watch, std::move(stack));
 }
 
 }  // namespace
 
-SolverResult FrontTrackingSolver::solve(const Scene<double>& scene, const SolverRequest& request,
-                                        const SolverOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  SolverResult result;
-  const double layer_resolution =
-      options.resolution > 0 && options.resolution <= 1 ? options.resolution : 1.0;
-  LayerStack<double> stack = tracking_layers(scene, layer_resolution, options.layers);
-  if (std::string why = refusal(scene, request, stack, options); !why.empty()) {
-    result.summary.status = Status::unsupported;
-    result.summary.message = std::move(why);
-  } else if (LevelGrid<double>::refusal(stack).empty()) {
-    result = track_on<LevelGrid<double>>(scene, request, options, std::move(stack));
-  } else {
-    result = track_on<UnimodalGrid<double>>(scene, request, options, std::move(stack));
-  }
-  result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+std::string FrontTrackingSolver::refusal(const Scene<double>& scene, const Options& options) {
+  if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
+    return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
+  if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
+  if (scene.has_diffusion()) return "there are no fronts where grains diffuse";
+  return refusal_of(scene, layers_of(scene, options), options);
+}
+
+void FrontTrackingSolver::prefer_smooth(const Scene<double>& scene, Options& options) {
+  Options smooth = options;
+  smooth.reconstruct = Reconstruction::linear;
+  if (refusal(scene, smooth).empty()) options = smooth;
+}
+
+std::unique_ptr<Run> FrontTrackingSolver::start(const Scene<double>& scene, const Options& options,
+                                                const Watch& watch) {
+  LayerStack<double> stack = layers_of(scene, options);
+  return LevelGrid<double>::refusal(stack).empty()
+             ? start_on<LevelGrid<double>>(scene, options, watch, std::move(stack))
+             : start_on<UnimodalGrid<double>>(scene, options, watch, std::move(stack));
 }
 
 }  // namespace shearfront

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/problem_tangents.hpp"
+#include "shearfront/diffusion/problem_tangents.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +8,14 @@
 
 #include "shearfront/diffusion/setup.hpp"
 
-namespace shearfront::fit {
+namespace shearfront::diffusion {
 namespace {
-
-using diffusion::Problem;
-using diffusion::Tangent;
 
 /// Breaks enter piecewise linearly, with a kink wherever one passes the edge of a cell or the middle of it;
 /// a smooth initial profile is integrated over cells, which costs digits for shorter steps.
-double step_of(const Parameter& parameter, double value, double cell) {
-  if (parameter.entry.range == Range::positive) return 1e-3 * value;
-  const std::string& field = parameter.entry.field;
+double step_of(const Entry& entry, double value, double cell) {
+  if (entry.range == Range::positive) return 1e-3 * value;
+  const std::string& field = entry.field;
   if (field == "initial.centre" || field == "initial.origin") return 1e-2 * cell;
   const bool is_height = field.ends_with(".breaks") || field.ends_with(".z") || field.ends_with(".above");
   return is_height && field != "initial.above" ? 1e-3 * cell : 1e-3 * std::max(1.0, std::abs(value));
@@ -37,25 +34,22 @@ std::vector<double> combined(const std::vector<Weighted>& terms, std::vector<dou
   return sum;
 }
 
-/// The problem with one value moved; nothing if that is no scene.
+/// The problem with one number of the scene moved; nothing if that is no scene.
 class Moved {
  public:
-  Moved(const Parameters& parameters, Eigen::VectorXd values, Eigen::Index column, std::size_t n_cells)
-      : parameters_(parameters), values_(std::move(values)), column_(column), n_cells_(n_cells) {}
+  Moved(const Scene<double>& scene, std::size_t entry, std::size_t n_cells)
+      : scene_(scene), entry_(entry), n_cells_(n_cells) {}
 
   [[nodiscard]] std::optional<Problem> operator()(double by) const {
-    Eigen::VectorXd moved = values_;
-    moved[column_] += by;
-    SceneSpec<double> spec = parameters_.scene_with(moved);
+    SceneSpec<double> spec = scene_.spec();
+    *entry_places(spec)[entry_] += by;
     if (!find_complaints(spec).empty()) return {};
-    return diffusion::problem_of(Scene<double>(std::move(spec)), n_cells_);
+    return problem_of(Scene<double>(std::move(spec)), n_cells_);
   }
 
  private:
-  const Parameters& parameters_;
-  Eigen::VectorXd values_;
-  Eigen::Index column_;
-  std::size_t n_cells_;
+  const Scene<double>& scene_;
+  std::size_t entry_, n_cells_;
 };
 
 std::vector<Weighted> difference(const Moved& at, double h) {
@@ -70,22 +64,23 @@ std::vector<Weighted> difference(const Moved& at, double h) {
 
 }  // namespace
 
-bool has_problem_tangent(const std::string& field) {
+bool has_problem_tangent(const Entry& entry) {
+  const std::string& field = entry.field;
   if (field.starts_with("flux")) return field.ends_with("].above");
   return !field.starts_with("domain.") && !field.starts_with("boundary.");
 }
 
-std::vector<Tangent> problem_tangents(const Parameters& parameters, const Eigen::VectorXd& values,
+std::vector<Tangent> problem_tangents(const Scene<double>& scene, const std::vector<std::size_t>& wanted,
                                       std::size_t n_cells) {
-  const Scene<double>& scene = parameters.scene();
   const double cell = (scene.top() - scene.bottom()) / static_cast<double>(n_cells);
+  const std::vector<Entry> all = entries(scene.spec());
+  SceneSpec<double> spec = scene.spec();
+  const std::vector<double*> places = entry_places(spec);
   std::vector<Tangent> tangents;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const Moved at(parameters, values, column, n_cells);
+  for (const std::size_t i : wanted) {
     // A step that is a difference of doubles: of breaks it is small.
-    const double value = values[column], h = (value + step_of(parameters[k], value, cell)) - value;
-    const std::vector<Weighted> terms = difference(at, h);
+    const double value = *places[i], h = (value + step_of(all[i], value, cell)) - value;
+    const std::vector<Weighted> terms = difference(Moved(scene, i, n_cells), h);
     Tangent& tangent = tangents.emplace_back();
     if (terms.empty()) continue;
     tangent.rate = combined(terms, &Problem::rate);
@@ -95,4 +90,4 @@ std::vector<Tangent> problem_tangents(const Parameters& parameters, const Eigen:
   return tangents;
 }
 
-}  // namespace shearfront::fit
+}  // namespace shearfront::diffusion

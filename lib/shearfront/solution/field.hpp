@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/profile.hpp"
+#include "shearfront/solution/share_function.hpp"
+
+namespace shearfront {
+
+struct Sample {
+  double phi = 0;  ///< concentration; at a jump the value above it, at the top wall the value below
+  double M = 0;    ///< int_bottom^z phi
+};
+
+/// The solution at one time, as a function of height.
+class Field {
+ public:
+  virtual ~Field() = default;
+
+  /// phi and M at one height of the domain.
+  [[nodiscard]] virtual Sample at(double z) const = 0;
+  /// The same at many heights, in any order.
+  [[nodiscard]] virtual std::vector<Sample> at(const std::vector<double>& heights) const {
+    std::vector<Sample> samples;
+    samples.reserve(heights.size());
+    for (const double z : heights) samples.push_back(at(z));
+    return samples;
+  }
+  /// int c g(phi / c) dz over the bed.
+  [[nodiscard]] virtual double integral(const ShareFunction& g) const = 0;
+  /// phi over the whole domain, where the solver's solution is linear in pieces (Guarantees::has_profiles).
+  [[nodiscard]] virtual std::optional<Profile<double>> profile() const { return std::nullopt; }
+};
+
+/// A solution that is linear in pieces.
+class ProfileField final : public Field {
+ public:
+  /// `scene` must outlive this: its solid fraction enters integral().
+  ProfileField(const Scene<double>& scene, Profile<double> profile)
+      : scene_(&scene), profile_(std::move(profile)) {}
+
+  [[nodiscard]] Sample at(double z) const override {
+    const auto value = profile_.at(z);
+    return {value.phi, value.M};
+  }
+  [[nodiscard]] std::vector<Sample> at(const std::vector<double>& heights) const override;
+  [[nodiscard]] double integral(const ShareFunction& g) const override;
+  [[nodiscard]] std::optional<Profile<double>> profile() const override { return profile_; }
+
+ private:
+  const Scene<double>* scene_;
+  Profile<double> profile_;
+};
+
+}  // namespace shearfront

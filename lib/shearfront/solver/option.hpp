@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace shearfront {
+
+/// The numbers an option may have; the lowest may be excluded.
+struct OptionRange {
+  double low = 0, high = std::numeric_limits<double>::max();
+  bool excludes_low = false;
+  [[nodiscard]] bool contains(double x) const { return (excludes_low ? x > low : x >= low) && x <= high; }
+};
+
+/// Self-description of one option of a solver. A solver lists its options once, in
+///     template <class Self, class Visit> static void fields(Self& self, Visit&& visit)
+/// of its struct Options, which calls visit(OptionInfo, member) for each. Members are double, std::uint64_t, bool or an
+/// enumeration; the initial value of the member is the default. Command line (--name), fit files ([forward] name, with
+/// _ for -), `compare` and `list` are generated from it.
+struct OptionInfo {
+  std::string_view name;      ///< "cell-tolerance"
+  std::string_view sentence;  ///< what it is, one clause without a full stop, domain and default left out
+  OptionRange range{};        ///< numbers only
+  std::span<const std::string_view> names{};  ///< enumerations only: of the enumerators, in their order
+  std::string_view unset{};  ///< what the default stands for, if it is no value one could give: "chosen by tolerance"
+};
+
+}  // namespace shearfront
