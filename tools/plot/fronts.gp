@@ -60,8 +60,17 @@ note(side) = (sides = sides . ' ' . side . ' ', 0)
 stats 'events.csv' using (note(strcol("side"))) nooutput
 at(where) = strcol("side") eq where ? column("z") : NaN
 has(where) = strstrt(sides, ' '.where.' ') > 0
-plot for [i=0:n_widths-1] 'fronts.csv' using (class($6, $7) == i ? $2 : NaN):3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2) \
-    with vectors nohead lw width_of(i) lc palette, \
+
+# Shocks apart, so that the many fronts of fans are read only twice.
+set print $shocks
+print "t,z,dt,dz,phi,class"
+unset print
+set table $shocks append separator comma
+plot 'fronts.csv' using 2:3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2):(class($6, $7)) with table if (class($6, $7) > 0)
+unset table
+plot 'fronts.csv' using (class($6, $7) == 0 ? $2 : NaN):3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2) \
+    with vectors nohead lw fan_width lc palette, \
+  for [i=1:n_widths-1] $shocks using ($6 == i ? $1 : NaN):2:3:4:5 with vectors nohead lw width_of(i) lc palette, \
   'events.csv' using "t":"z" with points pt 7 ps 0.75 lc rgb 'white', \
   'events.csv' using "t":"z" with points pt 7 ps 0.55 lc rgb 'black', \
   for [i=1:has("left-above")] 'events.csv' using "t":(at("left-above")):"label" with labels right offset -0.6,0.75, \
