@@ -27,7 +27,7 @@ struct FitArguments {
   bool json = false;
 };
 
-/// All files, with the problems of all of them.
+/// All files, with the complaints about all of them.
 std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
   std::vector<fit::FitFile> files;
   Complaints complaints;

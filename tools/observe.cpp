@@ -58,7 +58,7 @@ double width_of(const ObserveArguments& arguments, const ObservationPlan& plan) 
   return *spacing;
 }
 
-/// The first problem of the plan as one of the option it comes from.
+/// The first complaint about the plan as one of the option it comes from.
 void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, const Scene<double>& scene) {
   const Complaints complaints = find_complaints(plan, scene.bottom(), scene.top());
   if (complaints.empty()) return;

@@ -11,8 +11,7 @@
 ///     --- file scene.toml             content of an input file, one final newline; {datasets} is replaced
 ///     --- raw-file scene.toml         the same with escapes \n \r \xNN and no final newline
 ///     --- directory d                 an empty directory
-///     --- args                        arguments, separated by blanks; "..." keeps blanks; {datasets} is
-///     replaced
+///     --- args                        arguments, separated by blanks; "..." keeps blanks; {datasets} is replaced
 ///     --- env NAME=VALUE              an environment variable
 ///     --- stdout-to PATH              where standard output goes instead of being checked
 ///     --- exit                        exit code, default 0
@@ -20,8 +19,7 @@
 ///     --- stdout-match, stderr-match  regular expressions that match one line each, in this order
 ///     --- expect-file F               exact content of an output file; expect-file-match F by lines
 ///     --- absent F                    this file must not exist (name ending in * for a prefix)
-///     --- json                        lines `/pointer value [tolerance]` about standard output; relative
-///     tolerance
+///     --- json                        lines `/pointer value [relative tolerance]` about standard output
 ///
 /// Lines before the first case and before the first section of a case are comments.
 namespace shearfront::cli_tests {

@@ -109,8 +109,8 @@ double root(const Function& f, double lo, double hi) {
   return lo;
 }
 
-// f = -phi (1 - phi)(1 - 0.9 phi) is concave above 0.70: the fan from 0 ends at the tangent to f from phi =
-// 1, and a shock from there to 1 moves with its last speed.
+// f = -phi (1 - phi)(1 - 0.9 phi) is concave above 0.70: the fan from 0 ends at the tangent to f from
+// phi = 1, and a shock from there to 1 moves with its last speed.
 TEST(AnyFlux, CompoundWaveOfANonConvexFlux) {
   const Cubic<double> flux{0.9};
   const double tangent =

@@ -177,8 +177,8 @@ TEST(ExactLaws, SteadyAfterTheSteadyTime) {
   });
 }
 
-/// Restart: the solution at t1, taken as new initial data in very small steps, reaches the solution at t1 +
-/// t2.
+/// Restart: the solution at t1, taken as new initial data in very small steps, reaches the solution at
+/// t1 + t2.
 TEST(ExactLaws, Semigroup) {
   for_random_scenes(12, [](SceneMaker& make, const SceneSpec<double>& spec) {
     const ExactSolution<double> direct{Scene<double>(spec)};

@@ -34,7 +34,7 @@ void for_samples(Visit&& visit) {
       check_number(std::string(info.key), info.range, member, complaints);
     });
     flux.check("", complaints);
-    ASSERT_TRUE(complaints.empty()) << problems[0].text();
+    ASSERT_TRUE(complaints.empty()) << complaints[0].text();
     const auto [lowest, highest] = flux.range();
     double steepest = 0;
     for (int i = 0; i <= 1000; ++i)

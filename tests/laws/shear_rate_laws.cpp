@@ -49,7 +49,7 @@ TYPED_TEST(ShearRateLaws, HasSamplesThatPassTheirOwnCheck) {
   for (const auto& a : TypeParam::samples()) {
     Complaints complaints;
     a.check("shear_rate.", 0.0, 1.0, complaints);
-    EXPECT_TRUE(complaints.empty()) << (complaints.empty() ? "" : problems[0].text());
+    EXPECT_TRUE(complaints.empty()) << (complaints.empty() ? "" : complaints[0].text());
     std::set<std::string> keys;
     TypeParam::fields(a, [&](const FieldInfo& info, const auto& member) {
       check_number(std::string(info.key), info.range, member, complaints);
@@ -135,7 +135,7 @@ TYPED_TEST(ShearRateLaws, EveryFieldRefusesNotANumber) {
         check_number(std::string(info.key), info.range, member, complaints);
       });
       ASSERT_FALSE(complaints.empty()) << key;
-      EXPECT_EQ(problems[0].key.rfind(key, 0), 0u);
+      EXPECT_EQ(complaints[0].key.rfind(key, 0), 0u);
     }
   }
 }

@@ -8,8 +8,8 @@ namespace shearfront::support {
 /// phi_t + (r phi (phi - 1))_z = D phi_zz on [0, 1] between no-flux walls from a uniform start: cell means at
 /// time `end` by the plainest conservative scheme, central in space, four Newton passes in each step (from
 /// 1e-3 quadratically below rounding). The first two steps are four half steps backward: the start does not
-/// satisfy the wall condition, and Crank-Nicolson would keep that as an oscillation. Error O(1 / n^2 +
-/// step^2).
+/// satisfy the wall condition, and Crank-Nicolson would keep that as an oscillation.
+/// Error O(1 / n^2 + step^2).
 inline std::vector<double> plain_crank_nicolson(double r, double diffusivity, double start, double end,
                                                 std::size_t n, std::size_t n_steps) {
   const double dz = 1 / double(n), dt = end / double(n_steps), k = diffusivity / dz;

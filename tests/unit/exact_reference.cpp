@@ -92,8 +92,7 @@ TEST(ExactReference, Example2PrintedDigits) {
   EXPECT_LT(relative_error(*in_double.t_star, to_double(*events.t_star)), 1e-14);
 }
 
-/// The characteristic that returns to z0 = 1/2 with p = 1 - P: lambda ((1 - 2 P) + log(P / (1 - P))) = 1 -
-/// z0.
+/// The characteristic that returns to z0 = 1/2 with p = 1 - P: lambda ((1 - 2 P) + log(P / (1 - P))) = 1 - z0.
 TEST(ExactReference, Example2SteadyTimeSolvesItsOwnEquation) {
   const Real110 t = *exact_timeline(example_2<Real110>()).t_star;
   const Real110 lambda("0.205"), s("13.60"), R = s * Real110("0.87") / lambda * exp(Real110(-1 / (2 * lambda)));

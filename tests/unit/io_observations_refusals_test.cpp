@@ -61,7 +61,7 @@ TEST(ObservationRefusals, OneOfEachKind) {
 }
 
 TEST(ObservationRefusals, OnlyTheFirstProblemsAreShown) {
-  const std::string text = "t,z,phi\n" + rows("0,0.5,x\n", kMostProblems);
+  const std::string text = "t,z,phi\n" + rows("0,0.5,x\n", kMostComplaints);
   EXPECT_EQ(report(text).find(" more "), std::string::npos);
   EXPECT_TRUE(report(text + "0,0.5,x\n").ends_with("\ndata.csv: and 1 more problem"));
   const std::string many = report("t,z,phi\n" + rows("0,0.5,x\n", 12345));
@@ -69,7 +69,7 @@ TEST(ObservationRefusals, OnlyTheFirstProblemsAreShown) {
       many.ends_with("phi[19] = \"x\"; must be a number, or empty or NA if it is missing\n"
                      "data.csv: and 12325 more problems"))
       << many;
-  EXPECT_EQ(static_cast<std::size_t>(std::count(many.begin(), many.end(), '\n')), kMostProblems);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(many.begin(), many.end(), '\n')), kMostComplaints);
 }
 
 /// Complaints between rows are found last and belong further up.

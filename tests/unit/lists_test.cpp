@@ -122,7 +122,7 @@ TEST(Skeletons, ExampleOfTheDocsIsAShearRate) {
   Complaints complaints;
   Linear<double>{1.0, -2.0}.check("shear_rate.", 0.0, 1.0, complaints);
   ASSERT_EQ(complaints.size(), 1U);
-  EXPECT_EQ(problems[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
+  EXPECT_EQ(complaints[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
 }
 
 TEST(Skeletons, SolverSaysThatItSolvesNothing) {

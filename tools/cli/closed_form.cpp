@@ -2,18 +2,19 @@
 #include "cli/closed_form.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace shearfront::tools {
 
 ClosedForms closed_forms(const Scene<double>& scene) {
   ClosedForms forms;
-  const std::vector<double> knots = scene.knots();
-  if (!scene.is_layered() || knots.size() != 1 || !scene.is_plain()) return forms;
+  const std::vector<double> breaks = scene.knots();
+  if (!scene.is_layered() || breaks.size() != 1 || !scene.is_plain()) return forms;
   if (scene.initial_values() != std::vector<double>{0, 1}) return forms;
   const double h = scene.top() - scene.bottom();
-  const double zc = knots[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();
+  const double zc = breaks[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();
   const double k0 = scene.scale() * scene.shear_rate_at(scene.bottom()),
-               k1 = scene.scale() * scene.shear_rate_at(scene.top());
+               k1 = scene.scale() * scene.shear_rate_at(breaks[0]);
   if (z0 == zc) return forms;
   if (z0 > zc) {
     forms.first_interface = {"(z0 - zc)/k1", (z0 - zc) / k1};

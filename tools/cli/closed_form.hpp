@@ -18,10 +18,10 @@ struct ClosedForm {
 /// does not hold. With z0 above the interface zc, k0 and k1 the rates s a below and above, heights from the
 /// bottom:
 ///
-///   first_interface  (z0 - zc)/k1                          first waves run with the speed of pure states
+///   first_interface  (z0 - zc)/k1                     first waves run with the speed of pure states
 ///   t0, t1           sums of layer thickness / rate
-///   last_interface   k1 t = z0 + zc + 2 sqrt(z0 zc)        the larger root of (k1 t - (z0 - zc))^2 = 4 k1 t
-///   zc t_star           k1 t = h + 2 sqrt(z0 (h - z0))        2 h/k1 for z0 = h/2
+///   last_interface   k1 t = z0 + zc + 2 sqrt(z0 zc)   the larger root of (k1 t - (z0 - zc))^2 = 4 k1 t zc
+///   t_star           k1 t = h + 2 sqrt(z0 (h - z0))   2 h/k1 for z0 = h/2
 ///
 /// The last two need k0 >= k1 (no bottleneck) and the steady height h - z0 not below zc. With z0 below the
 /// interface the roles of the layers are exchanged.

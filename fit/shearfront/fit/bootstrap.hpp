@@ -35,8 +35,9 @@ using Refit = std::function<std::optional<Eigen::VectorXd>(const FitSpec& spec)>
 /// An interval runs from the 2.5 % to the 97.5 % quantile of the estimates, (B + 1) p-th in order with linear
 /// interpolation. Guarantees: the numbers depend on spec and estimate alone, to the bit, whatever the number
 /// of threads: replicate b draws from stream_seed(seed, b). No interval is given to a parameter without error
-/// bar that is not at a bound, nor one of length zero. Preconditions: `estimate` is usable. Cost: replicates
-/// x one fit, on all cores (spec.uncertainty.threads). Source: Efron & Tibshirani (1993), chapters 6 and 13.
+/// bar that is not at a bound, nor one of length zero. Preconditions: `estimate` is usable.
+/// Cost: replicates x one fit, on all cores (spec.uncertainty.threads). Source: Efron & Tibshirani (1993),
+/// chapters 6 and 13.
 [[nodiscard]] Bootstrap bootstrap(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate,
                                   const Refit& refit, const Progress& progress = {});
 

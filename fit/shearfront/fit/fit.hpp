@@ -13,13 +13,13 @@ namespace shearfront::fit {
 ///
 /// Defaults that follow from the data: quantity = that of the observations; loss = squared, for point data
 /// huber; point data with a search that uses derivatives in two stages: sums over z first (smooth in the
-/// parameters), then the points that no shock is near (rows_without_jumps; all with
-/// diffusion, which has no shocks), renewed until the estimate stays.
+/// parameters), then the points that no shock is near (rows_without_jumps; all with diffusion, which has no
+/// shocks), renewed until the estimate stays.
 /// Noise: sigma of the observations, otherwise estimated from the residuals, for robust losses by their
 /// median absolute value. Guaranteed: the outcome is a Status with a message; an unusable estimate carries no
-/// numbers. The same input gives the same numbers to the bit, whatever the number of threads. Errors:
-/// InputError for what holds between entries of the specification (keys as in a fit file). Cost: evaluations
-/// x one run of the forward model; exact engine, 2000 observations: about 1 ms each.
+/// numbers. The same input gives the same numbers to the bit, whatever the number of threads.
+/// Errors: InputError for what holds between entries of the specification (keys as in a fit file).
+/// Cost: evaluations x one run of the forward model; exact engine, 2000 observations: about 1 ms each.
 [[nodiscard]] Estimate fit(const FitSpec& spec, const Progress& progress = {});
 
 /// What a fit compares and how residuals count: names of MisfitList and LossList, defaults resolved.

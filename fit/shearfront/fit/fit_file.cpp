@@ -51,7 +51,7 @@ std::vector<std::string> names_in() {
   return names;
 }
 
-/// Puts a problem where its entry stands in the file, with the number as it is written there.
+/// Puts a complaint where its entry stands in the file, with the number as it is written there.
 void add_located(const TomlSource& source, ComplaintReport& report, Complaint complaint) {
   const TomlSource::Found found = source.find(complaint.key);
   if (found.is_exact && found.node->is_number()) complaint.value = source.shown(*found.node);
@@ -211,7 +211,7 @@ class FitReader {
     table.finish();
   }
 
-  /// Reads another file. One that cannot be read at all is a problem of the entry that names it; problems
+  /// Reads another file. One that cannot be read at all is a complaint about the entry that names it; those
   /// inside it are its own.
   template <class Read>
   void load(const char* key, const std::string& path, Read&& read) {

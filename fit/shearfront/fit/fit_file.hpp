@@ -18,7 +18,7 @@ struct FitFile {
 /// Reads a fit file, its scene and its observations; their names are relative to the fit file.
 ///
 /// Guaranteed:
-///   (1) every problem is reported, one line each: those of the fit file in its order, then those of the
+///   (1) every complaint is reported, one line each: those of the fit file in its order, then those of the
 ///       scene and of the observations, each with the name of its file, line and column;
 ///   (2) what holds between the files is checked as well: unknowns exist in the scene, start values lie
 ///       between their bounds and make a valid scene, the observations can be compared as asked.

@@ -14,8 +14,9 @@ using ResidualFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 [[nodiscard]] double computational_noise(const Eigen::VectorXd& values);
 
 /// Steps of central differences suited to the noise of the residuals, one per coordinate:
-///     h = (3 noise / |r'''|)^(1/3) kept within [smallest, 0.1] max(1, |u|) with |r'''| taken as |r| / L^3, L
-///     = 1,
+///
+///     h = (3 noise / |r'''|)^(1/3) kept within [smallest, 0.1] max(1, |u|),     |r'''| taken as |r| / L^3, L = 1,
+///
 /// for coordinates of order one (logarithms, heights). Cost: 8 runs.
 [[nodiscard]] Eigen::VectorXd numeric_steps(const ResidualFunction& residuals, const Eigen::VectorXd& u,
                                             const Eigen::VectorXd& at_u, double smallest);

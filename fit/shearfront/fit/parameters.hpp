@@ -46,7 +46,7 @@ class Parameters {
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
   /// The scene with these values in place of its own; it may be invalid (breaks out of order).
   [[nodiscard]] SceneSpec<double> scene_with(const Eigen::VectorXd& values) const;
-  /// The same as a scene; none, and the first problem as the failure, if it is invalid.
+  /// The same as a scene; none, and the first complaint as the failure, if it is invalid.
   [[nodiscard]] std::optional<Scene<double>> scene_at(const Eigen::VectorXd& values,
                                                       std::string& failure) const;
 

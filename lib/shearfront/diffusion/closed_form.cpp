@@ -5,6 +5,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
@@ -45,39 +46,54 @@ Result uniform_start(const Scene<double>& scene, double rate) {
   };
 }
 
-Result travelling_kink(const Scene<double>& scene, const KinkInitial<double>& kink, double rate) {
+Result travelling_kink(const Scene<double>& scene, const LogisticStep<double>& step, double rate) {
   const double D = scene.diffusivity_at(scene.bottom());
-  if (!scene.spec().is_neumann || rate < 0 || kink.above != 0 || !(kink.below > 0) ||
-      !is_close(kink.width, D / (rate * kink.below)))
+  if (!scene.spec().is_neumann || rate < 0 || step.above != 0 || !(step.below > 0) ||
+      !is_close(step.width, D / (rate * step.below)))
     return std::string(
         "a kink has a closed form between Neumann ends, with above = 0 and width = D / (s a below)");
   const auto form =
-      std::make_shared<Kink<double>>(scene.bottom(), rate, D, kink.centre, rate * (kink.below - 1));
+      std::make_shared<Kink<double>>(scene.bottom(), rate, D, step.centre, rate * (step.below - 1));
   return [form](double z, double t) {
     const auto at = form->at(z, t);
     return ClosedFormValue{at.phi, at.cumulative};
   };
 }
 
-Result periodic_burgers(const Scene<double>& scene, double rate) {
-  const auto* sine = scene.spec().initial_state
-                         ? std::get_if<SineInitial<double>>(&*scene.spec().initial_state)
-                         : nullptr;
-  const double height = scene.top() - scene.bottom();
-  const double waves = sine ? height / sine->wavelength : 0;
-  if (!sine || !scene.spec().is_periodic || !(waves > 0.5) || !is_close(waves, std::round(waves)))
-    return std::string("Burgers' flux has a closed form in a periodic domain of whole waves of a sine");
-  // v = r u obeys Burgers' equation, in the frame that moves with the mean.
-  const double wave_number = boost::math::constants::two_pi<double>() / sine->wavelength;
+/// f = f(m) + bend / 2 (phi - m)^2 for all phi.
+struct Polynomial {
+  double m, bend;
+};
+
+/// v = r bend (phi - m) obeys Burgers' equation, in the frame that moves with the mean of v.
+Result periodic_wave(const Scene<double>& scene, const Wave<double>& wave, const Polynomial& f, double rate) {
+  const double waves = (scene.top() - scene.bottom()) / wave.wavelength;
+  if (!scene.spec().is_periodic || !(waves > 0.5) || !is_close(waves, std::round(waves)))
+    return std::string("a sine has a closed form in a periodic domain of whole wavelengths");
+  const double wave_number = boost::math::constants::two_pi<double>() / wave.wavelength;
+  const double factor = rate * f.bend;
   const auto form = std::make_shared<PeriodicBurgers<double>>(scene.diffusivity_at(scene.bottom()),
-                                                              rate * sine->amplitude, wave_number);
-  const double bottom = scene.bottom(), origin = sine->origin, mean = sine->mean;
-  return [form, bottom, origin, mean, rate](double z, double t) {
-    const double shift = origin + rate * mean * (std::isfinite(t) ? t : 0);
+                                                              factor * wave.amplitude, wave_number);
+  const double bottom = scene.bottom(), origin = wave.origin, mean = wave.mean, speed = factor * (wave.mean - f.m);
+  return [form, bottom, origin, mean, factor, speed](double z, double t) {
+    const double shift = origin + speed * (std::isfinite(t) ? t : 0);
     const auto at = form->at(z - shift, t), below = form->at(bottom - shift, t);
-    return ClosedFormValue{mean + at.value / rate,
-                           mean * (z - bottom) + (at.cumulative - below.cumulative) / rate};
+    return ClosedFormValue{mean + at.value / factor,
+                           mean * (z - bottom) + (at.cumulative - below.cumulative) / factor};
   };
+}
+
+std::optional<Polynomial> polynomial_of(const Flux<double>& flux) {
+  return std::visit(
+      []<class F>(const F& f) -> std::optional<Polynomial> {
+        if constexpr (is_quadratic_polynomial<F>()) {
+          const auto range = f.range();
+          return Polynomial{f.extrema().front(), (f.derivative(range.highest) - f.derivative(range.lowest)) /
+                                                     (range.highest - range.lowest)};
+        }
+        return std::nullopt;
+      },
+      flux);
 }
 
 }  // namespace
@@ -89,16 +105,16 @@ Result closed_form(const Scene<double>& scene) {
     return std::string("a closed form needs one flux, c = 1, and constant s a(z), T(z) and D(z)");
   const double rate = scene.scale() * scene.rate_at(scene.bottom());
   const Flux<double>& flux = scene.fluxes()[0];
-  if (const auto* burgers = std::get_if<Burgers<double>>(&flux); burgers)
-    return periodic_burgers(scene, rate);
-  const auto* packed = std::get_if<Packed<double>>(&flux);
-  if (!packed && !std::holds_alternative<Quadratic<double>>(flux))
-    return std::string("no closed form is known for this flux with diffusion");
-  const double signed_rate = packed && packed->grains == Grains::large ? -rate : rate;
-  if (scene.spec().initial_state)
-    if (const auto* kink = std::get_if<KinkInitial<double>>(&*scene.spec().initial_state))
-      return travelling_kink(scene, *kink, signed_rate);
-  return uniform_start(scene, signed_rate);
+  const auto& start = scene.spec().initial_state;
+  const auto wave = start ? std::visit([](const auto& m) { return shearfront::wave<double>(m); }, *start) : std::nullopt;
+  const auto polynomial = polynomial_of(flux);
+  if (wave && polynomial) return periodic_wave(scene, *wave, *polynomial, rate);
+  const int sign = unit_parabola_sign<double>(flux);
+  if (sign == 0) return std::string("no closed form is known for this flux with diffusion from this start");
+  if (start)
+    if (const auto step = std::visit([](const auto& m) { return logistic_step<double>(m); }, *start))
+      return travelling_kink(scene, *step, sign * rate);
+  return uniform_start(scene, sign * rate);
 }
 
 }  // namespace shearfront::diffusion

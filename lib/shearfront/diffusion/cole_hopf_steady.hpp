@@ -6,9 +6,8 @@ namespace shearfront::diffusion {
 
 /// The steady state of phi_t + (r phi (phi - 1))_z = D phi_zz between no-flux walls with the mean phi0,
 ///
-///     phi = 1 / (1 + exp(r (z - z_c) / D)),
-///     z_c = bottom + height phi0 - (D / r) ln(expm1(-(1 - phi0) / d) / expm1(-phi0 / d)),   d = D / (r
-///     height)
+///     phi = 1 / (1 + exp(r (z - z_c) / D)),     d = D / (r height),
+///     z_c = bottom + height phi0 - (D / r) ln(expm1(-(1 - phi0) / d) / expm1(-phi0 / d))
 ///
 /// (written for r > 0; for r < 0 the bed is turned upside down).
 ///

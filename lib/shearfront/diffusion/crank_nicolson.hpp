@@ -57,11 +57,10 @@ struct TimeStep {
 ///   (3) Scheme::fitted with walls or periodic ends: phi stays in [lo, hi] if f(lo) = f(hi) = 0, up to
 ///       rounding, for all steps; if r is constant (neumann, periodic) no new extrema appear. Proof:
 ///       the flux is monotone, so the implicit part of a step obeys the comparison principle for any dt, and
-///       the explicit part does if (1 - theta) dt L <= 1, L = explicit_rate(). Hence theta = max(1/2, 1 -
-///       1 / (dt L)): second order in dt as long as dt L <= 2, of first order beyond. (No scheme of order two
-///       has such bounds for all steps: Bolley & Crouzeix 1978, RAIRO Anal. Numer. 12, 237-245.)
-///   (4) tangents are the derivatives of the computed states for the same steps, to rounding (equal cells
-///   only).
+///       the explicit part does if (1 - theta) dt L <= 1, L = explicit_rate(). Hence
+///       theta = max(1/2, 1 - 1 / (dt L)): second order in dt as long as dt L <= 2, of first order beyond.
+///       (No scheme of order two has such bounds for all steps: Bolley & Crouzeix 1978, RAIRO Anal. Numer. 12, 237-245.)
+///   (4) tangents are the derivatives of the computed states for the same steps, to rounding (equal cells only).
 ///
 /// On another grid (Options::regrid) the states and the fluxes of the last two steps go on, see
 /// grid_transfer.hpp; the mass stays what it is, and fitted states stay in the range of the flux.

@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "shearfront/model/flux/all.hpp"
 
@@ -48,7 +47,7 @@ class ExtendedFlux {
 
  private:
   static constexpr bool kIsEntire =
-      may_leave_tangents && (Model::kIsParabola || std::is_same_v<Model, Burgers<double>>);
+      may_leave_tangents && is_quadratic_polynomial<Model>();
 
   [[nodiscard]] double clamp(double phi) const { return std::clamp(phi, range_.lowest, range_.highest); }
 

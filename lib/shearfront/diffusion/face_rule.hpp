@@ -21,10 +21,12 @@ namespace shearfront::diffusion {
 ///
 /// central is second order. Of the means (1 - a) f((l + u) / 2) + a (f(l) + f(u)) / 2 that with a = 1 is the
 /// most accurate for kinks and steady profiles of the quadratic flux: there the error of the cell means is
-/// phi (1 - phi) (r dz / D)^2 (x / 12 - (1/12 + a/8) tanh(x / 2)) with x = r (z - z0) / D, at most 0.003
-/// (r dz / D)^2 for a = 1 and 0.011 (r dz / D)^2 for a = 0.
-/// fitted is second order for P -> 0 and upwind, with the viscosity |r| W dz / 2, for P -> infinity and D =
-/// 0. It never falls as l rises and never rises as u does (is monotone), for all states in the range of f
+///
+///   phi (1 - phi) (r dz / D)^2 (x / 12 - (1/12 + a/8) tanh(x / 2)),     x = r (z - z0) / D,
+///
+/// at most 0.003 (r dz / D)^2 for a = 1 and 0.011 (r dz / D)^2 for a = 0.
+/// fitted is second order for P -> 0 and upwind, with the viscosity |r| W dz / 2, for P -> infinity and for
+/// D = 0. It never falls as l rises and never rises as u does (is monotone), for all states in the range of f
 /// and any r, D >= 0 and dz, because P coth(P) >= P. W is exact for fluxes that are convex or concave and
 /// comes from 4097 samples of f' for the others.
 /// Source: Il'in (1969), Math. Notes 6, 596-602; Scharfetter & Gummel (1969), IEEE Trans. Electron Devices

@@ -21,11 +21,13 @@ struct Resolution {
 
 /// Widths dz_j that cells of such states should have.
 ///
-/// 0.03 bend^(3/2) = dz^2 |phi_zz|, phi_z at walls being what the condition there says (so a layer at a wall
-/// is seen before it is resolved), but no smaller than fronts ask for: the width at which the steepest front
-/// there is, the logistic one of the width D / (|r| W), bends by `bend` from one cell to the
-/// next, sqrt(bend / 0.0962) D / (|r| W), or an eighth of equal_width if that is less. What is steeper than
-/// fronts, as a jump in the beginning, is resolved no further.
+///     dz^2 |phi_zz| = 0.03 bend^(3/2),
+///
+/// phi_z at walls being what the condition there says (so a layer at a wall is seen before it is resolved),
+/// but no smaller than fronts ask for: the width sqrt(bend / 0.0962) D / (|r| W) at which the steepest front
+/// there is, the logistic one of the width D / (|r| W), bends by `bend` from one cell to the next, or an
+/// eighth of equal_width if that is less. What is steeper than fronts, as a jump in the beginning, is resolved
+/// no further.
 ///
 /// So cells of a front bend by up to `bend`, and cells change their widths only where states bend far less:
 /// the truncation error jumps there, and when the grid moves on, what states had adjusted to it is left

@@ -13,24 +13,12 @@
 namespace shearfront::diffusion {
 namespace {
 
-/// +1 for phi (phi - 1), -1 for phi (1 - phi), 0 for any other flux.
-int sign_of(const Flux<double>& flux) {
-  return std::visit(
-      [](const auto& f) {
-        const StateRange<double> range = f.range();
-        if (!f.kIsParabola || range.lowest != 0 || range.highest != 1) return 0;
-        const double at_extremum = f.value(0.5);
-        return at_extremum == -0.25 ? 1 : at_extremum == 0.25 ? -1 : 0;
-      },
-      flux);
-}
-
 /// r and D at a height inside a piece without a knot.
 class Coefficients {
  public:
   explicit Coefficients(const Scene<double>& scene) : scene_(scene) {
     if (scene.fluxes().size() > 1)
-      for (const Flux<double>& flux : scene.fluxes()) signs_.push_back(sign_of(flux));
+      for (const Flux<double>& flux : scene.fluxes()) signs_.push_back(unit_parabola_sign<double>(flux));
   }
   [[nodiscard]] double rate(double z) const {
     const double r = scene_.scale() * scene_.rate_at(z);
@@ -123,7 +111,7 @@ std::string refusal(const Scene<double>& scene) {
     return "states beyond open ends are not covered with diffusion; boundary.neumann and boundary.periodic "
            "are";
   if (scene.fluxes().size() > 1 && std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
-                                               [](const Flux<double>& flux) { return sign_of(flux) == 0; }))
+                                               [](const Flux<double>& flux) { return unit_parabola_sign<double>(flux) == 0; }))
     return "with diffusion, layers may have the fluxes phi (phi - 1) and phi (1 - phi) only";
   return "";
 }

@@ -7,9 +7,9 @@
 
 namespace shearfront {
 
-/// A file that cannot be used: bad input whose problems are located in a file.
+/// A file that cannot be used: bad input whose complaints are located in a file.
 ///
-/// what() is the finished report, one line per problem in the order of the file:
+/// what() is the finished report, one line per complaint in the order of the file:
 ///     scene.toml:7:10: shear_rate.values[1] = -0.31; must be > 0
 /// Lines and columns count from 1, columns in characters (Unicode code points), not bytes.
 class FileError : public InputError {

@@ -45,7 +45,7 @@ auto place_of(const Observation& o) { return std::tie(o.t, o.z, o.width); }
 class ObservationsReader {
  public:
   ObservationsReader(const TextSource& source, double bottom, double top)
-      : source_(source), report_(source.name(), kMostProblems), bottom_(bottom), top_(top) {}
+      : source_(source), report_(source.name(), kMostComplaints), bottom_(bottom), top_(top) {}
 
   Observations read() {
     const std::string_view text = source_.text();

@@ -11,7 +11,7 @@
 namespace shearfront {
 
 /// Complaints of a file that are printed; of the others only the number is.
-inline constexpr std::size_t kMostProblems = 20;
+inline constexpr std::size_t kMostComplaints = 20;
 
 /// Reads observations: columns t, z and phi (with width: means over bins) or M (cumulative), optional sigma,
 /// in any order. z and the bins must lie in [bottom, top], which may be infinite.
@@ -23,7 +23,7 @@ inline constexpr std::size_t kMostProblems = 20;
 ///   (4) sigma > 0 in every row or NaN in every row.
 /// phi need not lie between 0 and 1: measured values scatter beyond. Rows without a value (empty or NA) are
 /// counted in n_missing. Columns that are not known are not used; a note says so.
-/// Errors: FileError with one line per problem, all of them up to kMostProblems and then their number:
+/// Errors: FileError with one line per complaint, all of them up to kMostComplaints and then their number:
 ///     data.csv:7:3: z[5] = 1.5; must be inside the domain [0, 1]
 /// where 5 is the row, counted from 0 without header, comments and blank lines.
 /// Cost: O(n) for files in ascending order of t, then z; otherwise O(n log n). 1e6 rows take half a second.

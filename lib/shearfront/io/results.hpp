@@ -37,8 +37,8 @@ struct TimeTable {
 /// Header t and the columns, one row per time.
 void write_time_table_csv(OutputFile& file, const TimeTable& table);
 
-/// {"scene","method","times", one array per column, then `extra` (members of an object, or nothing),
-/// "summary"}.
+/// {"scene","method","times", one array per column, `extra`, "summary"}; `extra` is members of an object, or
+/// nothing.
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
                            const TimeTable& table, std::string_view extra, const Summary& summary);
 

@@ -18,7 +18,7 @@ struct Complaint {
 
 using Complaints = std::vector<Complaint>;
 
-/// Thrown when an input cannot be used; carries every problem found, not only the first.
+/// Thrown when an input cannot be used; carries all complaints, not only the first.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Complaints complaints);

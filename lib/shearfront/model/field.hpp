@@ -39,7 +39,7 @@ void visit_choices(Model& model, Visit&& visit) {
   if constexpr (requires { Model::choices(model, visit); }) Model::choices(model, visit);
 }
 
-/// Adds a problem for every number of the field that is not finite or outside its range.
+/// Adds a complaint for every number of the field that is not finite or outside its range.
 template <Real S>
 void check_number(const std::string& key, Range range, const S& x, Complaints& complaints) {
   if (!is_finite(x)) {

@@ -31,10 +31,12 @@ template <Real S>
 /// exp(x^2) erfc(x) for x >= 0, where erfc alone underflows from x = 27 on.
 ///
 /// Up to x = 5 the product itself, with the rounding error of x^2 put back; beyond, n terms of the continued
-/// fraction of Laplace, 1 / (x + (1/2) / (x + (2/2) / (x + (3/2) / ...))) / sqrt(pi), as the ratio N_1 / N_0
-/// of the recurrence N_(k-1) = x N_k + (k / 2) N_(k+1). With L = -ln(unit roundoff), n = L^2 / (8 x^2) + L /
-/// 4
-/// + 4 terms suffice (measured: between 4 and 17 in double, between 14 and 100 with 50 digits).
+/// fraction of Laplace, as the ratio N_1 / N_0 of the recurrence N_(k-1) = x N_k + (k / 2) N_(k+1):
+///
+///     1 / (x + (1/2) / (x + (2/2) / (x + (3/2) / ...))) / sqrt(pi)
+///
+/// With L = -ln(unit roundoff), n = L^2 / (8 x^2) + L / 4 + 4 terms suffice (measured: between 4 and 17 in
+/// double, between 14 and 100 with 50 digits).
 /// Guarantee: relative error <= 6 units of roundoff in double; with 50 digits what Boost's erfc has below 5
 /// and 20 units beyond. Cost: 25 ns in double.
 /// Source: Abramowitz & Stegun (1964) 7.1.14; Gautschi (1970).

@@ -28,8 +28,8 @@ struct TwoProduct {
   }
 };
 
-/// Running sum with error feedback (Neumaier 1974): the error of value() is at most 2 u |sum| + O(n u^2) sum
-/// |x|.
+/// Running sum with error feedback (Neumaier 1974): the error of value() is at most
+/// 2 u |sum| + O(n u^2) sum |x|.
 template <Real S>
 class CompensatedSum {
  public:

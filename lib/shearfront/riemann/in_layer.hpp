@@ -14,12 +14,11 @@ template <StateGrid Grid>
 /// Riemann problem l | r inside one layer: calls emit(below, above) for every outgoing front, from bottom to
 /// top, speeds nondecreasing.
 ///
-/// The entropy solution for a piecewise linear flux follows its lower convex envelope between l and r if l <
-/// r and its upper concave envelope if l > r (Dafermos 1972; Holden & Risebro 2015, Section 2.1); every edge
-/// of the envelope is one front. For a convex flux this is one front per polygon edge (a fan) or a single
+/// The entropy solution for a piecewise linear flux follows its lower convex envelope between l and r if
+/// l < r and its upper concave envelope if l > r (Dafermos 1972; Holden & Risebro 2015, Section 2.1); every
+/// edge of the envelope is one front. For a convex flux this is one front per polygon edge (a fan) or a single
 /// shock. Guaranteed: the fronts join l to r without gap; each satisfies Rankine-Hugoniot and the Oleinik
-/// condition for the polygon. Cost: O(1) per front, and what Envelope says where the polygon bends both
-/// ways.
+/// condition for the polygon. Cost: O(1) per front, and what Envelope says where the polygon bends both ways.
 template <StateGrid Grid, class Emit>
 void solve_in_layer(const Grid& grid, std::size_t layer, State l, State r, Emit&& emit) {
   if (l == r) return;

@@ -8,11 +8,13 @@
 /// The Riemann problem at an interface between two layers and at a wall: which states the resting wave
 /// separates.
 ///
-/// Theorem (Gimse & Risebro 1991; Klingenberg & Risebro 1995; Holden & Risebro 2015, Section 8.1): let h_L(.;
-/// l) be the non-increasing envelope of f_L through l (what waves of speed <= 0 can reach) and h_R(.; r) the
-/// non-decreasing envelope of f_R through r. Their graphs cross at one flux value F*; the solution has on
-/// each side the state with flux F* that is nearest to l (resp. r) on its envelope ("minimal jump"). Flux is
-/// continuous, the states in general are not.
+/// Theorem (Gimse & Risebro 1991; Klingenberg & Risebro 1995; Holden & Risebro 2015, Section 8.1): let
+///
+///     h_L(.; l)   be the non-increasing envelope of f_L through l (what waves of speed <= 0 can reach),
+///     h_R(.; r)   the non-decreasing envelope of f_R through r    (what waves of speed >= 0 can reach).
+///
+/// Their graphs cross at one flux value F*; the solution has on each side the state with flux F* that is
+/// nearest to l (resp. r) on its envelope ("minimal jump"). Flux is continuous, the states in general are not.
 namespace shearfront {
 
 namespace interface_detail {

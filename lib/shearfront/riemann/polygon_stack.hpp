@@ -23,8 +23,8 @@ struct Polygon {
 /// layer, and flux 0, becomes a level, and every edge of every polygon gets a state at each level it passes.
 /// These added states lie on the edge, so the problem solved is still exactly that of the given polygons.
 /// Domain: at least two points per polygon; the same kind of flux in all layers (scaled copies of one flux,
-/// or unimodal fluxes of one kind), so that the envelopes of an interface cross on a level. Cost: O(levels x
-/// edges) states at worst.
+/// or unimodal fluxes of one kind), so that the envelopes of an interface cross on a level.
+/// Cost: O(levels x edges) states at worst.
 template <Real S>
 class PolygonStack {
  public:

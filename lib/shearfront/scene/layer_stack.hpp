@@ -21,10 +21,10 @@ struct LayerMaterial {
   std::vector<Scalar> solid_fraction;          ///< c per layer; empty: 1 everywhere
 };
 
-/// A stack of layers with constant shear rate, solid fraction and flux: layer k occupies [boundary(k),
-/// boundary(k+1)], and its flux is rate(k) solid_fraction(k) f(phi / solid_fraction(k)).
+/// A stack of layers with constant shear rate, solid fraction and flux: layer k occupies
+/// [boundary(k), boundary(k+1)], and its flux is rate(k) solid_fraction(k) f(phi / solid_fraction(k)).
 ///
-/// Invariant: at least one layer, boundaries strictly increasing, shear rates and packings positive and
+/// Invariant: at least one layer, boundaries strictly increasing, shear rates and solid fractions positive and
 /// finite.
 template <Real Scalar>
 class LayerStack {
@@ -66,7 +66,7 @@ class LayerStack {
   /// One quadratic flux in a bed of solid fraction 1: everything but the shear rates is the same in all layers.
   [[nodiscard]] bool is_plain() const {
     return material_.fluxes.size() == 1 && material_.solid_fraction.empty() &&
-           std::holds_alternative<Quadratic<Scalar>>(material_.fluxes[0]);
+           unit_parabola_sign<Scalar>(material_.fluxes[0]) == 1;
   }
   /// Whether the interface below layer k (1 <= k < n_layers) belongs to the scene itself.
   [[nodiscard]] bool is_break(std::size_t k) const { return is_break_[k - 1]; }
@@ -97,9 +97,9 @@ template <Real Scalar>
 /// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
 /// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
-/// order 3/2 where paths do (a falling along them), phi first order. With a solid fraction, layers also end at the
-/// initial jumps: the layers, each with the mean of c, then hold what the bed does. Cost: O(n_layers +
-/// knots).
+/// order 3/2 where paths do (a falling along them), phi first order. With a solid fraction, layers also end at
+/// the initial jumps: the layers, each with the mean of c, then hold what the bed does.
+/// Cost: O(n_layers + knots).
 template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers);
 

@@ -26,7 +26,7 @@ namespace shearfront {
 /// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction.
-/// Errors: the constructor throws InputError that carries every problem.
+/// Errors: the constructor throws InputError that carries all complaints.
 template <Real Scalar>
 class Scene {
  public:
@@ -61,7 +61,7 @@ class Scene {
   }
   /// Whether all of the scene is the model of May, Shearer & Daniels: one quadratic flux, c = T = 1, walls.
   [[nodiscard]] bool is_plain() const {
-    return spec_.fluxes.size() == 1 && std::holds_alternative<Quadratic<Scalar>>(spec_.fluxes[0]) &&
+    return spec_.fluxes.size() == 1 && unit_parabola_sign<Scalar>(spec_.fluxes[0]) == 1 &&
            !spec_.solid_fraction && !spec_.temperature && has_walls() && !has_diffusion();
   }
   /// Whether no grain can leave or come in.

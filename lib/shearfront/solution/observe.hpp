@@ -23,8 +23,8 @@ struct ObservationPlan {
   double width = 0;  ///< of every bin; 0 for the other quantities
 };
 
-/// What is wrong with a plan; empty if nothing is. Keys: times[i], depths[i], width. Times must be finite and
-/// >= 0, depths inside the domain, neither twice, bins inside the domain (is_bin_inside()).
+/// What is wrong with a plan; empty if nothing is. Keys: times[i], depths[i], width. Times must be finite
+/// and >= 0, depths inside the domain, neither twice, bins inside the domain (is_bin_inside()).
 /// Cost: O(n log n) in the number of times and of depths.
 [[nodiscard]] Complaints find_complaints(const ObservationPlan& plan, double bottom, double top);
 
@@ -39,10 +39,14 @@ struct ObservationPlan {
 /// is the height of the bed.
 [[nodiscard]] SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene);
 
-/// The result of request_of() as observations, one row per time and depth, depths running fastest:
-///     point phi(z, t)      cumulative M(z, t)      bin (M(z + w/2, t) - M(z - w/2, t)) / w      bed height
-///     H(t)
-/// without noise and without sigma. A bin is as exact as M is, up to a rounding of about eps top / w.
+/// The result of request_of() as observations, one row per time and depth, depths running fastest, without
+/// noise and without sigma:
+///
+///     point        phi(z, t)
+///     cumulative   M(z, t)
+///     bin          (M(z + w/2, t) - M(z - w/2, t)) / w, as exact as M is up to a rounding of about eps top / w
+///     bed height   H(t)
+///
 /// Precondition: the result is a usable one of request_of(plan, scene).
 [[nodiscard]] Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
                                    const SolverResult& result);

@@ -9,13 +9,13 @@ namespace shearfront {
 
 /// The event times an experimenter looks for (May et al. 2010, Section 3). A time that never comes is empty.
 ///
-///   t0     first wave at the bottom wall: phi next to the wall leaves its initial value. 0 if the wall
-///   itself sends out a
-///          wave at once (initial phi there is neither 0 nor 1), empty if it never changes.
-///   t1     the same at the top wall.
-///   first  first wave at an interface: 0 if the initial states there are not at rest.
-///   last   last wave at an interface: afterwards phi keeps its final value on both sides. Empty if there is
-///   none at all. t_star steady time: nothing moves any more. 0 if the initial state is steady.
+///   t0      first wave at the bottom wall: phi next to the wall leaves its initial value. 0 if the wall
+///           itself sends out a wave at once (initial phi there is neither 0 nor 1), empty if it never changes.
+///   t1      the same at the top wall.
+///   first   first wave at an interface: 0 if the initial states there are not at rest.
+///   last    last wave at an interface: afterwards phi keeps its final value on both sides. Empty if there is
+///           none at all.
+///   t_star  steady time: nothing moves any more. 0 if the initial state is steady.
 template <Real Scalar>
 struct Timeline {
   struct InterfaceTimes {

@@ -72,9 +72,9 @@ struct LevelGrid<S>::Draft {
   static S falling(const S& phi) { return phi + phi <= S(1) ? phi : S(1) - phi; }
 
   /// The vertices: every capacity and, below each, equal steps of phi in its own layers. Between two
-  /// neighbouring capacities the spacing of phi is widest in the layer of the upper one, because d(phi)/dh =
-  /// 1 / (4 sqrt(c (c - h))) falls with c; so these are the fewest levels that keep every layer within the
-  /// resolution.
+  /// neighbouring capacities the spacing of phi is widest in the layer of the upper one, because
+  /// d(phi)/dh = 1 / (4 sqrt(c (c - h))) falls with c; so these are the fewest levels that keep every layer
+  /// within the resolution.
   static Levels vertices(const std::vector<Class>& classes, const S& resolution) {
     using std::sqrt;
     Levels levels;

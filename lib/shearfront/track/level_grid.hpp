@@ -20,25 +20,24 @@ namespace shearfront {
 /// quadratic flux r_k phi (phi - 1), r_k = s a_k, and its affine images.
 ///
 /// What follows is said of the quadratic flux. A layer with states from lo to hi (solid fraction included) and
-/// extremum F_m has the states phi = lo + (hi - lo) u, u a state of the quadratic flux of capacity c_k =
-/// |F_m|. If the extrema are maxima, phi = hi - (hi - lo) u: the state index then counts phi downwards, and
-/// everything else, which goes by the index, stays as it is.
+/// extremum F_m has the states phi = lo + (hi - lo) u, u a state of the quadratic flux of capacity
+/// c_k = |F_m|. If the extrema are maxima, phi = hi - (hi - lo) u: the state index then counts phi downwards,
+/// and everything else, which goes by the index, stays as it is.
 ///
-/// A level is a value h >= 0 of minus the flux. Layer k has the states phi = (1 -+ q)/2 with q = sqrt(1 - h /
-/// c_k) for every level h <= c_k = r_k / 4 (its capacity), so the interface Riemann problem maps grid states
-/// to grid states. State index i = 0 .. 2 top(k) counts phi upwards: i <= top is level i on the falling
-/// branch (phi <= 1/2), i > top is level 2 top - i on the rising one.
+/// A level is a value h >= 0 of minus the flux. Layer k has the states phi = (1 -+ q)/2 with
+/// q = sqrt(1 - h / c_k) for every level h <= c_k = r_k / 4 (its capacity), so the interface Riemann problem
+/// maps grid states to grid states. State index i = 0 .. 2 top(k) counts phi upwards: i <= top is level i on
+/// the falling branch (phi <= 1/2), i > top is level 2 top - i on the rising one.
 ///
 /// Two ways to choose the levels (both factory functions also place the wanted states and return their
 /// indices):
 ///   exact_levels      capacities, initial states and walls are levels, nothing is rounded; between two
-///   neighbouring
-///                     capacities the levels are equally spaced in phi in the layer of the upper one, by at
-///                     most `resolution`. In every other layer they are closer, so `resolution` bounds the
-///                     spacing of fans everywhere, with the fewest levels that do so.
+///                     neighbouring capacities the levels are equally spaced in phi in the layer of the upper
+///                     one, by at most `resolution`. In every other layer they are closer, so `resolution`
+///                     bounds the spacing of fans everywhere, with the fewest levels that do so.
 ///   singular_mapping  a_k rounded to the nearest k delta, levels s j delta / 4 (Buerger, Martinez & Villada
-///   2023, Section 2.3,
-///                     with the missing factor restored); initial states are rounded to the nearest state.
+///                     2023, Section 2.3, with the missing factor restored); initial states are rounded to
+///                     the nearest state.
 /// If there are more wanted states than kMaxExactStates and more than other levels, making each a vertex of
 /// every layer's polygon would cost jumps x states fronts; they then keep their exact phi, and their flux is
 /// read off the polygon (an error of second order in `resolution`).

@@ -33,12 +33,13 @@ namespace shearfront {
 /// Guaranteed:
 ///   (1) which waves leave a point, and whether two fronts of a convex layer ever meet, is decided on
 ///       integers; rounding moves fronts, it never changes states;
-///   (2) mass is conserved at every event to a few units in the last place of the largest height, however
-///   many events:
-///       positions are unevaluated sums of two numbers and a front leaves from the point that conserves mass;
+///   (2) mass is conserved at every event to a few units in the last place of the largest height, however many
+///       events: positions are unevaluated sums of two numbers and a front leaves from the point that
+///       conserves mass;
 ///   (3) fronts never cross; phi never leaves the range of the grid;
 ///   (4) equal input gives bitwise equal output; advance_to(t1), advance_to(t2) equals advance_to(t2), and so
-///   does a copy; (5) observers cannot steer.
+///       does a copy;
+///   (5) observers cannot steer.
 /// What rounding costs in the worst cases: docs/stability.md.
 /// A Tracker is a value: copy it to keep a state to return to.
 /// Cost: O(log n) per event for n fronts that are about to meet; memory 64 bytes per front (double).

@@ -16,12 +16,13 @@ namespace shearfront {
 /// Checks everything a front-tracking solution promises at the current time; an empty result means that all
 /// of it holds.
 ///
-///   order         heights ascend from wall to wall (up to `position_slack`), fronts stay inside their layer
-///   continuity    neighbours agree on the state between them
-///   jump          every front moves with its Rankine-Hugoniot speed (up to `speed_slack` x the largest
-///   speed) entropy       no state between the two of a front would split it: Oleinik's condition for the
-///   polygon rest          flux is equal on both sides of every interface, and the two states are at rest
-///   (minimal jump) walls         the flux next to both walls is 0
+///   order       heights ascend from wall to wall (up to `position_slack`), fronts stay inside their layer
+///   continuity  neighbours agree on the state between them
+///   jump        every front moves with its Rankine-Hugoniot speed (up to `speed_slack` x the largest speed)
+///   entropy     no state between the two of a front would split it: Oleinik's condition for the polygon
+///   rest        flux is equal on both sides of every interface, and the two states are at rest (minimal jump)
+///   walls       the flux next to both walls is 0
+///
 /// Cost: O(polygon vertices spanned by the fronts).
 template <class AnyTracker>
 [[nodiscard]] std::vector<std::string> verify(const AnyTracker& tracker,

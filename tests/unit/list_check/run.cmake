@@ -1,7 +1,6 @@
 # Configures a copy of the lists, with one more file `forgotten` if given, and compares CMake's message with `expected`.
 file(REMOVE_RECURSE ${work})
-file(GLOB_RECURSE headers RELATIVE ${source}/lib ${source}/lib/shearfront/model/flux/*.hpp
-     ${source}/lib/shearfront/model/depth/*.hpp ${source}/lib/shearfront/*solver.hpp
+file(GLOB_RECURSE headers RELATIVE ${source}/lib ${source}/lib/shearfront/model/*.hpp ${source}/lib/shearfront/*solver.hpp
      ${source}/lib/shearfront/solver/all.hpp)
 foreach(header IN LISTS headers)
   configure_file(${source}/lib/${header} ${work}/${header} COPYONLY)
@@ -17,8 +16,10 @@ file(WRITE ${work}/CMakeLists.txt "
 cmake_minimum_required(VERSION 3.25)
 project(lists LANGUAGES NONE)
 include(${source}/cmake/check_lists.cmake)
-shearfront_check_list(shearfront/flux)
-shearfront_check_list(shearfront/shear_rate)
+shearfront_check_list(shearfront/model/flux)
+shearfront_check_list(shearfront/model/depth)
+shearfront_check_list(shearfront/model/start)
+shearfront_check_list(shearfront/model/close_packing)
 shearfront_check_list(shearfront/fit/misfit)
 shearfront_check_list(shearfront/fit/loss)
 shearfront_check_solvers()

@@ -45,7 +45,7 @@ class TextSource {
   mutable std::size_t last_offset_ = 0;
 };
 
-/// Collects the problems of one file and reports them in the order of the file: all of them, or the first
+/// Collects the complaints about one file and reports them in the order of the file: all of them, or the first
 /// `most` and how many more there are. Memory: O(most).
 class ComplaintReport {
  public:
@@ -60,7 +60,7 @@ class ComplaintReport {
   /// Whether this entry or a table or array around it could not be read.
   [[nodiscard]] bool is_spoiled(std::string_view key) const;
   [[nodiscard]] bool is_empty() const { return located_.empty(); }
-  /// Errors: FileError with the problems, sorted by place, each line once; nothing if there are none.
+  /// Errors: FileError with the complaints, sorted by place, each line once; nothing if there are none.
   void throw_if_any() const;
 
  private:
@@ -72,12 +72,12 @@ class ComplaintReport {
 
   std::string file_;
   std::size_t most_;
-  std::size_t n_dropped_ = 0;  ///< problems beyond the first most_
+  std::size_t n_dropped_ = 0;  ///< complaints beyond the first most_
   std::vector<Located> located_;
   std::set<std::string, std::less<>> spoiled_;
 };
 
-/// FileError for a problem of a file as a whole: "scene.toml: cannot be read: Is a directory".
+/// FileError for a complaint about a file as a whole: "scene.toml: cannot be read: Is a directory".
 [[noreturn]] void throw_file_error(const std::string& file, const std::string& what);
 
 }  // namespace shearfront::detail

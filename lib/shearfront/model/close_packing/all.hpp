@@ -7,8 +7,7 @@
 
 namespace shearfront {
 
-/// Every law of random close packing. To add one: copy skeleton.hpp, include it here, and name it in the
-/// list.
+/// Every law of random close packing. To add one: copy skeleton.hpp, include it here, name it in the list.
 template <Real Scalar>
 using ClosePackingList = TypeList<PackingPolynomial<Scalar>, PackingUpperBound<Scalar>, PackingTable<Scalar>>;
 

@@ -29,7 +29,7 @@ template <Real Scalar>
   return Scalar(633) / Scalar(1000);
 }
 
-/// Adds a problem if the solid fraction of one kind of grains is not below `limit`.
+/// Adds a complaint if the solid fraction of one kind of grains is not below `limit`.
 template <Real Scalar>
 void check_pure_packing(const std::string& prefix, const Scalar& pure, const Scalar& limit,
                         Complaints& complaints) {

@@ -8,8 +8,8 @@
 
 namespace shearfront {
 
-/// Copy this file to close_packing/<name>.hpp, rename the struct, fill in the formula, and add one line to
-/// close_packing/all.hpp. Say here: the formula, for which grains it holds, its domain, the source.
+/// Copy this file to model/close_packing/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// model/close_packing/all.hpp. Say here: the formula, for which grains it holds, its domain, the source.
 /// This copy is a law that does not see the mixture, so that it compiles and passes the laws as it stands.
 template <Real Scalar>
 struct SkeletonClosePacking {

@@ -8,7 +8,8 @@
 
 namespace shearfront {
 
-/// Every shear-rate model a(z). To add one: copy skeleton.hpp, include it here, and name it in the list.
+/// Every depth function: what a(z), c(z), T(z) and D(z) may be. To add one: copy skeleton.hpp, include it here,
+/// and name it in the list.
 template <Real Scalar>
 using DepthFunctionList = TypeList<Piecewise<Scalar>, Exponential<Scalar>, Table<Scalar>, Chute<Scalar>>;
 

@@ -9,9 +9,9 @@
 
 namespace shearfront {
 
-/// Copy this file to shear_rate/<name>.hpp, rename the struct, fill in the formula, and add one line to
-/// shear_rate/all.hpp. Say here: the formula, the domain and unit of every entry, the source.
-/// This copy is a constant rate, so that it compiles and passes the laws of shear rates as it stands.
+/// Copy this file to model/depth/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// model/depth/all.hpp. Say here: the formula, the domain and unit of every entry, the source.
+/// This copy is constant, so that it compiles and passes the laws of depth functions as it stands.
 template <Real Scalar>
 struct SkeletonDepthFunction {
   static constexpr std::string_view kName = "skeleton";  ///< shear_rate.model in scene files

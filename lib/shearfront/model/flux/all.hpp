@@ -21,4 +21,10 @@ using FluxList = TypeList<Quadratic<Scalar>, Packed<Scalar>, Cubic<Scalar>, Lwr<
 template <Real Scalar>
 using Flux = typename FluxList<Scalar>::Variant;
 
+/// unit_parabola_sign() of any flux.
+template <Real Scalar>
+[[nodiscard]] int unit_parabola_sign(const Flux<Scalar>& flux) {
+  return std::visit([](const auto& f) { return unit_parabola_sign(f); }, flux);
+}
+
 }  // namespace shearfront

@@ -20,6 +20,7 @@ struct Burgers {
   static constexpr std::string_view kFormula = "phi^2 / 2";
   static constexpr std::string_view kStates = "lowest <= phi <= highest";
   static constexpr bool kIsParabola = false;
+  static constexpr bool kIsQuadraticPolynomial = true;
 
   Scalar lowest{-1}, highest{1};
 

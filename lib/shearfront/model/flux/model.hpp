@@ -27,6 +27,9 @@ struct StateRange {
 ///   range, kStates      the states, as numbers and as text for `shearfront list`
 ///   kIsParabola         f = 4 f(m) u (1 - u) with u the place of phi in its range and m the extremum: the
 ///                       engines then use the closed forms of the quadratic flux
+///
+/// A flux that is one polynomial of degree two for all real states without being such a parabola says so by
+/// kIsQuadraticPolynomial = true.
 template <class F, class Scalar>
 concept FluxModel = Real<Scalar> && requires(const F& f, const Scalar& phi) {
   { F::kName } -> std::convertible_to<std::string_view>;
@@ -40,5 +43,23 @@ concept FluxModel = Real<Scalar> && requires(const F& f, const Scalar& phi) {
   { f.derivative(phi) } -> std::convertible_to<Scalar>;
   { f.secant(phi, phi) } -> std::convertible_to<Scalar>;
 };
+
+template <class F>
+[[nodiscard]] constexpr bool is_quadratic_polynomial() {
+  if constexpr (requires { F::kIsQuadraticPolynomial; }) return F::kIsQuadraticPolynomial;
+  return F::kIsParabola;
+}
+
+/// +1 for phi (phi - 1), -1 for phi (1 - phi) on 0 <= phi <= 1, 0 for any other flux.
+template <class F>
+[[nodiscard]] int unit_parabola_sign(const F& flux) {
+  if constexpr (F::kIsParabola) {
+    const auto range = flux.range();
+    if (!(range.lowest == 0) || !(range.highest == 1)) return 0;
+    const auto f = flux.value((range.lowest + range.highest) / 2);
+    return f == -0.25 ? 1 : f == 0.25 ? -1 : 0;
+  }
+  return 0;
+}
 
 }  // namespace shearfront

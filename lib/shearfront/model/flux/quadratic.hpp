@@ -9,8 +9,7 @@
 
 namespace shearfront {
 
-/// Segregation flux f(phi) = phi (phi - 1): strictly convex, zero at both pure states, minimum -1/4 at phi =
-/// 1/2.
+/// Segregation flux f(phi) = phi (phi - 1): strictly convex, zero at both pure states, minimum -1/4 at 1/2.
 ///
 /// Domain: phi in [0, 1], dimensionless. The layer flux is F = s a(z) f(phi).
 /// Guaranteed: value(phi) == value(1 - phi) to rounding; secant(p, q) == (value(q) - value(p)) / (q - p)

@@ -13,10 +13,10 @@ namespace shearfront {
 /// Settling of a suspension: f(phi) = -phi (1 - phi)^exponent, hindered by the concentration phi.
 ///
 /// Domain: phi in [0, 1], exponent > 1 (about 4.7 for spheres at small Reynolds numbers). z points upwards,
-/// so f <= 0: solids sink; the shear rate a(z) is the speed of a single grain. One minimum, at 1 / (exponent
-/// + 1); convex below 2 / (exponent + 1), concave above, where dense suspensions fan out. Guaranteed:
-/// secant() keeps its relative accuracy for close states. Source: Kynch (1952), Trans. Faraday Soc. 48,
-/// 166-176; Richardson & Zaki (1954), Trans. IChemE 32, 35-53.
+/// so f <= 0: solids sink; the shear rate a(z) is the speed of a single grain. One minimum, at
+/// 1 / (exponent + 1); convex below 2 / (exponent + 1), concave above, where dense suspensions fan out.
+/// Guaranteed: secant() keeps its relative accuracy for close states. Source: Kynch (1952), Trans. Faraday
+/// Soc. 48, 166-176; Richardson & Zaki (1954), Trans. IChemE 32, 35-53.
 template <Real Scalar>
 struct RichardsonZaki {
   static constexpr std::string_view kName = "richardson-zaki";

@@ -9,8 +9,8 @@
 
 namespace shearfront {
 
-/// Copy this file to flux/<name>.hpp, rename the struct, fill in the formula, and add one line to
-/// flux/all.hpp. Say here: the formula, the range of states with units, convexity, source (author, year,
+/// Copy this file to model/flux/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// model/flux/all.hpp. Say here: the formula, the range of states with units, convexity, source (author, year,
 /// equation). This copy is depth * 4 phi (phi - 1), so that it compiles and passes the laws of fluxes as it
 /// stands.
 template <Real Scalar>

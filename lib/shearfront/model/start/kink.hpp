@@ -7,13 +7,14 @@
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/start/model.hpp"
 
 namespace shearfront {
 
 /// A smooth step: phi = below + (above - below) / (1 + exp(-(z - centre) / width)).
 ///
-/// Domain: width > 0, the height over which phi approaches its ends by e; any centre. With width =
-/// D / (s a |above - below|) and below > above it is a kink that travels without changing its shape.
+/// Domain: width > 0, the height over which phi approaches its ends by e; any centre. Where below > above and
+/// width = D / (s a |above - below|) it is a kink that travels without changing its shape.
 template <Real Scalar>
 struct KinkInitial {
   static constexpr std::string_view kName = "kink";
@@ -38,6 +39,7 @@ struct KinkInitial {
     const Scalar part = (Scalar(1) + tanh(Scalar((z - centre) / (Scalar(2) * width)))) / Scalar(2);
     return below + (above - below) * part;
   }
+  [[nodiscard]] LogisticStep<Scalar> logistic_step() const { return {below, above, centre, width}; }
   /// int_lo^hi phi dz: width ln(1 + e^x) is the primitive of the step.
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
     return below * (hi - lo) + (above - below) * width * (softplus(hi) - softplus(lo));

@@ -8,6 +8,7 @@
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/start/model.hpp"
 
 namespace shearfront {
 
@@ -35,6 +36,7 @@ struct SineInitial {
     using std::sin;
     return mean + amplitude * sin(angle(z));
   }
+  [[nodiscard]] Wave<Scalar> wave() const { return {mean, amplitude, wavelength, origin}; }
   /// int_lo^hi phi dz, free of cancellation for short intervals.
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
     using std::sin;

@@ -9,9 +9,9 @@
 
 namespace shearfront {
 
-/// Copy this file to initial/<name>.hpp, rename the struct, fill in the formula, and add one line to
-/// initial/all.hpp. Say here: the formula, the domain and unit of every entry. This copy is a uniform bed, so
-/// that it compiles and passes the laws of initial profiles as it stands.
+/// Copy this file to model/start/<name>.hpp, rename the struct, fill in the formula, and add one line to
+/// model/start/all.hpp. Say here: the formula, the domain and unit of every entry. This copy is a uniform bed,
+/// so that it compiles and passes the laws of initial states as it stands.
 template <Real Scalar>
 struct SkeletonInitial {
   static constexpr std::string_view kName = "skeleton";  ///< initial.model in scene files
