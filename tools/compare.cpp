@@ -24,69 +24,57 @@
 namespace shearfront::tools {
 namespace {
 
+constexpr Bounds kPositive{0, HUGE_VAL, true};
+
 struct CompareArguments {
   std::string scene, output, plot;
   std::optional<std::string> times, methods, cells, resolutions, budget, repeat;
   bool json = false;
 };
 
-std::vector<double> sorted(std::vector<double> numbers, bool is_descending = false) {
+/// Ascending, each once.
+std::vector<double> ascending_option(std::string_view option, const std::string& value, Bounds bounds,
+                                     const std::string& constraint) {
+  auto numbers = list_option(option, value, bounds, constraint, Steady::refused);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  if (is_descending) std::reverse(numbers.begin(), numbers.end());
   return numbers;
 }
 
 std::vector<double> times_of(const CompareArguments& arguments) {
   constexpr std::size_t kMostTimes = 9;  // panels that can be read
   if (!arguments.times) throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 1:5:3");
-  const Bounds positive{0, HUGE_VAL, true};
-  const auto times = sorted(list_option("--times", *arguments.times, positive, "> 0", Steady::refused));
+  const auto times = ascending_option("--times", *arguments.times, kPositive, "> 0");
   if (times.size() > kMostTimes)
     refuse("--times", *arguments.times, fmt::format("must give at most {} times", kMostTimes));
   return times;
 }
 
-/// Whole numbers, ascending.
-std::vector<double> counts_option(std::string_view option, const std::string& value, double most) {
-  const std::string constraint = fmt::format(">= 1 and <= {}", number_text(most));
-  const auto counts = list_option(option, value, {1, most}, constraint, Steady::refused);
-  for (const double n : counts)
-    if (n != std::floor(n)) refuse(option, value, "must hold whole numbers only");
-  return sorted(counts);
-}
-
 /// Coarse to fine. Those who give a budget get longer lists by default.
-std::vector<double> resolutions_of(const CompareArguments& arguments, Refinement refinement) {
-  constexpr double kMostCells = 1e8, kPoints = 1000;
+std::vector<double> resolutions_of(const CompareArguments& arguments, std::string_view refinement) {
+  constexpr double kMostCells = 1e8;
   const bool is_long = arguments.budget.has_value();
   if (refinement == "cells") {
-    if (arguments.cells) return counts_option("--cells", *arguments.cells, kMostCells);
     std::vector<double> cells;
     for (double n = 100; n <= (is_long ? 2e6 : 3200); n *= 2) cells.push_back(n);
+    if (arguments.cells)
+      cells = ascending_option("--cells", *arguments.cells, {1, kMostCells}, ">= 1 and <= 1e+08");
+    for (const double n : cells)
+      if (n != std::floor(n)) refuse("--cells", *arguments.cells, "must hold whole numbers only");
     return cells;
   }
-  if (refinement != "resolution") return {kPoints};
+  std::vector<double> steps{1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 0.003, 0.01, 0.03, 0.1};
+  if (!is_long) steps.erase(steps.begin(), steps.begin() + 2);
   if (arguments.resolutions)
-    return sorted(
-        list_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1", Steady::refused),
-        true);
-  std::vector<double> resolutions{0.1, 0.03, 0.01, 0.003, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6};
-  if (!is_long) resolutions.resize(resolutions.size() - 2);
-  return resolutions;
+    steps = ascending_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1");
+  return {steps.rbegin(), steps.rend()};
 }
 
-ComparisonLimits limits_of(const CompareArguments& arguments, ProgressLine& line) {
+ComparisonLimits limits_of(const CompareArguments& arguments) {
   constexpr unsigned long long kMostRepeats = 10'000;
   ComparisonLimits limits;
-  if (arguments.budget)
-    limits.budget_s = number_option("--budget", *arguments.budget, {0, HUGE_VAL, true}, "> 0");
+  if (arguments.budget) limits.budget_s = number_option("--budget", *arguments.budget, kPositive, "> 0");
   if (arguments.repeat) limits.repeats = count_option("--repeat", *arguments.repeat, 1, kMostRepeats);
-  limits.is_stopped = InterruptGuard::is_interrupted;
-  limits.progress = [show = line.callback()](double t, std::uint64_t work) {
-    if (show) show(t, work);
-    return !InterruptGuard::is_interrupted();
-  };
   return limits;
 }
 
@@ -121,88 +109,78 @@ bool report_ends(const std::vector<Course>& courses, bool has_budget) {
   return has_runs;
 }
 
-template <class Visit>
-void for_each_run(const std::vector<Course>& courses, double t, Visit&& visit) {
-  for (const Course& course : courses)
-    for (std::size_t i = 0; course.t == t && i < course.runs.size(); ++i) visit(course, i);
-}
-
-std::string text_of(const std::vector<Course>& courses, const std::vector<double>& times) {
+/// A table per time; courses come by time.
+std::string text_of(const std::vector<Course>& courses) {
   std::string all;
-  for (const double t : times) {
+  for (auto course = courses.begin(); course != courses.end();) {
+    const double t = course->t;
     TextTable table({"method", "resolution", "L1 error", "order", "work", "per unit", "time"});
-    for_each_run(courses, t, [&](const Course& course, std::size_t i) {
-      const ComparedRun& run = course.runs[i];
-      const auto order = course.order(i);
-      const double per_unit = 1e9 * run.wall_s / static_cast<double>(run.work);
-      table.add({course.method.name, number_text(run.resolution),
-                 run.l1_error == 0 ? "0" : fmt::format("{:.2e}", run.l1_error),
-                 order ? fmt::format("{:.2f}", *order) : "", std::to_string(run.work),
-                 run.work > 0 ? fmt::format("{:.3g} ns", per_unit) : "",
-                 fmt::format("{:.3g} s", run.wall_s)});
-    });
+    for (; course != courses.end() && course->t == t; ++course)
+      for (const ComparedRun& run : course->runs)
+        table.add(
+            {course->method.name, number_text(run.resolution),
+             run.l1_error == 0 ? "0" : fmt::format("{:.2e}", run.l1_error),
+             run.order ? fmt::format("{:.2f}", *run.order) : "", std::to_string(run.work),
+             run.work > 0 ? fmt::format("{:.3g} ns", 1e9 * run.wall_s / static_cast<double>(run.work)) : "",
+             fmt::format("{:.3g} s", run.wall_s)});
     all += fmt::format("\nt = {}\n\n{}", number_text(t), table.text());
   }
   return all;
 }
 
-std::string csv_of(const std::vector<Course>& courses, const std::vector<double>& times) {
+std::string csv_of(const std::vector<Course>& courses) {
   std::string rows = "method,resolution,t,l1_error,wall_s,work\n";
-  for (const double t : times)
-    for_each_run(courses, t, [&](const Course& course, std::size_t i) {
-      const ComparedRun& run = course.runs[i];
-      rows += fmt::format("{},{},{},{},{},{}\n", course.method.name, number_text(run.resolution),
-                          number_text(t), number_text(run.l1_error), number_text(run.wall_s), run.work);
-    });
+  for (const Course& course : courses)
+    for (const ComparedRun& run : course.runs)
+      rows +=
+          fmt::format("{},{},{},{},{},{}\n", course.method.name, number_text(run.resolution),
+                      number_text(course.t), number_text(run.l1_error), number_text(run.wall_s), run.work);
   return rows;
 }
 
 /// {"scene","times":[{"t","methods":[{"method","ended","runs":[{"resolution","l1_error","order","wall_s",
 /// "work"}]}]}]}
-std::string json_of(const std::string& scene, const std::vector<Course>& courses,
-                    const std::vector<double>& times) {
+std::string json_of(const std::string& scene, const std::vector<Course>& courses) {
   Json all{{"scene", scene}, {"times", Json::array()}};
-  for (const double t : times) {
-    Json methods = Json::array();
-    for (const Course& course : courses) {
-      if (course.t != t) continue;
-      Json runs = Json::array();
-      for (std::size_t i = 0; i < course.runs.size(); ++i) {
-        const ComparedRun& run = course.runs[i];
-        runs.push_back({{"resolution", run.resolution},
-                        {"l1_error", run.l1_error},
-                        {"order", json_or_null(course.order(i))},
-                        {"wall_s", run.wall_s},
-                        {"work", run.work}});
-      }
-      methods.push_back({{"method", course.method.name}, {"ended", course.ended}, {"runs", runs}});
-    }
-    all["times"].push_back({{"t", t}, {"methods", methods}});
+  for (const Course& course : courses) {
+    Json& times = all["times"];
+    if (times.empty() || times.back()["t"] != course.t)
+      times.push_back({{"t", course.t}, {"methods", Json::array()}});
+    Json runs = Json::array();
+    for (const ComparedRun& run : course.runs)
+      runs.push_back({{"resolution", run.resolution},
+                      {"l1_error", run.l1_error},
+                      {"order", json_or_null(run.order)},
+                      {"wall_s", run.wall_s},
+                      {"work", run.work}});
+    times.back()["methods"].push_back(
+        {{"method", course.method.name}, {"ended", course.ended}, {"runs", runs}});
   }
   return json_text(all) + "\n";
 }
 
-int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses,
-         const std::vector<double>& times) {
-  std::string methods;  // those with any run
-  for (const Course& course : courses)
+int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses) {
+  std::vector<double> times;
+  std::vector<std::string> methods;  // those with any run
+  for (const Course& course : courses) {
+    if (times.empty() || times.back() != course.t) times.push_back(course.t);
     if (!course.runs.empty() &&
-        (" " + methods + " ").find(" " + course.method.name + " ") == std::string::npos)
-      methods += (methods.empty() ? "" : " ") + course.method.name;
+        std::find(methods.begin(), methods.end(), course.method.name) == methods.end())
+      methods.push_back(course.method.name);
+  }
   Picture picture(path, "comparison");
   picture.set("title", scene);
   picture.set("times", times);
-  picture.set("methods", methods);
-  picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses, times)); });
+  picture.set("methods", fmt::format("{}", fmt::join(methods, " ")));
+  picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses)); });
   return picture.draw();
 }
 
 int compare(const CompareArguments& arguments) {
   const std::vector<double> times = times_of(arguments);
   const auto methods = compared_methods("--methods", arguments.methods);
-  for (const Refinement refinement : {"cells", "resolution"}) (void)resolutions_of(arguments, refinement);
-  ProgressLine line;
-  const ComparisonLimits limits = limits_of(arguments, line);
+  const auto cells = resolutions_of(arguments, "cells"), steps = resolutions_of(arguments, "resolution");
+  ComparisonLimits limits = limits_of(arguments);
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
   const auto scene = read_scene<double>(arguments.scene);
@@ -215,21 +193,24 @@ int compare(const CompareArguments& arguments) {
   const InterruptGuard guard;
   const ExactSolution<double> exact(scene);
   note_staircase(scene, exact, times);
+  ProgressLine line;
+  limits.progress = line.callback();
   std::vector<Course> courses;
   for (const double t : times)
-    for (const ComparedMethod& method : methods)
-      courses.push_back(compare_method(scene, exact, t, method,
-                                       resolutions_of(arguments, refinement_of(method.method)), limits));
+    for (const ComparedMethod& method : methods) {
+      const bool has_cells = method.method.has_option("cells");
+      courses.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
+    }
   if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
-    output->write(csv_of(courses, times));
+    output->write(csv_of(courses));
     output->commit();
   }
   OutputFile out("-");
-  out.write(arguments.json ? json_of(scene.name(), courses, times)
-                           : printable(scene.name(), 100) + "\n" + text_of(courses, times));
+  out.write(arguments.json ? json_of(scene.name(), courses)
+                           : printable(scene.name(), 100) + "\n" + text_of(courses));
   out.commit();
-  return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses, times);
+  return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/scene/scene_cast.hpp"
-#include "shearfront/solution/observed_events.hpp"
-#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
+#include "support/observed_events.hpp"
 
 namespace shearfront {
 namespace {
@@ -76,17 +76,15 @@ void print_events_row(std::string_view delta, std::string_view who, const Times&
 }
 
 Times tracked_times(const Scene<double>& scene, GridKind grid, double resolution) {
-  SolverOptions options;
-  options.grid = grid;
-  options.resolution = resolution;
   SolverRequest request;
   request.timeline = true;
-  return times_of(*FrontTrackingSolver::solve(scene, request, options).timeline);
+  const auto result = solve<FrontTrackingSolver>(scene, request, {.resolution = resolution, .grid = grid});
+  return times_of(*result.timeline);
 }
 
 /// Errors and median seconds of a solver at both times.
 template <class Solver>
-std::array<Error, 2> ours(const Scene<double>& scene, const SolverOptions& options) {
+std::array<Error, 2> ours(const Scene<double>& scene, const typename Solver::Options& options) {
   const ExactSolution<double> exact(scene);
   std::array<Error, 2> errors{};
   for (std::size_t i = 0; i < kTimes.size(); ++i) {
@@ -96,7 +94,7 @@ std::array<Error, 2> ours(const Scene<double>& scene, const SolverOptions& optio
     std::vector<double> seconds;
     for (int k = 0; k < 5; ++k) {
       const auto begin = std::chrono::steady_clock::now();
-      const SolverResult result = Solver::solve(scene, request, options);
+      const SolverResult result = solve<Solver>(scene, request, options);
       seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
       errors[i].l1 = errors_against(exact, result.profiles.at(0), kTimes[i]).l1;
     }
@@ -129,9 +127,8 @@ void print_paper() {
   fmt::print("{:<9} {:<33} {:<9} {:<11} {:<9} {}\n", "delta, dz", "method", "L1(0.5)", "time", "L1(6)",
              "time");
   for (const PaperErrors& row : kTable2) {
-    SolverOptions levels;
-    levels.resolution = 4 * row.step;
-    SolverOptions singular = levels, linear = levels;
+    const FrontTrackingSolver::Options levels{.resolution = 4 * row.step};
+    FrontTrackingSolver::Options singular = levels, linear = levels;
     singular.grid = GridKind::singular_mapping;
     linear.reconstruct = Reconstruction::linear;
     print_errors_row(row.step, "paper, front tracking", row.tracking);
@@ -140,8 +137,8 @@ void print_paper() {
     print_errors_row(row.step, "levels, 4 delta, linear", ours<FrontTrackingSolver>(scene, linear));
   }
   for (const PaperErrors& row : kTable2) {
-    SolverOptions options;
-    options.cells = static_cast<std::size_t>(std::lround(1 / row.step));
+    EngquistOsherSolver::Options options;
+    options.cells = static_cast<std::uint64_t>(std::lround(1 / row.step));
     print_errors_row(row.step, "paper, Engquist-Osher as printed", row.engquist_osher);
     print_errors_row(row.step, "Engquist-Osher, consistent", ours<EngquistOsherSolver>(scene, options));
   }
@@ -174,7 +171,7 @@ std::vector<double> refined(const std::vector<double>& times, const Times& event
 /// Profiles are observed from 0 to the horizon, at 65 times first, then twice at 16 more in every interval
 /// where something is seen to happen.
 template <class Solver>
-Times observed_times(const Scene<double>& scene, const SolverOptions& options, double horizon) {
+Times observed_times(const Scene<double>& scene, const typename Solver::Options& options, double horizon) {
   constexpr std::size_t kFirstTimes = 65;
   SolverRequest request;
   request.times = equally_spaced(0, horizon, kFirstTimes);
@@ -182,8 +179,8 @@ Times observed_times(const Scene<double>& scene, const SolverOptions& options, d
   Times events;
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) request.times = refined(request.times, events);
-    SolverResult result = Solver::solve(scene, request, options);
-    events = times_of(observed_events(scene, {request.times, std::move(result.profiles)}));
+    SolverResult result = solve<Solver>(scene, request, options);
+    events = times_of(support::observed_events(scene, {request.times, std::move(result.profiles)}));
   }
   return events;
 }
@@ -206,8 +203,8 @@ void print_events(const char* path) {
     print_relative_errors("front-tracking", resolution, tracked_times(scene, GridKind::levels, resolution),
                           exact);
   const auto print_grid = [&]<class Solver>() {
-    for (const std::size_t cells : {100, 400, 1600, 6400}) {
-      SolverOptions options;
+    for (const std::uint64_t cells : {100, 400, 1600, 6400}) {
+      typename Solver::Options options;
       options.cells = cells;
       print_relative_errors(Solver::kName, static_cast<double>(cells),
                             observed_times<Solver>(scene, options, 1.25 * *exact.back()), exact);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cli/arguments.hpp"
+#include "cli/progress.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/io/method_text.hpp"
 #include "shearfront/io/text.hpp"
@@ -17,8 +18,6 @@ namespace shearfront::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr Refinement kPoints = "points";
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -47,23 +46,14 @@ double median_time(const Run& run, std::size_t repeats) {
   return seconds[seconds.size() / 2];
 }
 
-SolverRequest request_of(const Scene<double>& scene, Refinement refinement, double t, double resolution) {
-  SolverRequest request;
-  request.times = {t};
-  request.profiles = refinement != kPoints;
-  const double height = scene.top() - scene.bottom();
-  for (double i = 0; refinement == kPoints && i < resolution; ++i)
-    request.heights.push_back(scene.bottom() + height * ((i + 0.5) / resolution));
-  return request;
+std::optional<double> order_of(const ComparedRun& a, const ComparedRun& b) {
+  constexpr double kRounding = 1e-14;  // no order to be seen below it
+  if (a.l1_error < kRounding) return std::nullopt;
+  const double order = std::log(a.l1_error / b.l1_error) / std::abs(std::log(b.resolution / a.resolution));
+  return std::isfinite(order) ? std::optional(order) : std::nullopt;
 }
 
 }  // namespace
-
-Refinement refinement_of(const Method& method) {
-  for (const Refinement refinement : {"resolution", "cells"})
-    if (method.has_option(refinement)) return refinement;
-  return kPoints;
-}
 
 std::vector<ComparedMethod> compared_methods() {
   std::vector<ComparedMethod> all;
@@ -111,24 +101,22 @@ std::vector<ComparedMethod> compared_methods(std::string_view option,
   return chosen;
 }
 
-std::optional<double> Course::order(std::size_t run) const {
-  constexpr double kRounding = 1e-14;  // no order to be seen below it
-  if (run == 0) return std::nullopt;
-  const ComparedRun &a = runs[run - 1], &b = runs[run];
-  if (a.l1_error < kRounding) return std::nullopt;
-  // More cells or a smaller step.
-  const double order = std::log(a.l1_error / b.l1_error) / std::abs(std::log(b.resolution / a.resolution));
-  return std::isfinite(order) ? std::optional(order) : std::nullopt;
-}
-
 Course compare_method(const Scene<double>& scene, const ExactSolution<double>& exact, double t,
-                      const ComparedMethod& method, const std::vector<double>& resolutions,
+                      const ComparedMethod& method, std::vector<double> resolutions,
                       const ComparisonLimits& limits) {
+  constexpr std::size_t kHeights = 1000;
+  const bool is_exact = method.method.guarantees().exact;
+  SolverRequest request;
+  request.times = {t};
+  request.profiles = !is_exact;
+  if (is_exact) resolutions = {kHeights};
+  for (std::size_t i = 0; is_exact && i < kHeights; ++i)
+    request.heights.push_back(
+        std::lerp(scene.bottom(), scene.top(), (static_cast<double>(i) + 0.5) / kHeights));
   Course course{method, t, {}, {}};
-  const Refinement refinement = refinement_of(method.method);
   double last = 0, before = 0, spent = 0;  // seconds
   for (const double resolution : resolutions) {
-    if (limits.is_stopped && limits.is_stopped()) {
+    if (InterruptGuard::is_interrupted()) {
       course.ended = "interrupted";
       break;
     }
@@ -139,12 +127,14 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       break;
     }
     Method finer = method.method;
-    if (refinement != kPoints) set_option(finer, refinement, number_text(resolution), "");
-    const SolverRequest request = request_of(scene, refinement, t, resolution);
+    for (const char* option : {"resolution", "cells"})
+      if (finer.has_option(option)) set_option(finer, option, number_text(resolution), "");
     SolverResult result;
     const auto run = [&] {
       const auto begin = Clock::now();
-      result = solve(scene, finer, request, limits.progress);
+      result = solve(scene, finer, request, [&](double at, std::uint64_t work) {
+        return (!limits.progress || limits.progress(at, work)) && !InterruptGuard::is_interrupted();
+      });
       spent += seconds_since(begin);
       return result.summary.usable();
     };
@@ -154,10 +144,11 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       course.ended = summary.status == Status::interrupted ? "interrupted" : summary.message;
       break;
     }
-    const bool is_exact = refinement == kPoints;
-    course.runs.push_back({resolution, is_exact ? 0 : errors_against(exact, result.profiles.front(), t).l1,
-                           last,
-                           is_exact ? request.heights.size() : summary.collisions + summary.cell_updates});
+    ComparedRun done{
+        resolution, 0, {}, last, is_exact ? kHeights : summary.collisions + summary.cell_updates};
+    if (!is_exact) done.l1_error = errors_against(exact, result.profiles.front(), t).l1;
+    if (!course.runs.empty()) done.order = order_of(course.runs.back(), done);
+    course.runs.push_back(done);
   }
   return course;
 }

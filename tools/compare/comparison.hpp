@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,12 +13,8 @@
 /// Error against time: every method, from coarse to fine.
 namespace shearfront::tools {
 
-/// What makes a method finer: its option "resolution" or "cells"; else the heights at which it is asked.
-using Refinement = std::string_view;
-[[nodiscard]] Refinement refinement_of(const Method& method);
-
-/// A method, and what it is called in a comparison: solver, or solver:option with an option that is switched
-/// on, or the value of one that has names.
+/// A method, and what it is called in a comparison: solver, or solver:option with an option that is switched on,
+/// or with the value of one that has names. Made finer by its option "resolution" or "cells".
 struct ComparedMethod {
   std::string name;
   Method method;
@@ -34,10 +29,11 @@ struct ComparedMethod {
 
 /// One method at one resolution to one time, begun afresh.
 struct ComparedRun {
-  double resolution = 0;  ///< cells, step of phi, or points
-  double l1_error = 0;    ///< int |phi - exact phi| dz; 0 for an exact method, which is what is compared with
-  double wall_s = 0;      ///< median, profile included
-  std::uint64_t work = 0;  ///< cell updates, collisions, or points
+  double resolution = 0;  ///< cells or step of phi; of an exact method the heights at which it is asked
+  double l1_error = 0;    ///< int |phi - exact phi| dz; 0 for an exact method: it is what is compared with
+  std::optional<double> order;  ///< of the error in the resolution, from the run before
+  double wall_s = 0;            ///< median, profile included
+  std::uint64_t work = 0;       ///< cell updates, collisions, or heights
 };
 
 /// One method at one time, as far as it went.
@@ -46,23 +42,20 @@ struct Course {
   double t = 0;
   std::vector<ComparedRun> runs;
   std::string ended;  ///< why it did not go to its finest resolution; empty if it did
-  /// Order of the error in the resolution from the run before.
-  [[nodiscard]] std::optional<double> order(std::size_t run) const;
 };
 
 /// Course::ended where the next resolution would have taken longer than allowed.
 inline constexpr const char* kBudgetSpent = "no time left for more (--budget)";
 
 struct ComparisonLimits {
-  double budget_s = 5;      ///< per method and time: none is begun that would take longer, errors not counted
+  double budget_s = 5;      ///< no run is begun that would take a method at a time longer, errors not counted
   std::size_t repeats = 0;  ///< runs per resolution; 0: at least 3 and 20 ms in all, one if it takes a second
   Progress progress;
-  std::function<bool()> is_stopped;
 };
 
-/// Errors against exact/l1_error.hpp.
+/// Errors against exact/l1_error.hpp, from coarse to fine. Ctrl-C ends it (InterruptGuard).
 [[nodiscard]] Course compare_method(const Scene<double>& scene, const ExactSolution<double>& exact, double t,
-                                    const ComparedMethod& method, const std::vector<double>& resolutions,
+                                    const ComparedMethod& method, std::vector<double> resolutions,
                                     const ComparisonLimits& limits);
 
 }  // namespace shearfront::tools
