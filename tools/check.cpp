@@ -70,12 +70,17 @@ bool is_csv(const std::string& file) {
 
 /// What there is to say about a good file.
 std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
-  if (!is_csv(file))
-    return std::visit([](const auto& content) { return summary_text(content); },
-                      fit::read_scene_or_fit(file));
+  if (!is_csv(file)) {
+    const auto content = fit::read_scene_or_fit(file);
+    if (const auto* fit_file = std::get_if<fit::FitFile>(&content))
+      print_remarks(fit_file->remarks);
+    else
+      print_remarks(std::get<Scene<double>>(content).spec().remarks);
+    return std::visit([](const auto& good) { return summary_text(good); }, content);
+  }
   const Observations data =
       scene ? read_observations(file, scene->bottom(), scene->top()) : read_observations(file);
-  for (const std::string& remark : data.notes) fmt::print(stderr, "{}\n", remark);
+  print_remarks(data.notes);
   return summary_text(data);
 }
 
@@ -86,7 +91,7 @@ struct CheckArguments {
 
 int check(const CheckArguments& arguments) {
   std::optional<Scene<double>> scene;
-  if (!arguments.scene.empty()) scene = read_scene<double>(arguments.scene);
+  if (!arguments.scene.empty()) scene = with_remarks(read_scene<double>(arguments.scene));
   OutputFile out("-");
   bool all_good = true;
   for (const std::string& file : arguments.files) {

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/table.hpp"
 #include "compare/comparison.hpp"
 #include "plot/picture.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/io/detail/json.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -141,6 +140,7 @@ std::string csv_of(const std::vector<Course>& courses) {
 /// {"scene","times":[{"t","methods":[{"method","ended","runs":[{"resolution","l1_error","order","wall_s",
 /// "work"}]}]}]}
 std::string json_of(const std::string& scene, const std::vector<Course>& courses) {
+  using detail::Json;
   Json all{{"scene", scene}, {"times", Json::array()}};
   for (const Course& course : courses) {
     Json& times = all["times"];
@@ -150,13 +150,13 @@ std::string json_of(const std::string& scene, const std::vector<Course>& courses
     for (const ComparedRun& run : course.runs)
       runs.push_back({{"resolution", run.resolution},
                       {"l1_error", run.l1_error},
-                      {"order", json_or_null(run.order)},
+                      {"order", detail::json_or_null(run.order)},
                       {"wall_s", run.wall_s},
                       {"work", run.work}});
     times.back()["methods"].push_back(
         {{"method", course.method.name}, {"ended", course.ended}, {"runs", runs}});
   }
-  return json_text(all) + "\n";
+  return detail::json_document(all);
 }
 
 int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses) {
@@ -183,7 +183,7 @@ int compare(const CompareArguments& arguments) {
   ComparisonLimits limits = limits_of(arguments);
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   if (const std::string reason = exact::refusal(scene); !reason.empty())
     throw InputError(printable(arguments.scene), "", "has no exact solution to compare with: " + reason);
   std::optional<OutputFile> output;

@@ -14,17 +14,15 @@
 #include "cli/progress.hpp"
 #include "cli/table.hpp"
 #include "plot/pictures.hpp"
-#include "shearfront/digits/real110.hpp"
-#include "shearfront/exact/events.hpp"
+#include "shearfront/digits/exact_digits.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
-#include "shearfront/solver/all.hpp"
 
 namespace shearfront::tools {
 namespace {
 
-constexpr int kDoubleDigits = 17, kMostDigits = 100;
+constexpr int kDoubleDigits = 17;
 // Few enough fronts to be told apart.
 constexpr const char *kPictureResolution = "0.04", *kPictureLayers = "100";
 
@@ -34,66 +32,54 @@ struct EventsArguments {
   MethodArguments method;
 };
 
-/// One row of the table. Times that never come are empty; `exact` is the time by another road.
-template <Real S>
-struct EventRow {
-  std::string event, meaning;
-  std::optional<S> time;
-  std::optional<ClosedForm> form;
-  std::optional<double> exact;
-};
+/// Event times as they are computed and printed, beside those by another road (formula or exact solver).
+struct EventTable {
+  const Timeline<double>& timeline;
+  const TimelineText& text;
+  ClosedForms forms;
+  std::optional<Timeline<double>> exact;
+  int digits = 0;  ///< of times by another road; 0: the shortest text that reads back
+  TextTable table{
+      {"event", "meaning", "time", exact ? "exact" : "", exact ? "relative difference" : "", "closed form"}};
 
-template <Real S>
-std::vector<EventRow<S>> event_rows(const Timeline<S>& timeline, const ClosedForms& forms,
-                                    const Timeline<double>& exact) {
-  const std::size_t n = timeline.interfaces.size();
-  std::vector<EventRow<S>> rows;
-  const auto add = [&](std::string event, std::string meaning, const std::optional<S>& time,
-                       const std::optional<ClosedForm>& form, const std::optional<double>& other) {
-    rows.push_back({std::move(event), std::move(meaning), time, form, form ? form->value : other});
-  };
-  const auto add_interfaces = [&](const char* symbol, const char* meaning, auto&& time_of, const auto& form) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::string z = number_text(to_double(timeline.interfaces[i].z));
-      add(symbol + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + z, time_of(timeline.interfaces[i]),
-          form, i < exact.interfaces.size() ? time_of(exact.interfaces[i]) : std::nullopt);
+  void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
+           const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
+           std::optional<double> other) {
+    if (form) other = form->value;
+    std::string exact_time, difference;
+    if (exact && other) {
+      exact_time = digits == 0 ? number_text(*other) : *other == 0 ? "0" : number_text(*other, digits);
+      if (time && *other != 0) difference = fmt::format("{:.1e}", *time / *other - 1);
     }
-  };
-  add_interfaces(
-      "t_c", "first wave at the interface z = ", [](const auto& at) { return at.first; },
-      forms.first_interface);
-  add("t_0", "first wave at the bottom", timeline.t0, forms.t0, exact.t0);
-  add("t_1", "first wave at the top", timeline.t1, forms.t1, exact.t1);
-  add_interfaces(
-      "t^_c", "last change at the interface z = ", [](const auto& at) { return at.last; },
-      forms.last_interface);
-  add("t*", "steady state", timeline.t_star, forms.t_star, exact.t_star);
-  return rows;
-}
-
-/// With so many digits, or the shortest text that reads back if digits is 0.
-template <Real S>
-std::string shown(const S& x, int digits) {
-  if (digits == 0) return number_text(to_double(x));
-  return x == 0 ? "0" : number_text(x, digits);
-}
-
-template <Real S>
-std::string event_table(const std::vector<EventRow<S>>& rows, int digits, bool compare) {
-  TextTable table({"event", "meaning", "time", compare ? "exact" : "", compare ? "relative difference" : "",
-                   "closed form"});
-  for (const EventRow<S>& row : rows) {
-    std::string exact, difference;
-    if (compare && row.exact) {
-      exact = shown(*row.exact, digits);
-      if (row.time && *row.exact != 0)
-        difference = fmt::format("{:.1e}", to_double(*row.time) / *row.exact - 1);
-    }
-    table.add({row.event, row.meaning, row.time ? shown(*row.time, digits) : "never", exact, difference,
-               row.form ? row.form->formula : ""});
+    table.add({event, meaning, shown.value_or("never"), exact_time, difference, form ? form->formula : ""});
   }
-  return table.text();
-}
+  /// `member` of TimelineText::InterfaceTimes and of its numbers.
+  void add_interfaces(const char* event, const char* meaning,
+                      std::optional<double> Timeline<double>::InterfaceTimes::*member,
+                      std::optional<std::string> TimelineText::InterfaceTimes::*text_member,
+                      const std::optional<ClosedForm>& form) {
+    const std::size_t n = timeline.interfaces.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& at = timeline.interfaces[i];
+      const bool has_other = exact && i < exact->interfaces.size();
+      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z), at.*member,
+          text.interfaces[i].*text_member, form, has_other ? exact->interfaces[i].*member : std::nullopt);
+    }
+  }
+  [[nodiscard]] std::string all() {
+    const Timeline<double> other = exact.value_or(Timeline<double>{});
+    using Times = Timeline<double>::InterfaceTimes;
+    using Texts = TimelineText::InterfaceTimes;
+    add_interfaces("t_c", "first wave at the interface z = ", &Times::first, &Texts::first,
+                   forms.first_interface);
+    add("t_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other.t0);
+    add("t_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other.t1);
+    add_interfaces("t^_c", "last change at the interface z = ", &Times::last, &Texts::last,
+                   forms.last_interface);
+    add("t*", "steady state", timeline.t_star, text.t_star, forms.t_star, other.t_star);
+    return table.text();
+  }
+};
 
 std::string summary_line(const Summary& s) {
   std::string line;
@@ -109,46 +95,31 @@ Timeline<double> exact_times(const Scene<double>& scene) {
   return solve<ExactSolver>(scene, request).timeline.value_or(Timeline<double>{});
 }
 
-template <Real S>
+/// `text` are the times as they are printed, `digits` those of times by another road.
 void print_events(const EventsArguments& arguments, const Method& method, const Scene<double>& scene,
-                  const Timeline<S>& timeline, const Summary& summary, int digits) {
+                  const Timeline<double>& timeline, const TimelineText& text, const Summary& summary,
+                  int digits) {
   OutputFile out("-");
   if (arguments.json) {
-    write_events_json(out, scene.name(), method.name(), timeline, summary, digits);
+    write_events_json(out, scene.name(), method.name(), text, summary);
   } else {
     const bool compare = !method.guarantees().exact;
-    const ClosedForms forms = closed_forms(scene);
-    const auto rows = event_rows(timeline, forms, compare ? exact_times(scene) : Timeline<double>{});
-    out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(),
-                          event_table(rows, digits, compare)));
-    if (forms.t0)
+    EventTable table{timeline, text, closed_forms(scene),
+                     compare ? std::optional(exact_times(scene)) : std::nullopt, digits};
+    out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
+    if (table.forms.t0)
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "
           "k0, k1 rates s a below and above the interface\n");
-    out.write(fmt::format("\nmass {}, steady height {}\n{}", shown(timeline.mass, digits),
-                          shown(timeline.steady_height, digits), summary_line(summary)));
+    out.write(
+        fmt::format("\nmass {}, steady height {}\n{}", text.mass, text.steady_height, summary_line(summary)));
   }
   out.commit();
 }
 
-template <Real S>
-int many_digits(const EventsArguments& arguments, const Method& method, const Scene<double>& scene,
-                int digits) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Scene<S> precise = read_scene<S>(arguments.scene);
-  const Timeline<S> timeline =
-      exact_timeline<S>(precise, TimelineOptions{static_cast<std::size_t>(number_of(method, "layers"))});
-  Summary summary;
-  summary.status = Status::ok;
-  summary.message = fmt::format("computed with {} digits", std::numeric_limits<S>::digits10);
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_events(arguments, method, scene, timeline, summary, digits);
-  return kDone;
-}
-
 /// Fronts for the picture, by the first solver that has fronts.
-int draw(const EventsArguments& arguments, const Scene<double>& scene, const Timeline<double>& timeline,
-         const Progress& progress) {
+int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
+                const Timeline<double>& timeline, const Progress& progress) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
   if (!arguments.method.has("resolution")) set_option(method, "resolution", kPictureResolution, "");
   if (!arguments.method.has("layers")) set_option(method, "layers", kPictureLayers, "");
@@ -175,26 +146,32 @@ int events(const EventsArguments& arguments) {
                        method.name(), ExactSolver::kName));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
   ProgressLine progress;
   SolverRequest request;
   request.timeline = true;
-  const SolverResult result = solve(scene, method, request, progress.callback());
+  SolverResult result = solve(scene, method, request, progress.callback());
   if (!result.summary.usable()) {
     Timeline<double> unknown;
     unknown.mass = scene.mass();
     unknown.steady_height = scene.bottom() + unknown.mass;
-    if (arguments.json) print_events(arguments, method, scene, unknown, result.summary, 0);
+    if (arguments.json)
+      print_events(arguments, method, scene, unknown, text_of(unknown, 0), result.summary, 0);
     return report_unusable(result.summary);
   }
-  if (digits > kDoubleDigits)
-    many_digits<Real110>(arguments, method, scene, digits);
-  else
-    print_events(arguments, method, scene, *result.timeline, result.summary, digits);
-  return arguments.plot.empty() ? kDone : draw(arguments, scene, *result.timeline, progress.callback());
+  TimelineText text = text_of(*result.timeline, arguments.json ? 0 : digits);
+  if (digits > kDoubleDigits) {
+    const auto begin = std::chrono::steady_clock::now();
+    text = exact_digits(arguments.scene, static_cast<std::size_t>(number_of(method, "layers")), digits);
+    result.summary.message = fmt::format("computed with {} digits", kComputedDigits);
+    result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  print_events(arguments, method, scene, *result.timeline, text, result.summary, digits);
+  return arguments.plot.empty() ? kDone
+                                : draw_events(arguments, scene, *result.timeline, progress.callback());
 }
 
 }  // namespace

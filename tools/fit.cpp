@@ -98,7 +98,7 @@ std::vector<std::string> model_names(const std::vector<std::string>& paths,
 int print_one(const fit::Estimate& estimate, bool json) {
   OutputFile out("-");
   if (json)
-    out.write(estimate_json(estimate) + "\n");
+    out.write(detail::json_document(to_json(estimate)));
   else if (estimate.usable())
     out.write(estimate_text(estimate));
   out.commit();
@@ -110,11 +110,9 @@ int print_several(const std::vector<std::string>& names, const std::vector<fit::
   OutputFile out("-");
   const auto models = fit::compare_models(names, estimates);
   if (json) {
-    std::string all;
-    for (const fit::Estimate& estimate : estimates)
-      all += (all.empty() ? "" : ",\n") + estimate_json(estimate, "    ");
-    out.write(fmt::format("{{\n  \"fits\": [\n{}\n  ],\n  \"comparison\": {}\n}}\n", all,
-                          json_text(comparison_json(models))));
+    detail::Json all{{"fits", detail::Json::array()}, {"comparison", comparison_json(models)}};
+    for (const fit::Estimate& estimate : estimates) all["fits"].push_back(to_json(estimate));
+    out.write(detail::json_document(all));
   } else {
     for (const fit::Estimate& estimate : estimates)
       if (estimate.usable()) out.write(estimate_text(estimate) + "\n");
@@ -141,8 +139,10 @@ int fit_files(const FitArguments& arguments) {
   std::optional<OutputFile> output;
   if (!arguments.output.empty()) output.emplace(arguments.output);
   check_picture_target(arguments.plot);
-  for (const fit::FitSpec& spec : specs)
-    for (const std::string& remark : spec.observations.notes) fmt::print(stderr, "{}\n", remark);
+  for (const fit::FitFile& file : files) {
+    print_remarks(file.remarks);
+    print_remarks(file.spec.observations.notes);
+  }
 
   const InterruptGuard guard;
   std::vector<fit::Estimate> estimates;

@@ -154,7 +154,7 @@ int observe_scene(const ObserveArguments& arguments) {
   check_arguments(arguments);
   const Method method = arguments.method.method();
   const auto source = detail::TextSource::read(arguments.scene);
-  const auto scene = parse_scene<double>(source.text(), arguments.scene);
+  const auto scene = with_remarks(parse_scene<double>(source.text(), arguments.scene));
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);

@@ -10,7 +10,6 @@
 #include "bed_course.hpp"
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/json.hpp"
 #include "cli/method.hpp"
 #include "cli/progress.hpp"
 #include "plot/pictures.hpp"
@@ -106,11 +105,11 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
       bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress.callback());
   if (!course.summary.usable()) return report_unusable(course.summary);
   const auto& lowest = course.lowest;
+  NamedNumbers lowest_numbers{"lowest", {}};
+  if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
   if (arguments.json)
-    write_time_table_json(
-        output, task.scene.name(), task.method.name(), course.table,
-        lowest ? "\"lowest\": " + json_text({{"t", lowest->t}, {"H", lowest->height}}, -1) : "",
-        course.summary);
+    write_time_table_json(output, task.scene.name(), task.method.name(), course.table, lowest_numbers,
+                          course.summary);
   else
     write_time_table_csv(output, course.table);
   output.commit();
@@ -156,7 +155,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
 int solve_scene(const SolveArguments& arguments) {
   const Method method = arguments.method.method();
   check_arguments(arguments, method);
-  const auto scene = read_scene<double>(arguments.scene);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
   const Task task{scene, method, list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed)};
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);

@@ -13,12 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "shearfront/diffusion/crank_nicolson_solver.hpp"
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
-#include "shearfront/exact/solver.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace {
 
@@ -52,12 +51,9 @@ std::vector<Example> examples() {
   };
   SceneSpec<double> diffusing = with(Piecewise<double>{{0.29}, {2.4, 0.31}});
   diffusing.diffusion = Diffusion<double>{1e-2, {}, false};
-  fit::ForwardSpec crank_nicolson;
-  crank_nicolson.method = CrankNicolsonSolver::kName;
-  crank_nicolson.options.cells = 100;
-  crank_nicolson.options.time_step = 0.02;
   // Cumulative data set no upper bound on the fast layer: the model must have a solution for any rate there.
-  crank_nicolson.options.monotone = true;
+  const fit::ForwardSpec crank_nicolson{
+      Method::of<CrankNicolsonSolver>({.cells = 100, .time_step = 0.02, .monotone = true})};
   const std::vector<double> fine_t = grid(0.5, 0.5, 20), fine_z = grid(0.01, 0.01, 99);
   return {
       {"3", with(Piecewise<double>{{0.29}, {3.15, 0.5}}), {"shear_rate.values"}, {2.5, 0.7}, fine_t, fine_z},
@@ -86,8 +82,7 @@ Observations without_noise(const Example& example, Quantity quantity) {
   ObservationPlan plan{example.times, example.depths, quantity, 0};
   if (quantity == Quantity::bin) plan.width = example.depths[1] - example.depths[0];
   const Scene<double> scene(example.truth);
-  const auto solve = scene.has_diffusion() ? &CrankNicolsonSolver::solve : &ExactSolver::solve;
-  return observe(plan, scene, solve(scene, request_of(plan, scene), example.forward.options));
+  return observe(plan, scene, solve(scene, example.forward.method, request_of(plan, scene)));
 }
 
 /// Standard deviations of the logarithms of the parameters by the Cramer-Rao bound, for sigma = 1: from the

@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/diffusion/crank_nicolson_solver.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/track/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
@@ -29,16 +28,16 @@ SceneSpec<double> may() {
 
 /// Cells that follow the fronts. The fan, which is all there is at t = 0.5, needs phi to about D; the fronts
 /// that come later force short steps for any tolerance.
-SolverOptions refined(bool has_fronts, double cell_tolerance = 1e-2) {
-  SolverOptions options;
+CrankNicolsonSolver::Options refined(bool has_fronts, double cell_tolerance = 1e-2) {
+  CrankNicolsonSolver::Options options;
   options.cells = 400;
   options.cell_tolerance = has_fronts ? cell_tolerance : 0.1 * cell_tolerance;
   options.tolerance = has_fronts ? 1e-3 : 1e-5;
   return options;
 }
 /// Equal cells of 2/5 of the width D / (s a) of the sharpest front.
-SolverOptions equal(double D) {
-  SolverOptions options;
+CrankNicolsonSolver::Options equal(double D) {
+  CrankNicolsonSolver::Options options;
   options.cells = static_cast<std::size_t>(std::max(2000.0, 1 / D));
   options.tolerance = 1e-3;
   return options;
@@ -57,7 +56,7 @@ struct Run {
     for (const bool has_fronts : {false, true}) {
       const std::vector<double> times =
           has_fronts ? std::vector<double>{kTimes[1], kTimes[2]} : std::vector<double>{kTimes[0]};
-      auto result = CrankNicolsonSolver::solve(Scene<double>(spec), {times, {}, false, false, true},
+      auto result = solve<CrankNicolsonSolver>(Scene<double>(spec), {times, {}, false, false, true},
                                                options_of(has_fronts));
       if (!result.summary.usable()) {
         std::printf("D = %g: %s\n", D, result.summary.message.c_str());
@@ -84,11 +83,11 @@ std::string difference(const Run& a, const Run& b, const std::vector<Profile<dou
 void print(double least) {
   const Scene<double> limit(may());
   const ExactSolution<double> exact(limit);
-  SolverOptions tracking;
+  FrontTrackingSolver::Options tracking;
   tracking.resolution = 1e-5;
   tracking.reconstruct = Reconstruction::linear;
   const auto tracked =
-      FrontTrackingSolver::solve(limit, {{kTimes.begin(), kTimes.end()}, {}, false, false, true}, tracking);
+      solve<FrontTrackingSolver>(limit, {{kTimes.begin(), kTimes.end()}, {}, false, false, true}, tracking);
   std::printf(
       "| D | cells at t = 2 | cell updates | seconds | t = 0.5 | order | t = 2 | order | t = 6 | order | "
       "from exact "

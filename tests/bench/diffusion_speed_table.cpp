@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
-#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
@@ -35,7 +35,7 @@ double error_of(const diffusion::UniformStart<double>& exact, const std::vector<
 }
 
 /// Fastest of five runs: the machine may be busy with something else.
-void print(double D, const std::string& kind, const SolverOptions& options) {
+void print(double D, const std::string& kind, const CrankNicolsonSolver::Options& options) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.initial_values = {0.55};
@@ -47,7 +47,7 @@ void print(double D, const std::string& kind, const SolverOptions& options) {
   double seconds = 1e9;
   for (int i = 0; i < 5; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    result = CrankNicolsonSolver::solve(scene, {kTimes, {}, false, false, true}, options);
+    result = solve<CrankNicolsonSolver>(scene, {kTimes, {}, false, false, true}, options);
     seconds =
         std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
@@ -66,19 +66,19 @@ void print_all() {
   std::printf("| D | steps and cells | cells | error | ms |\n|---|---|---|---|---|\n");
   for (const double D : {0.02, 0.002}) {
     for (std::size_t n = 500; n <= 4000; n *= 2) {
-      SolverOptions options;
+      CrankNicolsonSolver::Options options;
       options.cells = n;
       options.time_step = 0.2 / static_cast<double>(n);
       print(D, "fixed", options);
     }
     for (std::size_t n = 500; n <= 8000; n *= 2) {
-      SolverOptions options;
+      CrankNicolsonSolver::Options options;
       options.cells = n;
       options.tolerance = (D < 0.01 ? 500.0 : 5.0) / std::pow(static_cast<double>(n), 2);
       print(D, "adaptive", options);
     }
     for (double tolerance = 3e-2; tolerance > 1e-4; tolerance /= 4) {
-      SolverOptions options;
+      CrankNicolsonSolver::Options options;
       options.cells = 50;
       options.cell_tolerance = tolerance;
       options.tolerance = 0.03 * tolerance;

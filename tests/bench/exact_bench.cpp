@@ -6,7 +6,7 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/sensitivities.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 
@@ -60,11 +60,12 @@ void BM_Point(benchmark::State& state) {
 void BM_PointWithAllDerivatives(benchmark::State& state) {
   const auto scene = scene_of(static_cast<Kind>(state.range(0)), static_cast<int>(state.range(1)));
   const ExactSolution<double> solution(scene);
+  const Derivatives<double> derivatives(solution);
   const auto points = points_of(scene);
   std::size_t i = 0;
   for (auto _ : state) {
     const auto& [z, t] = points[i++ % points.size()];
-    benchmark::DoNotOptimize(sensitivities(solution, z, t));
+    benchmark::DoNotOptimize(derivatives.at(z, t));
   }
 }
 void BM_Timeline(benchmark::State& state) {

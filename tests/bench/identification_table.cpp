@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/solver/all.hpp"
+#include "shearfront/io/method_text.hpp"
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/identification.hpp"
 
 namespace shearfront::fit {
@@ -61,10 +63,10 @@ std::vector<Case> cases() {
 
 /// Point values of an Engquist-Osher solution with 10^4 cells: the data of the paper.
 Observations scheme_data(const Identification& problem) {
-  SolverOptions options;
+  EngquistOsherSolver::Options options;
   options.cells = 10'000;
   const SolverResult result =
-      EngquistOsherSolver::solve(Scene<double>(problem.truth), {problem.times, problem.heights}, options);
+      solve<EngquistOsherSolver>(Scene<double>(problem.truth), {problem.times, problem.heights}, options);
   Observations data = support::exact_data(problem, Quantity::point);
   for (std::size_t i = 0; i < data.rows.size(); ++i) data.rows[i].value = result.samples[i].phi;
   return data;
@@ -85,12 +87,13 @@ void row(const Case& example, const char* data_name, const Observations& data, c
     spec.unknown.lower.push_back(start / kBox);
     spec.unknown.upper.push_back(start * kBox);
   }
-  spec.forward.method = model.method;
-  if (model.resolution > 0) spec.forward.options.resolution = model.resolution;
-  if (model.cells > 0) spec.forward.options.cells = model.cells;
+  Method& method = spec.forward.method = Method(model.method);
+  method.prefer_smooth(spec.scene);
+  if (model.resolution > 0) set_option(method, "resolution", number_text(model.resolution), "resolution");
+  if (model.cells > 0) set_option(method, "cells", std::to_string(model.cells), "cells");
   // A smooth a(z) in as many layers as its steps need; by itself the tracker takes far more.
   if (model.resolution > 0 && example.problem.is_exponential)
-    spec.forward.options.layers = static_cast<std::size_t>(std::lround(0.5 / model.resolution));
+    set_option(method, "layers", std::to_string(std::lround(0.5 / model.resolution)), "layers");
   spec.search.algorithm = algorithm;
   const Estimate estimate = fit(spec);
   const std::string setting = model.resolution > 0 ? " " + std::to_string(model.resolution).substr(0, 6)

@@ -8,18 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fv/plain_march.hpp"
+#include "shearfront/fv/march.hpp"
 #include "shearfront/solution/mixing.hpp"
-#include "shearfront/solver/all.hpp"
-#include "support/packed_scene.hpp"
+#include "shearfront/solver/solve.hpp"
+#include "support/solid_scene.hpp"
 
 namespace {
 
 using namespace shearfront;
+using support::Grains;
 
 SceneSpec<double> example(int number, Grains grains) {
   SceneSpec<double> spec;  // as datasets/packing-example-<number>
-  spec.fluxes = {Packed<double>{grains}};
+  spec.fluxes = {support::flux_of(grains)};
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.initial_values = {0.5};
   const Table<double> sloping{{0, 0.05, 0.95, 1}, {0.7, 0.7, 0.2, 0.2}};
@@ -43,16 +44,16 @@ SceneSpec<double> example(int number, Grains grains) {
 }
 
 /// Largest phi - c in a cell at any step up to t = 1.5, at Courant number 1/2.
-double overshoot(fv::FaceRule rule, const Scene<double>& scene, std::size_t cells) {
-  const fv::Grid grid{0, 1, cells, {}, {}};
-  fv::PlainMarch march(rule, scene, grid, FaceCoefficient::harmonic);
-  const std::vector<double> solid_fraction = fv::cell_packings(scene, grid);
-  const fv::PlainMarch godunov(fv::FaceRule::godunov, scene, grid, FaceCoefficient::harmonic);
-  const double dt = godunov.largest_step() / 2;
+double overshoot(fv::Rule rule, const Scene<double>& scene, std::size_t cells) {
+  const fv::Grid grid = fv::equal_cells(scene, cells);
+  fv::March march({rule}, scene, grid);
+  const std::vector<double> capacity = fv::capacities(scene, grid);
+  const double dt = fv::March({}, scene, grid).largest_step() / 2;
   double most = 0;
   for (double t = 0; t < 1.5; t += dt) {
     march.step(dt);
-    for (std::size_t j = 0; j < cells; ++j) most = std::max(most, solid_fraction[j] * (march.states()[j] - 1));
+    const std::vector<double> x = march.shares().x;
+    for (std::size_t j = 0; j < cells; ++j) most = std::max(most, capacity[j] / grid.widths[j] * (x[j] - 1));
   }
   return most;
 }
@@ -62,10 +63,10 @@ double tracked_overshoot(const Scene<double>& scene, double resolution) {
   SolverRequest request{{}, {}};
   for (int i = 1; i <= 30; ++i) request.times.push_back(0.05 * i);
   request.profiles = true;
-  SolverOptions options;
+  FrontTrackingSolver::Options options;
   options.resolution = resolution;
   options.layers = 200;
-  const SolverResult result = FrontTrackingSolver::solve(scene, request, options);
+  const SolverResult result = solve<FrontTrackingSolver>(scene, request, options);
   if (!result.summary.usable()) return std::nan("");
   double most = 0;
   for (const auto& profile : result.profiles) most = std::max(most, support::overshoot(scene, profile));
@@ -86,10 +87,10 @@ void print_overshoot() {
     const Scene<double> small(example(static_cast<int>(e) + 2, Grains::small));
     for (std::size_t i = 0; i < kCells.size(); ++i)
       std::printf("| %zu | %zu | %.5f | %.5f | %.5f | %g | %g |\n", e + 2, kCells[i], kThesis[e][i],
-                  overshoot(fv::FaceRule::classical_godunov, large, kCells[i]),
-                  overshoot(fv::FaceRule::upwind, large, kCells[i]),
-                  overshoot(fv::FaceRule::godunov, large, kCells[i]),
-                  overshoot(fv::FaceRule::classical_godunov, small, kCells[i]));
+                  overshoot(fv::Rule::classical_godunov, large, kCells[i]),
+                  overshoot(fv::Rule::upwind, large, kCells[i]),
+                  overshoot(fv::Rule::godunov, large, kCells[i]),
+                  overshoot(fv::Rule::classical_godunov, small, kCells[i]));
   }
   std::printf("\nOvershoot at the jump (example 4, large grains, 200 cells) by the values of c\n\n");
   std::printf("| c below, above | classical |\n|---|---|\n");
@@ -98,27 +99,28 @@ void print_overshoot() {
     SceneSpec<double> spec = example(4, Grains::large);
     spec.solid_fraction = Piecewise<double>{{0.56}, {below, above}};
     std::printf("| %g, %g | %.5f |\n", below, above,
-                overshoot(fv::FaceRule::classical_godunov, Scene<double>(spec), 200));
+                overshoot(fv::Rule::classical_godunov, Scene<double>(spec), 200));
   }
 }
 
 constexpr double kThesisCourant = 0.5;  // with it the errors of example 1 are those of the thesis
 
-Profile<double> solved(auto solver, const Scene<double>& scene, double t, const SolverOptions& options) {
+template <class Solver>
+Profile<double> solved(Solver, const Scene<double>& scene, double t, const typename Solver::Options& options) {
   SolverRequest request{{t}, {}};
   request.profiles = true;
-  const SolverResult result = decltype(solver)::solve(scene, request, options);
+  const SolverResult result = solve<Solver>(scene, request, options);
   return result.profiles.empty() ? Profile<double>() : result.profiles[0];
 }
 Profile<double> on_cells(auto solver, const Scene<double>& scene, double t, std::size_t cells,
                          double cfl = 1) {
-  SolverOptions options;
+  typename decltype(solver)::Options options;
   options.cells = cells;
   options.cfl = cfl;
   return solved(solver, scene, t, options);
 }
 Profile<double> tracked(const Scene<double>& scene, double t, double resolution) {
-  SolverOptions options;
+  FrontTrackingSolver::Options options;
   options.resolution = resolution;
   return solved(FrontTrackingSolver{}, scene, t, options);
 }
@@ -162,10 +164,10 @@ std::vector<double> mixing_curve(const Scene<double>& scene, double last, std::s
   SolverRequest request{{}, {}};
   for (int i = 0; i <= 150; ++i) request.times.push_back(last * i / 150);
   request.profiles = true;
-  SolverOptions options;
+  GodunovSolver::Options options;
   options.cells = cells;
   options.cfl = kThesisCourant;
-  const SolverResult result = GodunovSolver::solve(scene, request, options);
+  const SolverResult result = solve<GodunovSolver>(scene, request, options);
   std::vector<double> curve;
   for (const auto& profile : result.profiles) curve.push_back(mixing(scene, profile).parameter);
   return curve;

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/cell_states.hpp"
 #include "support/printed_engquist_osher.hpp"
 
@@ -26,12 +26,12 @@ int main() {
     for (int k = 0; k < 4; ++k) {
       const auto printed =
           support::profile_of(scene, support::printed_engquist_osher(scene, kTimes[i], kCells[k]));
-      SolverOptions options;
+      EngquistOsherSolver::Options options;
       options.cells = kCells[k];
       SolverRequest request;
       request.times = {kTimes[i]};
       request.profiles = true;
-      const auto result = EngquistOsherSolver::solve(scene, request, options);
+      const auto result = solve<EngquistOsherSolver>(scene, request, options);
       std::printf("| %g | %zu | %.2e | %.2e | %.4f | %.2e |\n", kTimes[i], kCells[k], kPaper[i][k],
                   errors_against(exact, printed, kTimes[i]).l1, printed.mass(),
                   errors_against(exact, result.profiles.at(0), kTimes[i]).l1);

@@ -94,7 +94,7 @@ BENCHMARK(exponential_to_0_9)->Arg(30)->Arg(100)->Arg(200)->Unit(benchmark::kMil
 const std::vector<std::pair<std::string, Flux<double>>>& fluxes() {
   static const std::vector<std::pair<std::string, Flux<double>>> all{
       {"quadratic", Quadratic<double>{}},
-      {"packed", Packed<double>{Grains::large}},
+      {"lwr_1", Lwr<double>{}},
       {"lwr", Lwr<double>{0.125}},
       {"cubic_0.25", Cubic<double>{0.25}},
       {"cubic_0.9", Cubic<double>{0.9}},

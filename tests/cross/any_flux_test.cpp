@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fv/godunov_solver.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/solver.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 #include "shearfront/track/verify.hpp"
 #include "support/any_flux.hpp"
@@ -73,13 +72,10 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       SolverRequest request;
       request.times = {0.2, 1};
       for (int i = 1; i < 40; ++i) request.heights.push_back(i / 40.0);
-      SolverOptions options;
-      options.resolution = 0.003;
-      const auto tracked = FrontTrackingSolver::solve(scene, request, options);
+      const auto tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.003});
       ASSERT_EQ(tracked.samples.size(), 78u) << tracked.summary.message;
       const auto error = [&](std::size_t cells) {
-        options.cells = cells;
-        const auto grid = GodunovSolver::solve(scene, request, options);
+        const auto grid = solve<GodunovSolver>(scene, request, {.cells = cells});
         EXPECT_EQ(grid.samples.size(), 78u) << grid.summary.message;
         double largest = 0;
         for (std::size_t i = 0; i < grid.samples.size(); ++i)
@@ -138,9 +134,7 @@ TEST(AnyFlux, CompoundWaveOfANonConvexFlux) {
     return sum / kPoints;
   };
   for (const double resolution : {0.1, 0.01, 0.001}) {
-    SolverOptions options;
-    options.resolution = resolution;
-    const auto result = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
+    const auto result = solve<FrontTrackingSolver>(Scene<double>(spec), request, {.resolution = resolution});
     ASSERT_EQ(result.profiles.size(), 1u);
     EXPECT_LT(l1_error(result.profiles[0]), 0.15 * resolution) << resolution;
   }

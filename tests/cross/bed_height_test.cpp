@@ -10,20 +10,19 @@
 #include <vector>
 
 #include "shearfront/fit/fit.hpp"
-#include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
 #include "shearfront/solution/mixing.hpp"
-#include "shearfront/track/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/any_flux.hpp"
 #include "support/fit_scenes.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-using support::SceneMaker;
+using support::Grains, support::SceneMaker;
 
 constexpr double kSteady = std::numeric_limits<double>::infinity();
 
@@ -31,23 +30,23 @@ SceneSpec<double> may() { return testing::small_above_large({0.29}, {2.4, 0.31})
 
 template <class AnySolver>
 std::vector<double> heights(const Scene<double>& scene, const std::vector<double>& times,
-                            const SolverOptions& options = {}) {
+                            const typename AnySolver::Options& options = {}) {
   const BedHeight bed(scene);
   SolverRequest request;
   request.times = times;
   request.integrand = bed.integrand();
-  std::vector<double> all = AnySolver::solve(scene, request, options).integrals;
+  std::vector<double> all = solve<AnySolver>(scene, request, options).integrals;
   for (double& x : all) x = bed.height(x);
   return all;
 }
 
 template <class AnySolver>
 std::vector<double> integrals(const Scene<double>& scene, const std::vector<double>& times, ShareFunction g,
-                              const SolverOptions& options = {}) {
+                              const typename AnySolver::Options& options = {}) {
   SolverRequest request;
   request.times = times;
   request.integrand = std::move(g);
-  return AnySolver::solve(scene, request, options).integrals;
+  return solve<AnySolver>(scene, request, options).integrals;
 }
 
 // Until a wave meets the interface or a wall, the fan from z0 has the width 2 s a t and phi runs linearly in
@@ -85,8 +84,7 @@ TEST(BedHeight, MayBedSinksThenRises) {
   EXPECT_NEAR(heights<ExactSolver>(scene, {kSteady})[0], 1, 1e-15);
   const auto by = [&](const auto& solve) { return lowest_bed(solve, 6.5); };
   const auto exact = by([&](const auto& t) { return heights<ExactSolver>(scene, t); });
-  SolverOptions options;
-  options.resolution = 0.001;
+  const FrontTrackingSolver::Options options{.resolution = 0.001};
   const auto tracked = by([&](const auto& t) { return heights<FrontTrackingSolver>(scene, t, options); });
   ASSERT_TRUE(exact && tracked);
   EXPECT_NEAR(exact->t, times[std::size_t(lowest - found.begin())], 0.025);
@@ -128,7 +126,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
     if (number % 2 == 0) {
       spec = maker.data(maker.integer(1, 5), maker.order(), 6);
     } else {
-      spec = support::packed_data(maker, number % 4 == 1 ? Grains::small : Grains::large);
+      spec = support::solid_data(maker, number % 4 == 1 ? Grains::small : Grains::large);
       for (auto* profile : {&*spec.solid_fraction, &*spec.temperature})
         *profile = maker.layers(2, SceneMaker::Order::random);
     }
@@ -137,11 +135,9 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
     const Scene<double> scene(spec);
     const std::vector<double> times{0, 0.02, 0.3, 1.1, 4, kSteady};
     const auto exact = heights<ExactSolver>(scene, times);
-    SolverOptions options;
-    options.resolution = 0.005;
+    const FrontTrackingSolver::Options options{.resolution = 0.005};
     const auto tracked = heights<FrontTrackingSolver>(scene, times, options);
-    options.cells = 1600;
-    const auto on_grid = heights<GodunovSolver>(scene, {0.3, 1.1}, options);
+    const auto on_grid = heights<GodunovSolver>(scene, {0.3, 1.1}, {.cells = 1600});
     ASSERT_EQ(exact.size(), times.size());
     ASSERT_EQ(tracked.size(), times.size());
     ASSERT_EQ(on_grid.size(), 2u);
@@ -158,7 +154,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
 // The integral of phi itself is the amount of grains, that of 1 the solid, whatever the flux.
 TEST(BedHeight, IntegralsOfTheShareAndOfOneAreConserved) {
   for (const Flux<double>& flux :
-       {Flux<double>(Cubic<double>{0.4}), Flux<double>(Packed<double>{Grains::large}),
+       {Flux<double>(Cubic<double>{0.4}), Flux<double>(Lwr<double>{}),
         Flux<double>(Lwr<double>{}), Flux<double>(Quadratic<double>{})}) {
     SCOPED_TRACE(support::name_of(flux));
     SceneMaker maker(support::seed_of(9200));
@@ -207,7 +203,7 @@ TEST(BedHeightFit, FindsBothRatesAndTheirInterface) {
 TEST(BedHeightFit, FindsTheSameThroughFrontTracking) {
   const auto data = testing::observed(may(), every_tenth(), 0, 1, false);
   auto spec = testing::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {2.2, 0.35, 0.3});
-  spec.forward.method = FrontTrackingSolver::kName;
+  spec.forward.method = Method::of<FrontTrackingSolver>();
   const fit::Estimate estimate = fit::fit(spec);
   EXPECT_NEAR(estimate.parameters[0].estimate, 2.4, 0.02);
   EXPECT_NEAR(estimate.parameters[1].estimate, 0.31, 2e-4);

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/diffusion/problem_tangents.hpp"
 #include "shearfront/diffusion/setup.hpp"
-#include "shearfront/fit/diffusion_forward.hpp"
 #include "shearfront/fit/fit.hpp"
-#include "shearfront/fit/problem_tangents.hpp"
+#include "shearfront/fit/forward.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -30,12 +30,11 @@ SceneSpec<double> may_bed(double D) {
   return spec;
 }
 
-ForwardSpec crank_nicolson(std::size_t cells, double time_step) {
-  ForwardSpec forward;
-  forward.method = CrankNicolsonSolver::kName;
-  forward.options.cells = cells;
-  forward.options.time_step = time_step;
-  return forward;
+/// Of the runs whose derivatives are compared.
+constexpr std::uint64_t kCells = 100;
+
+ForwardSpec crank_nicolson(std::uint64_t cells, double time_step) {
+  return {Method::of<CrankNicolsonSolver>({.cells = cells, .time_step = time_step})};
 }
 
 Parameters parameters_of(const SceneSpec<double>& spec, const std::vector<std::string>& names) {
@@ -57,10 +56,10 @@ VectorXd difference(const Forward& forward, const VectorXd& at, Index j, double 
 /// max |derivative - difference| of a column over its largest entry.
 double disagreement(const Parameters& parameters, const ForwardSpec& forward, Observable field, Index j,
                     double h) {
-  std::vector<Point> points;
+  std::vector<Place> points;
   for (const double t : {0.03, 0.3, 1.7})
     for (int i = 0; i <= 20; ++i) points.push_back({t, i / 20.0});
-  const DiffusionForward model(parameters, forward, field, points);
+  const Forward model(parameters, forward, field, points);
   const VectorXd at = parameters.start();
   const Prediction here = model.predict(at, true);
   EXPECT_TRUE(here.is_valid()) << here.failure;
@@ -71,7 +70,7 @@ double disagreement(const Parameters& parameters, const ForwardSpec& forward, Ob
 void expect_derivatives(const SceneSpec<double>& spec, const std::vector<std::string>& names,
                         const ForwardSpec& forward) {
   const Parameters parameters = parameters_of(spec, names);
-  const double cell = 1.0 / static_cast<double>(forward.options.cells);
+  constexpr double cell = 1.0 / kCells;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const bool is_height = parameters[k].entry.field.ends_with("breaks");
     const double h = is_height ? 3e-3 * cell : 2e-5 * parameters[k].start;
@@ -86,27 +85,26 @@ void expect_derivatives(const SceneSpec<double>& spec, const std::vector<std::st
 TEST(DiffusionFit, DerivativesAreThoseOfTheScheme) {
   const std::vector<std::string> names{"shear_rate.values", "shear_rate.breaks", "shear_rate.scale",
                                        "diffusion.D",       "initial.values",    "initial.breaks"};
-  expect_derivatives(may_bed(1e-2), names, crank_nicolson(100, 0.01));
+  expect_derivatives(may_bed(1e-2), names, crank_nicolson(kCells, 0.01));
   SceneSpec<double> with_a = may_bed(0);
   with_a.diffusion = Diffusion<double>{5e-3, {}, true};
-  expect_derivatives(with_a, names, crank_nicolson(100, 0.01));
-  ForwardSpec monotone = crank_nicolson(100, 0.01);
-  monotone.options.monotone = true;
-  expect_derivatives(may_bed(1e-2), names, monotone);
+  expect_derivatives(with_a, names, crank_nicolson(kCells, 0.01));
+  expect_derivatives(
+      may_bed(1e-2), names,
+      {Method::of<CrankNicolsonSolver>({.cells = kCells, .time_step = 0.01, .monotone = true})});
 }
 
 TEST(DiffusionFit, DerivativesOfAnExponentialShearRate) {
   SceneSpec<double> spec = may_bed(1e-2);
   spec.shear_rate = Exponential<double>{4.2, 0.205};
   expect_derivatives(spec, {"shear_rate.amplitude", "shear_rate.decay", "diffusion.D"},
-                     crank_nicolson(100, 0.01));
+                     crank_nicolson(kCells, 0.01));
 }
 
 /// Chosen steps are repeated, so the solution is as smooth as with fixed ones.
 TEST(DiffusionFit, DerivativesHoldForChosenSteps) {
-  ForwardSpec forward = crank_nicolson(100, 0);
-  forward.options.tolerance = 1e-4;
-  expect_derivatives(may_bed(1e-2), {"shear_rate.values", "shear_rate.scale", "diffusion.D"}, forward);
+  expect_derivatives(may_bed(1e-2), {"shear_rate.values", "shear_rate.scale", "diffusion.D"},
+                     {Method::of<CrankNicolsonSolver>({.cells = kCells, .tolerance = 1e-4})});
 }
 
 /// r and D of a layered bed in closed form: for faces inside a layer a cell away from the break.
@@ -115,12 +113,12 @@ TEST(DiffusionFit, TangentsOfTheCoefficients) {
   spec.shear_rate = Exponential<double>{4.2, 0.205};
   spec.diffusion = Diffusion<double>{5e-3, {}, true};
   spec.scale = 1.3;
-  constexpr std::size_t kCells = 50;
+  constexpr std::size_t kFew = 50;
   const Parameters parameters =
       parameters_of(spec, {"shear_rate.amplitude", "shear_rate.decay", "shear_rate.scale", "diffusion.D"});
-  const auto tangents = problem_tangents(parameters, parameters.start(), kCells);
-  for (std::size_t i = 0; i <= kCells; ++i) {
-    const double z = static_cast<double>(i) / kCells, e = std::exp(-z / 0.205), a = 4.2 * e;
+  const auto tangents = diffusion::problem_tangents(parameters.scene(), parameters.entries(), kFew);
+  for (std::size_t i = 0; i <= kFew; ++i) {
+    const double z = static_cast<double>(i) / kFew, e = std::exp(-z / 0.205), a = 4.2 * e;
     const double by_decay = a * z / (0.205 * 0.205);
     EXPECT_NEAR(tangents[0].rate[i], 1.3 * e, 1e-9 * 1.3);
     EXPECT_NEAR(tangents[0].diffusivity[i], 5e-3 * e, 1e-9 * 5e-3);
@@ -162,7 +160,7 @@ FitSpec bins(double D, const ForwardSpec& forward) {
   FitSpec fit{
       "",
       scene,
-      observe(plan, scene, CrankNicolsonSolver::solve(scene, request_of(plan, scene), forward.options)),
+      observe(plan, scene, solve(scene, forward.method, request_of(plan, scene))),
       {{"diffusion.D", "shear_rate.values"}, {3 * D, 1.5, 0.5}, {}, {}, Shape::none},
       forward,
       {},
@@ -188,7 +186,7 @@ TEST(DiffusionFit, UsesEveryPoint) {
   for (int i = 0; i < 20; ++i) plan.depths.push_back(0.025 + 0.05 * i);
   spec.observations =
       observe(plan, spec.scene,
-              CrankNicolsonSolver::solve(spec.scene, request_of(plan, spec.scene), spec.forward.options));
+              solve(spec.scene, spec.forward.method, request_of(plan, spec.scene)));
   add_noise(spec.observations, 0.01, 1);
   const Estimate estimate = fit(spec);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
@@ -225,11 +223,11 @@ TEST(SlowDiffusionFit, IntervalsCoverTheTruth) {
 
 TEST(DiffusionFit, RefusesWhatTheSchemeDoesNotCover) {
   const Parameters parameters = parameters_of(may_bed(1e-2), {"diffusion.D", "domain.top"});
-  EXPECT_FALSE(DiffusionForward(parameters, crank_nicolson(50, 0), Observable::phi, {}).has_derivatives());
+  EXPECT_FALSE(Forward(parameters, crank_nicolson(50, 0), Observable::phi, {}).has_derivatives());
   SceneSpec<double> without = may_bed(0);
   without.diffusion.reset();
   const Parameters hyperbolic = parameters_of(without, {"shear_rate.values"});
-  EXPECT_THROW((void)make_forward(hyperbolic, crank_nicolson(50, 0), Observable::phi, {}), InputError);
+  EXPECT_THROW(Forward(hyperbolic, crank_nicolson(50, 0), Observable::phi, {}), InputError);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/diffusion/cole_hopf_solver.hpp"
-#include "shearfront/diffusion/crank_nicolson_solver.hpp"
+#include "shearfront/diffusion/crank_nicolson.hpp"
 #include "shearfront/diffusion/refinement.hpp"
 #include "shearfront/numeric/sum.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/diffusion_problems.hpp"
 #include "support/random_scene.hpp"
 
@@ -85,16 +85,16 @@ TEST(DiffusionRefinement, ErrorFollowsTheToleranceForEveryD) {
     const Scene<double> scene(uniform_start(D));
     double last = 0;
     for (const double tolerance : {1e-2, 2.5e-3}) {
-      SolverOptions options;
+      CrankNicolsonSolver::Options options;
       options.cells = 100;
       options.cell_tolerance = tolerance;
       options.tolerance = 0.1 * tolerance;
-      const auto grid = CrankNicolsonSolver::solve(scene, {times, {}, false, false, true}, options);
+      const auto grid = solve<CrankNicolsonSolver>(scene, {times, {}, false, false, true}, options);
       ASSERT_EQ(grid.profiles.size(), times.size()) << grid.summary.message;
       double error = 0;
       for (std::size_t i = 0; i < times.size(); ++i) {
         const std::vector<double>& z = grid.profiles[i].z();
-        const auto exact = ColeHopfSolver::solve(scene, {{times[i]}, z, false, false, false}, options);
+        const auto exact = solve<ColeHopfSolver>(scene, {{times[i]}, z, false, false, false});
         ASSERT_EQ(exact.samples.size(), z.size());
         for (std::size_t j = 0; j + 1 < z.size(); ++j) {
           const double amount = exact.samples[j + 1].M - exact.samples[j].M;
@@ -179,14 +179,14 @@ TEST(DiffusionRefinement, AgreesWithEqualCells) {
     SceneSpec<double> spec = random_bed(maker);
     spec.diffusion->D = std::pow(10, maker.uniform(-2.5, -1));
     const Scene<double> scene(spec);
-    SolverOptions options;
+    CrankNicolsonSolver::Options options;
     options.tolerance = 1e-4;
     options.cells = 4000;
     const SolverRequest request{{0.1, 0.7, 4}, {0.1, 0.33, 0.5, 0.77, 0.9}, false, false, false};
-    const auto equal = CrankNicolsonSolver::solve(scene, request, options);
+    const auto equal = solve<CrankNicolsonSolver>(scene, request, options);
     options.cells = 100;
     options.cell_tolerance = 1e-3;
-    const auto refined = CrankNicolsonSolver::solve(scene, request, options);
+    const auto refined = solve<CrankNicolsonSolver>(scene, request, options);
     ASSERT_TRUE(equal.summary.usable() && refined.summary.usable()) << refined.summary.message;
     for (std::size_t i = 0; i < equal.samples.size(); ++i) {
       EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 1e-3) << "seed " << seed_of(700 + number);
@@ -210,12 +210,12 @@ TEST(DiffusionRefinement, ResolvesStepsThatOnlyDiffuse) {
     double D, t;
   };
   for (const auto& [D, t] : {Case{1e-4, 1}, Case{0.1, 1e-3}, Case{1e-2, 0.1}}) {
-    SolverOptions options;
+    CrankNicolsonSolver::Options options;
     options.cells = 100;
     options.cell_tolerance = options.tolerance = 1e-3;
     std::vector<double> depths;
     for (int i = -4; i <= 4; ++i) depths.push_back(0.513 + 0.5 * i * std::sqrt(D * t));
-    const auto result = CrankNicolsonSolver::solve(Scene<double>(step_at(0.513, 1e-9, D)),
+    const auto result = solve<CrankNicolsonSolver>(Scene<double>(step_at(0.513, 1e-9, D)),
                                                    {{t}, depths, false, false, false}, options);
     ASSERT_EQ(result.samples.size(), depths.size()) << result.summary.message;
     for (std::size_t i = 0; i < depths.size(); ++i)
@@ -230,14 +230,14 @@ TEST(DiffusionRefinement, SeesDataThatEqualCellsDoNot) {
   spec.initial_breaks = {0.25, 0.5, 0.75};
   spec.initial_values = {0, 1, 0, 1};
   spec.is_periodic = true;
-  SolverOptions options;
+  CrankNicolsonSolver::Options options;
   options.cells = 2;
   options.cell_tolerance = options.tolerance = 1e-3;
   const SolverRequest request{{0.1}, {0.1, 0.3, 0.6, 0.8}, false, false, false};
-  const auto refined = CrankNicolsonSolver::solve(Scene<double>(spec), request, options);
+  const auto refined = solve<CrankNicolsonSolver>(Scene<double>(spec), request, options);
   options.cells = 4000;
   options.cell_tolerance = 0;
-  const auto equal = CrankNicolsonSolver::solve(Scene<double>(spec), request, options);
+  const auto equal = solve<CrankNicolsonSolver>(Scene<double>(spec), request, options);
   ASSERT_TRUE(refined.summary.usable() && equal.summary.usable()) << refined.summary.message;
   for (std::size_t i = 0; i < request.heights.size(); ++i)
     EXPECT_NEAR(refined.samples[i].phi, equal.samples[i].phi, 3e-3) << request.heights[i];
@@ -248,12 +248,12 @@ TEST(DiffusionRefinement, WorksInAnyUnitOfLength) {
   for (const double unit : {0x1p-500, 0x1p500}) {
     SceneSpec<double> spec = step_at(0.5 * unit, unit, 1e-3 * unit * unit);
     spec.top = unit;
-    SolverOptions options;
+    CrankNicolsonSolver::Options options;
     options.cells = 50;
     options.cell_tolerance = options.tolerance = 1e-2;
     const auto scaled =
-        CrankNicolsonSolver::solve(Scene<double>(spec), {{1}, {0.4 * unit}, false, false, false}, options);
-    const auto plain = CrankNicolsonSolver::solve(Scene<double>(step_at(0.5, 1, 1e-3)),
+        solve<CrankNicolsonSolver>(Scene<double>(spec), {{1}, {0.4 * unit}, false, false, false}, options);
+    const auto plain = solve<CrankNicolsonSolver>(Scene<double>(step_at(0.5, 1, 1e-3)),
                                                   {{1}, {0.4}, false, false, false}, options);
     ASSERT_TRUE(scaled.summary.usable() && plain.summary.usable()) << scaled.summary.message;
     EXPECT_NEAR(scaled.samples[0].phi, plain.samples[0].phi, 1e-12);
@@ -264,36 +264,36 @@ TEST(DiffusionRefinement, SaysWhenHeightsCannotBeToldApart) {
   SceneSpec<double> spec = step_at(1e5 + 0.5, 1, 1e-11);
   spec.bottom = 1e5;
   spec.top = 1e5 + 1;
-  SolverOptions options;
+  CrankNicolsonSolver::Options options;
   options.cell_tolerance = 1e-2;
   const auto result =
-      CrankNicolsonSolver::solve(Scene<double>(spec), {{1e-9}, {1e5 + 0.5}, false, false, false}, options);
+      solve<CrankNicolsonSolver>(Scene<double>(spec), {{1e-9}, {1e5 + 0.5}, false, false, false}, options);
   EXPECT_EQ(result.summary.status, Status::budget_reached) << result.summary.message;
 }
 
 TEST(DiffusionRefinement, RefusesWhatCannotEnd) {
-  SolverOptions options;
+  CrankNicolsonSolver::Options options;
   options.time_step = 0.01;
-  const auto steady = CrankNicolsonSolver::solve(
+  const auto steady = solve<CrankNicolsonSolver>(
       Scene<double>(uniform_start(0.02)),
       {{std::numeric_limits<double>::infinity()}, {0.5}, false, false, false}, options);
   EXPECT_EQ(steady.summary.status, Status::unsupported);
   options.time_step = 0;
   options.cells = 2'000'000;
   options.cell_tolerance = 1e-2;
-  EXPECT_NE(diffusion::refusal(Scene<double>(uniform_start(0.02)), options).find("1000000"),
+  EXPECT_NE(CrankNicolsonSolver::refusal(Scene<double>(uniform_start(0.02)), options).find("1000000"),
             std::string::npos);
 }
 
 TEST(DiffusionRefinement, SaysWhenItWouldTakeTooManyCells) {
-  SolverOptions options;
+  CrankNicolsonSolver::Options options;
   options.cells = 999'999;
   options.cell_tolerance = 1e-2;
   SceneSpec<double> spec = uniform_start(1e-9);
   spec.initial_breaks = {0.5};
   spec.initial_values = {0, 1};
   const auto result =
-      CrankNicolsonSolver::solve(Scene<double>(spec), {{1}, {0.5}, false, false, false}, options);
+      solve<CrankNicolsonSolver>(Scene<double>(spec), {{1}, {0.5}, false, false, false}, options);
   EXPECT_EQ(result.summary.status, Status::budget_reached);
   EXPECT_NE(result.summary.message.find("cell_tolerance"), std::string::npos) << result.summary.message;
   EXPECT_TRUE(result.samples.empty());

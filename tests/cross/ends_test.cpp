@@ -6,9 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "shearfront/fv/godunov_solver.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/solver.hpp"
 #include "support/any_flux.hpp"
 
 namespace shearfront {
@@ -50,10 +49,9 @@ TEST(Ends, APeriodicBedIsTheMiddleOfManyCopies) {
       SolverRequest request{{0.4, 2.5}, {}, false, false, false}, many = request;
       for (int i = 0; i < 50; ++i) request.heights.push_back((i + 0.31) / 50);
       for (const double z : request.heights) many.heights.push_back(z + 5);
-      SolverOptions options;
-      options.resolution = 0.05;
-      const auto periodic = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
-      const auto copies = FrontTrackingSolver::solve(Scene<double>(repeated(spec, n)), many, options);
+      const FrontTrackingSolver::Options options{.resolution = 0.05};
+      const auto periodic = solve<FrontTrackingSolver>(Scene<double>(spec), request, options);
+      const auto copies = solve<FrontTrackingSolver>(Scene<double>(repeated(spec, n)), many, options);
       ASSERT_EQ(periodic.samples.size(), 100u) << periodic.summary.message;
       ASSERT_EQ(copies.samples.size(), 100u) << copies.summary.message;
       for (std::size_t i = 0; i < 100; ++i)
@@ -85,11 +83,10 @@ TEST(Ends, AnOpenEndNextToItsOwnStateIsNotThere) {
       spec.outside_top = OutsideState<double>{{}, {spec.initial_values.back()}};
       SolverRequest request{{0.2, t}, {}, false, false, false};
       for (int i = 0; i < 50; ++i) request.heights.push_back((i + 0.31) / 50);
-      SolverOptions options;
-      options.resolution = 0.05;
-      const auto open = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
+      const FrontTrackingSolver::Options options{.resolution = 0.05};
+      const auto open = solve<FrontTrackingSolver>(Scene<double>(spec), request, options);
       request.fronts = true;
-      const auto all = FrontTrackingSolver::solve(Scene<double>(wide), request, options);
+      const auto all = solve<FrontTrackingSolver>(Scene<double>(wide), request, options);
       ASSERT_EQ(open.samples.size(), 100u) << open.summary.message;
       ASSERT_EQ(all.samples.size(), 100u) << all.summary.message;
       if (turns(all.fronts, wide.bottom, wide.top)) continue;
@@ -115,14 +112,11 @@ TEST(Ends, ChangingStatesAgreeWithGodunov) {
     const Scene<double> scene(spec);
     SolverRequest request{{0.5, 2.5}, {}, false, false, false};
     for (int i = 1; i <= 20; ++i) request.heights.push_back(i / 20.0);
-    SolverOptions options;
-    options.resolution = 0.002;
-    const auto tracked = FrontTrackingSolver::solve(scene, request, options);
+    const auto tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.002});
     ASSERT_EQ(tracked.samples.size(), 40u) << tracked.summary.message;
     double coarse_error = 0, fine_error = 0;
-    for (const int cells : {200, 1600}) {
-      options.cells = static_cast<std::size_t>(cells);
-      const auto grid = GodunovSolver::solve(scene, request, options);
+    for (const std::uint64_t cells : {200, 1600}) {
+      const auto grid = solve<GodunovSolver>(scene, request, {.cells = cells});
       ASSERT_EQ(grid.samples.size(), 40u) << grid.summary.message;
       double& error = cells == 200 ? coarse_error : fine_error;
       for (std::size_t i = 0; i < 40; ++i)
@@ -165,9 +159,7 @@ TEST(Ends, TrafficLight) {
   spec.outside_bottom = OutsideState<double>{{}, {0.2}};
   spec.outside_top = OutsideState<double>{{1}, {1, 0}};
   SolverRequest request{{0.5, 1, 1.4}, {}, false, false, true};
-  SolverOptions options;
-  options.resolution = 0.001;
-  const auto result = FrontTrackingSolver::solve(Scene<double>(spec), request, options);
+  const auto result = solve<FrontTrackingSolver>(Scene<double>(spec), request, {.resolution = 0.001});
   ASSERT_EQ(result.profiles.size(), 3u);
   // The end of the queue moves with (0 - 0.16) / (1 - 0.2) = -0.2.
   EXPECT_NEAR(result.profiles[0].at(0.89).phi, 0.2, 1e-15);

@@ -9,9 +9,8 @@
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/general_medium.hpp"
+#include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/exact/medium.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -23,7 +22,7 @@ using support::SceneMaker;
 
 TEST(GeneralLaw, BranchesInvertTheFlux) {
   const auto check = [](const Flux<double>& flux) {
-    const exact::UnimodalLaw<double> law(flux);
+    const exact::InverseFlux<double> law(flux);
     for (const bool up : {true, false}) {
       double before = -1;
       for (int i = 0; i <= 64; ++i) {
@@ -54,9 +53,10 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
   int jumps = 0;
   for (int n = 0; n < 100; ++n) {
     const Scene<double> scene(make.data(make.integer(1, 8), make.order(), 8));
-    const auto special = exact::make_medium(scene, 1);
-    const exact::CanonicalForm<double> form(scene, 1);
-    const exact::GeneralMedium<double> general(form);
+    const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
+    const auto special = exact::make_medium(form);
+    const exact::LayeredMedium<double, exact::UnimodalLaw<double>> general(
+        exact::unimodal_law(form), special->cells(), special->mass());
     for (int i = 0; i < 40; ++i) {
       const double z = make.uniform(0, 1), t = std::exp(make.uniform(-4, 3));
       const auto a = special->best_free(z, t, 1e300), b = general.best_free(z, t, 1e300);

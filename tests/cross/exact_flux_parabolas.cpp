@@ -56,7 +56,7 @@ TEST(ExactParabolas, TrafficIsTheMirroredQuadraticFlux) {
 TEST(ExactParabolas, LargeGrainsMirrorSmallOnes) {
   on_random_scenes(
       [&](SceneSpec<double> spec) {
-        spec.fluxes = {Packed<double>{Grains::large}};
+        spec.fluxes = {Lwr<double>{}};
         for (double& phi : spec.initial_values) phi = 1 - phi;
         return spec;
       },
@@ -68,7 +68,7 @@ TEST(ExactParabolas, LargeGrainsMirrorSmallOnes) {
 TEST(ExactParabolas, ConstantPackingAndTemperatureOnlyScale) {
   on_random_scenes(
       [&](SceneSpec<double> spec) {
-        spec.fluxes = {Packed<double>{Grains::small}};
+        spec.fluxes = {Quadratic<double>{}};
         spec.solid_fraction = Piecewise<double>{{}, {0.5}};
         spec.temperature = Piecewise<double>{{}, {4.0}};
         spec.scale /= 2;
@@ -106,7 +106,7 @@ TEST(ExactParabolas, EventsAreThoseOfTheQuadraticFlux) {
   spec.initial_breaks = {0.5};
   spec.initial_values = {0, 1};
   const auto plain = exact_timeline(Scene<double>(spec));
-  spec.fluxes = {Packed<double>{Grains::large}};
+  spec.fluxes = {Lwr<double>{}};
   spec.initial_values = {1, 0};
   const auto image = exact_timeline(Scene<double>(spec));
   EXPECT_DOUBLE_EQ(*image.t0, *plain.t0);
@@ -121,7 +121,7 @@ TEST(ExactParabolas, EventsAreThoseOfTheQuadraticFlux) {
 /// A linear solid fraction as many steps: the staircase the engine makes itself, and its estimate of the error.
 TEST(ExactParabolas, SmoothPackingConvergesWithTheLayers) {
   SceneSpec<double> spec;
-  spec.fluxes = {Packed<double>{Grains::small}};
+  spec.fluxes = {Quadratic<double>{}};
   spec.solid_fraction = Table<double>{{0, 1}, {0.95, 0.05}};
   spec.temperature = Table<double>{{0, 1}, {0.5, 2}};
   spec.shear_rate = Piecewise<double>{{}, {1}};

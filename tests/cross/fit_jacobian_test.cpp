@@ -27,7 +27,7 @@ struct Difference {
 };
 
 /// Central difference in 50 digits of phi or M in one entry of the scene file.
-Difference difference(const SceneSpec<double>& spec, std::size_t entry, Observable field, const Point& point,
+Difference difference(const SceneSpec<double>& spec, std::size_t entry, Observable field, const Place& point,
                       int kind_in_double) {
   const Real110 h("1e-16"), z(point.z), t(point.t);
   SceneSpec<Real110> moved = scene_cast<Real110>(Scene<double>(spec)).spec();
@@ -55,13 +55,13 @@ void expect_jacobian(const SceneSpec<double>& spec, SceneMaker& make, const std:
   const Parameters parameters(Scene<double>(spec), unknown);
   const auto all = entries(spec);
   const ExactSolution<double> solution{Scene<double>(spec)};
-  std::vector<Point> points;
+  std::vector<Place> points;
   for (int k = 0; k < 3; ++k)
     points.push_back({std::exp(make.uniform(std::log(0.05), std::log(4.0))), make.uniform(0, 1)});
   for (const Observable field : {Observable::phi, Observable::M}) {
-    const auto forward = make_forward(parameters, {}, field, points);
-    ASSERT_TRUE(forward->has_derivatives());
-    const Prediction at = forward->predict(parameters.start(), true);
+    const Forward forward(parameters, {}, field, points);
+    ASSERT_TRUE(forward.has_derivatives());
+    const Prediction at = forward.predict(parameters.start(), true);
     ASSERT_TRUE(at.is_valid());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const int kind = static_cast<int>(solution.path(points[i].z, points[i].t).kind);

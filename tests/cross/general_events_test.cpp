@@ -9,8 +9,7 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/general_first_wave.hpp"
-#include "shearfront/exact/canonical_form.hpp"
+#include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/track/solver.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -26,9 +25,12 @@ TEST(GeneralEvents, FirstWavesOfParabolasAreThoseOfTheClosedForms) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene(make.data(make.integer(2, 5), make.order(), 5));
     const Timeline<double> times = exact_timeline(scene);
-    const exact::GeneralMedium<double> medium(exact::CanonicalForm<double>(scene, 1));
+    const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
+    const exact::LayeredMedium<double, exact::UnimodalLaw<double>> medium(
+        exact::unimodal_law(form),
+        {form.initial_breaks(), form.initial_values(), form.boundaries()}, form.mass());
     for (std::size_t i = 0; i < times.interfaces.size(); ++i) {
-      const auto first = exact::first_wave(medium, i + 1, scene.mass(), *times.t_star);
+      const auto first = medium.first_wave(i + 1);
       ASSERT_EQ(first.has_value(), times.interfaces[i].first.has_value()) << "interface " << i;
       if (!first) continue;
       EXPECT_NEAR(*first, *times.interfaces[i].first, 1e-9 * (1 + *first)) << "interface " << i;

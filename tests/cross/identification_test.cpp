@@ -13,6 +13,7 @@
 
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fv/engquist_osher_solver.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/identification.hpp"
 
 namespace shearfront::fit {
@@ -111,9 +112,9 @@ Observations engquist_osher_data(const Identification& problem) {
   SolverRequest request;
   request.times = problem.times;
   request.heights = problem.heights;
-  SolverOptions options;
+  EngquistOsherSolver::Options options;
   options.cells = 10'000;
-  const SolverResult result = EngquistOsherSolver::solve(Scene<double>(problem.truth), request, options);
+  const SolverResult result = solve<EngquistOsherSolver>(Scene<double>(problem.truth), request, options);
   Observations data = exact_data(problem, Quantity::point);
   for (std::size_t i = 0; i < data.rows.size(); ++i) data.rows[i].value = result.samples[i].phi;
   return data;

@@ -130,11 +130,11 @@ TEST_P(ThesisCases, TrackerFindsTheFluxOfTheTable) {
     EXPECT_LE(tracked.fastest_down, 1e-15);
   };
   const LayerStack<double> small({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Packed<double>{Grains::small}}, {}, {c.c_l, c.c_r}});
+                                 {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
   check(track<UnimodalGrid<double>>(small, c.phi_l / c.c_l, c.phi_r / c.c_r), c.expected);
   check(track<LevelGrid<double>>(small, c.phi_l / c.c_l, c.phi_r / c.c_r), c.expected);
   const LayerStack<double> large({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Packed<double>{Grains::large}}, {}, {c.c_r, c.c_l}});
+                                 {{Lwr<double>{}}, {}, {c.c_r, c.c_l}});
   check(track<UnimodalGrid<double>>(large, c.phi_r / c.c_r, c.phi_l / c.c_l), -c.expected);
   check(track<LevelGrid<double>>(large, c.phi_r / c.c_r, c.phi_l / c.c_l), -c.expected);
 }
@@ -144,7 +144,7 @@ TEST_P(ThesisCases, WavesGoWhereTheNameSays) {
   const support::ThesisCase& c = GetParam();
   const std::string name = c.name;
   const LayerStack<double> stack({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Packed<double>{Grains::small}}, {}, {c.c_l, c.c_r}});
+                                 {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
   const Tracked tracked = track<UnimodalGrid<double>>(stack, c.phi_l / c.c_l, c.phi_r / c.c_r);
   const bool keeps_l = tracked.flux_below == support::small_grains_flux(c.phi_l, c.c_l);
   if (name.find("waves go down") != std::string::npos) {

@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fv/engquist_osher_solver.hpp"
-#include "shearfront/fv/godunov_solver.hpp"
-#include "shearfront/track/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
@@ -46,13 +44,13 @@ template <class Solver>
 std::vector<double> distances(const Problem& problem, std::size_t most) {
   const Scene<double> scene = bed(problem.flux, problem.is_layered);
   const SolverRequest request{{problem.t}, {}, false, false, true};
-  SolverOptions options;
-  options.resolution = 2e-5;  // its own distance from the truth: below 1e-5
-  const auto tracked = FrontTrackingSolver::solve(scene, request, options);
+  // Its own distance from the truth: below 1e-5.
+  const auto tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 2e-5});
   EXPECT_EQ(tracked.profiles.size(), 1u) << tracked.summary.message;
   std::vector<double> all;
+  typename Solver::Options options;
   for (options.cells = 250; options.cells <= most; options.cells *= 2) {
-    const auto cells = Solver::solve(scene, request, options);
+    const auto cells = solve<Solver>(scene, request, options);
     EXPECT_EQ(cells.profiles.size(), 1u) << cells.summary.message;
     all.push_back(l1_distance(tracked.profiles.at(0), cells.profiles.at(0)));
   }

@@ -8,7 +8,7 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
@@ -31,12 +31,10 @@ std::vector<double> spaced(double end, int n) {
 }
 
 Timeline<double> seen_on_a_grid(const Scene<double>& scene, std::size_t n_cells, double end, int n_times) {
-  SolverOptions options;
-  options.cells = n_cells;
   SolverRequest request;
   request.times = spaced(end, n_times);
   request.profiles = true;
-  auto result = GodunovSolver::solve(scene, request, options);
+  auto result = solve<GodunovSolver>(scene, request, {.cells = n_cells});
   return observed_events(scene, {request.times, std::move(result.profiles)});
 }
 

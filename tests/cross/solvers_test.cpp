@@ -2,49 +2,37 @@
 // Every solver of the list against what it guarantees: a new one is tested here without a new line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <string>
+#include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/solver/all.hpp"
-#include "support/model_types.hpp"
+#include "shearfront/solver/solve.hpp"
+#include "support/options.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-/// The solvers of beds without diffusion; the others have diffusion_solvers_test.cpp.
-template <class S>
-constexpr bool kKnowsDiffusion = std::is_same_v<S, CrankNicolsonSolver> || std::is_same_v<S, ColeHopfSolver>;
-
-template <class Kept, class... Left>
-struct WithoutDiffusion {
-  using Types = Kept;
-};
-template <class... Kept, class S, class... Left>
-struct WithoutDiffusion<testing::Types<Kept...>, S, Left...> {
-  using More = std::conditional_t<kKnowsDiffusion<S>, testing::Types<Kept...>, testing::Types<Kept..., S>>;
-  using Types = typename WithoutDiffusion<More, Left...>::Types;
-};
-template <class List>
-struct AsTypes;
-template <class... S>
-struct AsTypes<TypeList<S...>> {
-  using Types = typename WithoutDiffusion<testing::Types<>, S...>::Types;
-};
-
-template <class S>
-class EverySolver : public testing::Test {};
-
-TYPED_TEST_SUITE(EverySolver, typename AsTypes<SolverList>::Types, support::ModelName);
-
-TEST(Solvers, ThoseLeftOutHereAreThoseOfDiffusion) {
-  SolverList::for_each(
-      []<class S>() { EXPECT_EQ(S::guarantees().scope.diffusion, kKnowsDiffusion<S>) << S::kName; });
+/// The names of the solvers of beds without diffusion; the others have diffusion_solvers_test.cpp.
+std::vector<std::string> without_diffusion() {
+  std::vector<std::string> names = Method::names();
+  std::erase_if(names, [](const std::string& name) { return Method(name).guarantees().diffusion; });
+  return names;
 }
 
+class EverySolver : public testing::TestWithParam<std::string> {};
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(All, EverySolver, testing::ValuesIn(without_diffusion()), test_name);
+
 constexpr double kResolution = 0.02;
-constexpr std::size_t kCells = 100;
+constexpr double kCells = 100;
 
 SolverRequest request_for(const Scene<double>& scene) {
   SolverRequest request;
@@ -56,17 +44,15 @@ SolverRequest request_for(const Scene<double>& scene) {
   return request;
 }
 
-TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
-  const Guarantees promised = TypeParam::guarantees();
+TEST_P(EverySolver, KeepsWhatItGuarantees) {
+  const Method method = support::method_of(GetParam(), {{"resolution", kResolution}, {"cells", kCells}});
+  const Guarantees promised = method.guarantees();
   for (std::uint64_t number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     support::SceneMaker maker(support::seed_of(3000 + number));
     const Scene<double> scene(maker.data(maker.integer(1, 6), maker.order(), 10));
     const SolverRequest request = request_for(scene);
-    SolverOptions options;
-    options.resolution = kResolution;
-    options.cells = kCells;
-    const SolverResult result = TypeParam::solve(scene, request, options);
+    const SolverResult result = solve(scene, method, request);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
     ASSERT_EQ(result.samples.size(), request.times.size() * request.heights.size());
     const ExactSolution<double> exact(scene);
@@ -99,8 +85,10 @@ TYPED_TEST(EverySolver, KeepsWhatItGuarantees) {
   }
 }
 
-TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
-  DepthFunctionList<double>::for_each([]<class Model>() {
+TEST_P(EverySolver, SolvesEveryShearRateModel) {
+  const Method method = support::method_of(GetParam(), {{"resolution", kResolution}, {"cells", 1000}});
+  const Guarantees promised = method.guarantees();
+  DepthFunctionList<double>::for_each([&]<class Model>() {
     for (const Model& model : Model::samples()) {
       SceneSpec<double> spec;
       spec.shear_rate = model;
@@ -108,13 +96,9 @@ TYPED_TEST(EverySolver, SolvesEveryShearRateModel) {
       spec.initial_values = {0, 1};
       const Scene<double> scene(spec);
       SolverRequest request{{0.3}, {0, 0.25, 0.5, 0.75, 1}, false, false};
-      SolverOptions options;
-      options.resolution = kResolution;
-      options.cells = 1000;
-      const SolverResult result = TypeParam::solve(scene, request, options);
+      const SolverResult result = solve(scene, method, request);
       ASSERT_TRUE(result.summary.usable()) << Model::kName << ": " << result.summary.message;
       EXPECT_NEAR(result.samples.back().M, scene.mass(), 1e-13) << Model::kName;
-      const Guarantees promised = TypeParam::guarantees();
       if (!promised.exact && promised.order_M == 0)
         continue;  // upwind leaves segregated grains where they are
       const ExactSolution<double> exact(scene);
@@ -131,10 +115,10 @@ TEST(FrontTracking, ReconstructionsGridsAndFrontsAreOptionsOfTheSolver) {
   spec.initial_values = {0, 1};
   const Scene<double> scene(spec);
   SolverRequest request{{0.5}, {0.45, 0.5, 0.6}, false, true};
-  SolverOptions options;
+  FrontTrackingSolver::Options options;
   options.resolution = 0.1;
   options.reconstruct = Reconstruction::linear;
-  const SolverResult lines = FrontTrackingSolver::solve(scene, request, options);
+  const SolverResult lines = solve<FrontTrackingSolver>(scene, request, options);
   for (std::size_t j = 0; j < 3; ++j)  // before its first meeting the fan is exact
     EXPECT_NEAR(lines.samples[j].phi, 0.5 + (request.heights[j] - 0.5) / (2 * 0.31 * 0.5), 1e-13);
   EXPECT_EQ(lines.fronts.size(), 10u);
@@ -142,7 +126,7 @@ TEST(FrontTracking, ReconstructionsGridsAndFrontsAreOptionsOfTheSolver) {
   options.grid = GridKind::singular_mapping;
   options.resolution = 0.4;
   request.timeline = true;
-  const SolverResult paper = FrontTrackingSolver::solve(scene, request, options);
+  const SolverResult paper = solve<FrontTrackingSolver>(scene, request, options);
   EXPECT_NEAR(*paper.timeline->t_star, 5.0, 1e-13);  // a = 0.31 rounded to 0.4, t* = 2 / a
 }
 
@@ -154,19 +138,19 @@ TEST(FrontTracking, SaysWhyItCannot) {
   const Scene<double> scene(spec);
   const SolverRequest request{{1}, {0.5}, true, false};
   for (const double resolution : {0.0, -1.0, 2.0, 1e-12, 1e-300, std::nan("")}) {
-    SolverOptions options;
+    FrontTrackingSolver::Options options;
     options.resolution = resolution;
-    const Summary summary = FrontTrackingSolver::solve(scene, request, options).summary;
+    const Summary summary = solve<FrontTrackingSolver>(scene, request, options).summary;
     EXPECT_EQ(summary.status, Status::unsupported) << resolution;
     EXPECT_FALSE(summary.message.empty());
   }
-  SolverOptions options;
+  FrontTrackingSolver::Options options;
   options.max_collisions = 5;
-  EXPECT_EQ(FrontTrackingSolver::solve(scene, request, options).summary.status, Status::budget_reached);
+  EXPECT_EQ(solve<FrontTrackingSolver>(scene, request, options).summary.status, Status::budget_reached);
   options = {};
   options.resolution = 1e-5;
-  options.progress = [](double, std::uint64_t) { return false; };
-  EXPECT_EQ(FrontTrackingSolver::solve(scene, request, options).summary.status, Status::interrupted);
+  const auto stop = [](double, std::uint64_t) { return false; };
+  EXPECT_EQ(solve<FrontTrackingSolver>(scene, request, options, stop).summary.status, Status::interrupted);
 }
 
 }  // namespace

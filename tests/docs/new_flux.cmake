@@ -24,7 +24,7 @@ file(WRITE ${work}/change.diff "${change}")
 run(${patch} --strip=0 --fuzz=0 --input=change.diff)
 
 set(compile ${compiler} -std=c++20 -O0 -ffp-contract=off -I${work}/lib -I${source}/tests)
-file(GLOB scene ${work}/lib/shearfront/numeric/*.cpp ${work}/lib/shearfront/scene/*.cpp)
+file(GLOB scene ${work}/lib/shearfront/numeric/*.cpp ${work}/lib/shearfront/model/*.cpp ${work}/lib/shearfront/scene/*.cpp)
 foreach(file IN LISTS scene ITEMS ${source}/tests/docs/new_flux.cpp ${work}/lib/shearfront/track/unimodal_grid.cpp
                                   ${source}/tests/laws/flux_laws.cpp)
   get_filename_component(name ${file} NAME_WE)

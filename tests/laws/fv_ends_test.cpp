@@ -10,26 +10,26 @@
 #include <vector>
 
 #include "shearfront/fv/run.hpp"
-#include "shearfront/fv/solve.hpp"
-#include "shearfront/solver/all.hpp"
-#include "support/packed_scene.hpp"
+#include "shearfront/fv/cell_profile.hpp"
+#include "shearfront/solver/solve.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-using fv::FaceRule;
-using fv::PlainMarch;
-using support::SceneMaker;
+using fv::March;
+using fv::Rule;
+using support::Grains, support::SceneMaker;
 
 SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(12000 + std::uint64_t(number))); }
 
 /// Layers of one or several fluxes of the same kind, solid fraction, temperature, two open ends or a ring.
 SceneSpec<double> random_ends(SceneMaker& maker, bool is_ring) {
-  SceneSpec<double> spec = support::packed_data(maker, Grains::large);
+  SceneSpec<double> spec = support::solid_data(maker, Grains::large);
   const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{},
-                                         Packed<double>{Grains::small}};
+                                         Quadratic<double>{}};
   const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0},
-                                         Packed<double>{Grains::large}, Triangular<double>{0.5, 1.0}};
+                                         Lwr<double>{}, Triangular<double>{0.5, 1.0}};
   const auto& choice = maker.integer(0, 1) == 0 ? minima : maxima;
   spec.fluxes.clear();
   const int n = maker.integer(1, 3);
@@ -56,16 +56,17 @@ TEST(FvEnds, AmountChangesByWhatComesIn) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
     const Scene<double> scene(random_ends(maker, number % 3 == 0));
-    const fv::Grid grid{0, 1, 40, {}, {}};
-    for (const FaceRule rule : {FaceRule::godunov, FaceRule::engquist_osher}) {
-      PlainMarch march(rule, scene, grid, FaceCoefficient::harmonic);
-      EXPECT_NEAR(march.amount(), scene.mass(), 1e-14);
+    const fv::Grid grid = fv::equal_cells(scene, 40);
+    for (const Rule rule : {Rule::godunov, Rule::engquist_osher}) {
+      March march(fv::Scheme{rule}, scene, grid);
+      const auto amount = [&] { return fv::cell_profile(scene, grid, march.shares()).mass(); };
+      EXPECT_NEAR(amount(), scene.mass(), 1e-14);
       for (std::size_t i = 0; i < 300; ++i) {
         march.set_outside(outside_at(scene.spec(), i / 100));
         march.step(march.largest_step());
-        for (const double x : march.states()) ASSERT_TRUE(x >= 0 && x <= 1) << x;
+        for (const double x : march.shares().x) ASSERT_TRUE(x >= 0 && x <= 1) << x;
       }
-      EXPECT_NEAR(march.amount(), scene.mass() + march.inflow(), 1e-13);
+      EXPECT_NEAR(amount(), scene.mass() + march.inflow(), 1e-13);
       if (scene.spec().is_periodic) {
         EXPECT_EQ(march.inflow(), 0);
       }
@@ -81,22 +82,23 @@ TEST(FvEnds, ContractInL1AndKeepTheOrder) {
     for (double& x : upper.initial_values) x += (1 - x) * maker.uniform(0, 1);
     for (double& x : other.initial_values) x = maker.uniform(0, 1);
     const Scene<double> scene(spec);
-    const fv::Grid grid{0, 1, 40, {}, {}};
+    const fv::Grid grid = fv::equal_cells(scene, 40);
     const std::vector<double> capacity = fv::capacities(scene, grid);
-    for (const FaceRule rule : {FaceRule::godunov, FaceRule::engquist_osher}) {
-      PlainMarch u(rule, scene, grid, FaceCoefficient::harmonic);
-      PlainMarch v(rule, Scene<double>(upper), grid, FaceCoefficient::harmonic);
-      PlainMarch w(rule, Scene<double>(other), grid, FaceCoefficient::harmonic);
+    for (const Rule rule : {Rule::godunov, Rule::engquist_osher}) {
+      March u(fv::Scheme{rule}, scene, grid);
+      March v(fv::Scheme{rule}, Scene<double>(upper), grid);
+      March w(fv::Scheme{rule}, Scene<double>(other), grid);
       double last = 1e300;
       for (std::size_t i = 0; i < 300; ++i) {
-        for (PlainMarch* march : {&u, &v, &w}) {
+        for (March* march : {&u, &v, &w}) {
           march->set_outside(outside_at(spec, i / 100));
           march->step(march->largest_step());
         }
         double distance = 0;
-        for (std::size_t j = 0; j < grid.n_cells; ++j) {
-          ASSERT_LE(u.states()[j], v.states()[j] + 1e-14);
-          distance += capacity[j] * std::abs(u.states()[j] - w.states()[j]);
+        const auto at_u = u.shares().x, at_v = v.shares().x, at_w = w.shares().x;
+        for (std::size_t j = 0; j < grid.n_cells(); ++j) {
+          ASSERT_LE(at_u[j], at_v[j] + 1e-14);
+          distance += capacity[j] * std::abs(at_u[j] - at_w[j]);
         }
         ASSERT_LE(distance, last + 1e-14);
         last = distance;
@@ -132,9 +134,9 @@ TYPED_TEST(FvTraffic, RedLightAndGreenLight) {
   spec.outside_top = OutsideState<double>{{0.513}, {1, 0}};
   SolverRequest request{{0.9, 0.5, 0.25, 0.513}, {0.5, 0.8, 1}};
   request.profiles = true;
-  SolverOptions options;
+  typename TypeParam::Options options;
   options.cells = 400;
-  const auto result = TypeParam::solve(Scene<double>(spec), request, options);
+  const auto result = solve<TypeParam>(Scene<double>(spec), request, options);
   ASSERT_TRUE(result.summary.usable()) << result.summary.message;
   EXPECT_NEAR(result.profiles[2].mass(), 0.2 + 0.16 * 0.25, 1e-13);
   EXPECT_NEAR(result.profiles[1].mass(), 0.2 + 0.16 * 0.5, 1e-13);
@@ -155,13 +157,13 @@ TYPED_TEST(FvTraffic, AnOutsideStateThatSendsNoWavesInDoesNotMatter) {
   spec.initial_breaks = {0.3};
   spec.initial_values = {0.5, 0.8};
   spec.outside_bottom = OutsideState<double>{{}, {0.5}};
-  const auto solve = [&](double top) {
+  const auto with_top = [&](double top) {
     spec.outside_top = OutsideState<double>{{}, {top}};
-    SolverOptions options;
+    typename TypeParam::Options options;
     options.cells = 100;
-    return TypeParam::solve(Scene<double>(spec), {{0.4, 1}, {0.1, 0.5, 0.9, 1}}, options);
+    return solve<TypeParam>(Scene<double>(spec), {{0.4, 1}, {0.1, 0.5, 0.9, 1}}, options);
   };
-  const auto a = solve(0.9), b = solve(0.1), c = solve(0.0), d = solve(-0.3);
+  const auto a = with_top(0.9), b = with_top(0.1), c = with_top(0.0), d = with_top(-0.3);
   ASSERT_EQ(a.samples.size(), 8u);
   for (std::size_t i = 0; i < a.samples.size(); ++i) {
     EXPECT_EQ(a.samples[i].phi, b.samples[i].phi);
@@ -189,10 +191,10 @@ TYPED_TEST(FvTraffic, RingKeepsItsCarsAndHasNoBeginning) {
     turned.initial_values = values;
     SolverRequest request{{0.3, 2}, {1.0}};
     request.profiles = true;
-    SolverOptions options;
+    typename TypeParam::Options options;
     options.cells = n;
-    const auto a = TypeParam::solve(Scene<double>(spec), request, options);
-    const auto b = TypeParam::solve(Scene<double>(turned), request, options);
+    const auto a = solve<TypeParam>(Scene<double>(spec), request, options);
+    const auto b = solve<TypeParam>(Scene<double>(turned), request, options);
     ASSERT_TRUE(a.summary.usable() && b.summary.usable());
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_NEAR(a.profiles[i].mass(), Scene<double>(spec).mass(), 1e-13);
@@ -212,8 +214,8 @@ TEST(FvFluxes, TheSameFluxTwiceIsOneFlux) {
     spec.fluxes.push_back(spec.fluxes[0]);
     spec.flux_breaks = {0.43};
     const SolverRequest request{{0.1, 0.8}, {0.2, 0.4, 0.5, 0.9}};
-    const auto a = GodunovSolver::solve(one, request, {}),
-               b = GodunovSolver::solve(Scene<double>(spec), request, {});
+    const auto a = solve<GodunovSolver>(one, request, {}),
+               b = solve<GodunovSolver>(Scene<double>(spec), request, {});
     ASSERT_TRUE(a.summary.usable() && b.summary.usable());
     for (std::size_t i = 0; i < a.samples.size(); ++i) EXPECT_NEAR(a.samples[i].phi, b.samples[i].phi, 1e-10);
   }
@@ -227,17 +229,18 @@ TEST(FvFluxes, DifferentFluxesComeToRestBetweenWalls) {
     SceneSpec<double> spec = random_ends(maker, true);
     spec.is_periodic = false;
     const Scene<double> scene(spec);
-    SolverRequest request{{infinity<double>()}, {1.0}};
-    request.profiles = true;
-    SolverOptions options;
-    options.cells = 30;
-    for (const bool is_godunov : {true, false}) {
-      const auto result = is_godunov ? GodunovSolver::solve(scene, request, options)
-                                     : EngquistOsherSolver::solve(scene, request, options);
+    const auto check = [&]<class Solver>(Solver) {
+      SolverRequest request{{infinity<double>()}, {1.0}};
+      request.profiles = true;
+      typename Solver::Options options;
+      options.cells = 30;
+      const auto result = solve<Solver>(scene, request, options);
       ASSERT_EQ(result.summary.status, Status::steady) << result.summary.message;
       EXPECT_NEAR(result.profiles[0].mass(), scene.mass(), 1e-12);
       EXPECT_LT(support::overshoot(scene, result.profiles[0]), 1e-300);
-    }
+    };
+    check(GodunovSolver{});
+    check(EngquistOsherSolver{});
   }
 }
 
@@ -245,12 +248,12 @@ TEST(FvFluxes, SaysWhatItCannot) {
   SceneSpec<double> spec = road();
   spec.outside_top = OutsideState<double>{{}, {0.1}};
   const SolverRequest request{{1}, {0.5}};
-  EXPECT_EQ(MusclSolver::solve(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
-  EXPECT_TRUE(UpwindSolver::solve(Scene<double>(spec), request, {}).summary.usable());
+  EXPECT_EQ(solve<MusclSolver>(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
+  EXPECT_TRUE(solve<UpwindSolver>(Scene<double>(spec), request, {}).summary.usable());
   spec.fluxes = {Burgers<double>{-1, 1}};
   spec.shear_rate = Piecewise<double>{{0.5}, {1, 2}};
-  EXPECT_EQ(GodunovSolver::solve(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
-  EXPECT_EQ(UpwindSolver::solve(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
+  EXPECT_EQ(solve<GodunovSolver>(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
+  EXPECT_EQ(solve<UpwindSolver>(Scene<double>(spec), request, {}).summary.status, Status::unsupported);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TYPED_TEST(MisfitLaws, ResidualsVanishAtTheTruth) {
     ASSERT_GT(rows.size(), 0);
     const Parameters parameters(Scene<double>(problem.truth),
                                 {{"shear_rate.values"}, {}, {}, {}, Shape::none});
-    const auto forward = make_forward(parameters, {}, rows.field, rows.points);
-    const Prediction at = forward->predict(parameters.start(), false);
+    const Forward forward(parameters, {}, rows.field, rows.points);
+    const Prediction at = forward.predict(parameters.start(), false);
     const Eigen::VectorXd r = rows.residuals(at.values);
     double most = 0;
     for (Eigen::Index i = 0; i < r.size(); ++i)

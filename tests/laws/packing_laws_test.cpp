@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/solver.hpp"
 #include "shearfront/track/tracker.hpp"
 #include "shearfront/track/verify.hpp"
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
 namespace {
 
-using support::SceneMaker;
+using support::Grains, support::SceneMaker;
 
 /// A profile with values from `least` to `most`, in layers or linear between points.
 DepthFunction<double> draw_profile(SceneMaker& maker, double least, double most) {
@@ -35,7 +35,7 @@ DepthFunction<double> draw_profile(SceneMaker& maker, double least, double most)
 
 Scene<double> draw_scene(SceneMaker& maker) {
   SceneSpec<double> spec;
-  spec.fluxes = {Packed<double>{maker.integer(0, 1) == 0 ? Grains::small : Grains::large}};
+  spec.fluxes = {support::flux_of(maker.integer(0, 1) == 0 ? Grains::small : Grains::large)};
   spec.shear_rate = Piecewise<double>{{}, {maker.uniform(0.2, 2)}};
   spec.solid_fraction = draw_profile(maker, 0.3, 0.7);
   spec.temperature = draw_profile(maker, 0.1, 4);
@@ -92,10 +92,8 @@ TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
     const Scene<double> scene(spec);
     SolverRequest request{{0.05, 0.5, infinity<double>()}, {0, 0.2, 0.71, 1}};
     request.profiles = true;
-    SolverOptions options;
-    options.resolution = 0.1;
-    options.layers = 16;
-    const SolverResult result = FrontTrackingSolver::solve(scene, request, options);
+    const FrontTrackingSolver::Options options{.resolution = 0.1, .layers = 16};
+    const SolverResult result = solve<FrontTrackingSolver>(scene, request, options);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
     for (const Profile<double>& profile : result.profiles) {
       EXPECT_LE(support::overshoot(scene, profile), 0);
@@ -134,7 +132,7 @@ TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
 TEST(PackingLaws, ConstantPackingAndTemperatureAreTheQuadraticFlux) {
   for (const Grains grains : {Grains::small, Grains::large}) {
     SceneSpec<double> spec;
-    spec.fluxes = {Packed<double>{grains}};
+    spec.fluxes = {support::flux_of(grains)};
     spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
     spec.solid_fraction = Piecewise<double>{{}, {0.64}};
     spec.temperature = Piecewise<double>{{}, {4}};

@@ -59,16 +59,16 @@ std::vector<double> heights_of(const Trial& trial) {
 Bed::Bed(const Trial& t)
     : trial(t),
       scene(t.spec),
-      stack(stack_of(scene, t.options.layers)),
+      stack(stack_of(scene, t.count("layers"))),
       layered(on_stack(t.spec, stack)),
-      exact(scene, {kFiner * t.options.layers}),
+      exact(scene, {kFiner * t.count("layers")}),
       layered_exact(layered),
       heights(heights_of(t)),
       times{0, t.early, t.late, infinity<double>()} {
   const double error = rate_error_of(scene, stack);
   const bool is_exact_staircase = std::holds_alternative<Table<double>>(t.spec.shear_rate);
   const double other =
-      is_exact_staircase ? rate_error_of(scene, staircase(scene, kFiner * t.options.layers)) : 0;
+      is_exact_staircase ? rate_error_of(scene, staircase(scene, kFiner * t.count("layers"))) : 0;
   slower = std::max(0.0, 1 - error) / (1 + other);
   faster = other < 1 ? (1 + error) / (1 - other) : infinity<double>();
 }

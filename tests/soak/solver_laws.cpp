@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "soak/laws.hpp"
 
 namespace shearfront::soak {
@@ -50,8 +50,8 @@ double fastest_of(const Bed& bed) {
 SolverRequest request_of(const Bed& bed, bool is_on_grid) {
   double early = bed.trial.early, late = bed.trial.late;
   if (is_on_grid) {
-    const auto n = static_cast<double>(bed.trial.options.cells);
-    const double most = kMostUpdates / (n * n) * bed.trial.options.cfl * bed.trial.height() / fastest_of(bed);
+    const double n = bed.trial.options.at("cells");
+    const double most = kMostUpdates / (n * n) * bed.trial.options.at("cfl") * bed.trial.height() / fastest_of(bed);
     const double factor = std::min(1.0, most / late);
     early *= factor, late *= factor;
   }
@@ -62,9 +62,9 @@ SolverRequest request_of(const Bed& bed, bool is_on_grid) {
 }
 
 template <class Solver>
-SolverResult run(const SceneSpec<double>& spec, const SolverRequest& request, const SolverOptions& options,
-                 Findings& findings) {
-  SolverResult result = Solver::solve(Scene<double>(spec), request, options);
+SolverResult run(const SceneSpec<double>& spec, const SolverRequest& request,
+                 const typename Solver::Options& options, Findings& findings) {
+  SolverResult result = solve<Solver>(Scene<double>(spec), request, options);
   findings.count(result.summary);
   return result;
 }
@@ -75,7 +75,7 @@ class SolverLaws {
   SolverLaws(const Bed& bed, Findings& findings)
       : bed_(bed),
         findings_(findings),
-        options_(bed.trial.options),
+        options_(support::options_of<Solver>(bed.trial.options)),
         request_(request_of(bed, is_on_grid<Solver>())) {
     request_.timeline = kPromised.has_timeline;
   }
@@ -203,7 +203,7 @@ class SolverLaws {
   }
   /// The scheme's own distance where its cells are equal: the edges of a profile are rounded.
   [[nodiscard]] double distance(const Profile<double>& a, const Profile<double>& b) const {
-    if (options_.align_cells) return l1_distance(a, b);
+    if (bed_.trial.options.at("align-cells") != 0) return l1_distance(a, b);
     CompensatedSum<double> sum;
     for (std::size_t j = 0; j < a.n_cells(); ++j) sum += std::abs(a.below()[j] - b.below()[j]);
     return sum.value() * (bed_.trial.height() / static_cast<double>(a.n_cells()));
@@ -211,7 +211,7 @@ class SolverLaws {
 
   const Bed& bed_;
   Findings& findings_;
-  SolverOptions options_;
+  typename Solver::Options options_;
   SolverRequest request_;
 };
 
@@ -220,7 +220,7 @@ class SolverLaws {
 void check_solvers(const Bed& bed, Findings& findings) {
   SolverList::for_each([&]<class Solver>() {
     const Guarantees promised = Solver::guarantees();
-    if (promised.scope.diffusion) return;  // the beds of the soak have none
+    if (promised.diffusion) return;  // the beds of the soak have none
     if (promised.exact || promised.order_M > 0) SolverLaws<Solver>(bed, findings).check();
   });
 }

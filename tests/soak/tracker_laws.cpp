@@ -28,7 +28,7 @@ std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " +
 std::string at(double t) { return "t = " + number_text(t); }
 
 double affordable_resolution(const Bed& bed) {
-  double resolution = bed.trial.options.resolution;
+  double resolution = bed.trial.options.at("resolution");
   const double n_pieces = static_cast<double>(bed.stack.n_layers() + bed.scene.initial_values().size());
   while (resolution < 1 &&
          LevelGrid<double>::exact_level_count(bed.stack, resolution) * n_pieces > kMostFronts)
@@ -336,7 +336,7 @@ void check_singular_mapping(const Bed& bed, double resolution, const RunLimits& 
 void check_tracker(const Bed& bed, Findings& findings) {
   const double resolution = affordable_resolution(bed);
   const TrackingSetup<double> setup(bed.layered, resolution);
-  const RunLimits limits{bed.trial.options.max_collisions, {}};
+  const RunLimits limits{bed.trial.count("max-collisions"), {}};
   if (!check_run(bed, setup, resolution, limits, findings)) return;
   check_every_event(bed, setup, findings);
   check_stops(bed, setup, findings);
@@ -370,7 +370,7 @@ void check_tracker_pair(const Bed& bed, Findings& findings) {
     trackers.emplace_back(built.grid, on_grid(p, std::vector<State>(begin, end)));
     begin = end;
   }
-  const RunLimits limits{bed.trial.options.max_collisions, {}};
+  const RunLimits limits{bed.trial.count("max-collisions"), {}};
   const double slack = 10 * kMassSlack * bed.trial.largest_height();
   double last = l1_distance(trackers[0].profile(), trackers[1].profile());
   for (const double t : {bed.trial.early / 8, bed.trial.early, bed.trial.late, 16 * bed.trial.late}) {

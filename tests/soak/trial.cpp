@@ -9,6 +9,7 @@
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/solver/all.hpp"
 
 namespace shearfront::soak {
 namespace {
@@ -173,17 +174,17 @@ class Draw {
   }
 
   void options(Trial& trial) {
-    SolverOptions& options = trial.options;
-    options.resolution = chance(0.1) ? 1.0 : power(-2.5, 0);
-    if (chance(0.05)) options.resolution = power(-4, -2.5);
-    options.layers = static_cast<std::size_t>(make_.integer(4, 48));
-    options.reconstruct = chance(0.5) ? Reconstruction::linear : Reconstruction::constant;
-    options.cells = static_cast<std::size_t>(chance(0.1) ? make_.integer(1, 8) : make_.integer(9, 200));
-    options.cfl = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
-    options.max_collisions = 20'000;
-    options.limiter = static_cast<Limiter>(make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1));
-    options.local_steps = chance(0.3);
-    options.align_cells = chance(0.3) && aligned_updates(trial) < kMostUpdates;
+    support::OptionNumbers& options = trial.options;
+    options["resolution"] = chance(0.1) ? 1.0 : power(-2.5, 0);
+    if (chance(0.05)) options["resolution"] = power(-4, -2.5);
+    options["layers"] = make_.integer(4, 48);
+    options["reconstruct"] = chance(0.5) ? 1 : 0;
+    options["cells"] = chance(0.1) ? make_.integer(1, 8) : make_.integer(9, 200);
+    options["cfl"] = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
+    options["max-collisions"] = 20'000;
+    options["limiter"] = make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1);
+    options["local-steps"] = chance(0.3) ? 1 : 0;
+    options["align-cells"] = chance(0.3) && aligned_updates(trial) < kMostUpdates ? 1 : 0;
   }
 
   /// Cell updates of a run on aligned cells with equal steps: a thin layer gets a cell of its own, and that
@@ -194,13 +195,13 @@ class Draw {
     std::vector<double> cuts = std::visit([](const auto& a) { return a.knots(); }, spec.shear_rate);
     cuts.insert(cuts.begin(), spec.bottom);
     cuts.push_back(spec.top);
-    const auto cells = static_cast<double>(trial.options.cells);
+    const double cells = trial.options.at("cells");
     double thinnest = (spec.top - spec.bottom) / cells, fastest = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (cuts[i + 1] > cuts[i]) thinnest = std::min(thinnest, cuts[i + 1] - cuts[i]);
       for (const double z : {cuts[i], cuts[i + 1]}) fastest = std::max(fastest, scene.shear_rate_at(z));
     }
-    return cells * (trial.late * (spec.scale * fastest) / (thinnest * trial.options.cfl));
+    return cells * (trial.late * (spec.scale * fastest) / (thinnest * trial.options.at("cfl")));
   }
 
   SceneMaker make_;
@@ -252,13 +253,10 @@ std::string text_of(const SceneSpec<double>& spec) {
 }
 
 std::string text_of(const Trial& trial) {
-  const SolverOptions& o = trial.options;
-  return "# seed " + std::to_string(trial.seed) + ": times " + number_text(trial.early) + ", " +
-         number_text(trial.late) + "; resolution " + number_text(o.resolution) + ", cells " +
-         std::to_string(o.cells) + ", cfl " + number_text(o.cfl) + ", layers " + std::to_string(o.layers) +
-         ", limiter " + std::string(kLimiterNames[static_cast<std::size_t>(o.limiter)]) +
-         (o.local_steps ? ", local steps" : "") + (o.align_cells ? ", aligned cells" : "") + "\n" +
-         text_of(trial.spec);
+  std::string text = "# seed " + std::to_string(trial.seed) + ": times " + number_text(trial.early) + ", " +
+                     number_text(trial.late);
+  for (const auto& [name, x] : trial.options) text += "; " + std::string(name) + " " + number_text(x);
+  return text + "\n" + text_of(trial.spec);
 }
 
 SceneSpec<double> upside_down(const SceneSpec<double>& spec) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/solver/solver.hpp"
+#include "support/options.hpp"
 #include "support/random_scene.hpp"
 
 /// Random scenes, harder than any bed, and the laws that every engine must keep on them.
@@ -17,8 +20,11 @@ struct Trial {
   /// No two numbers of the scene coincide, so that everything is differentiable with probability 1.
   bool is_generic = false;
   double early = 0, late = 0;  ///< times, 0 < early < late, from tiny to beyond steady
-  SolverOptions options;       ///< of all solvers, drawn too
+  support::OptionNumbers options;  ///< of all solvers, drawn too
 
+  [[nodiscard]] std::size_t count(std::string_view option) const {
+    return static_cast<std::size_t>(options.at(option));
+  }
   [[nodiscard]] double height() const { return spec.top - spec.bottom; }
   /// Largest |z|: heights are rounded by units of its last place.
   [[nodiscard]] double largest_height() const { return std::max(std::abs(spec.bottom), std::abs(spec.top)); }

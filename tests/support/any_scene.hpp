@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "support/packed_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront::support {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shearfront/exact/events.hpp"
-#include "shearfront/exact/sensitivities.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "support/closeness.hpp"
 
 /// The exact engine in double and in 50 digits, compared point by point.
@@ -44,15 +44,16 @@ template <Real Scalar>
 struct ExactRun {
   Scene<Scalar> scene;
   Timeline<Scalar> timeline;
-  std::vector<Sensitivities<Scalar>> values;
+  std::vector<typename Derivatives<Scalar>::At> values;
   std::vector<exact::Path<Scalar>> paths;
 
   /// Without `timeline` only the points are evaluated.
   ExactRun(const Scene<Scalar>& of, const std::vector<Point>& points, bool with_timeline = true) : scene(of) {
     if (with_timeline) timeline = exact_timeline(scene);
     const ExactSolution<Scalar> solution(scene);
+    const Derivatives<Scalar> derivatives(solution);
     for (const Point& p : points) {
-      values.push_back(sensitivities(solution, Scalar(p.z), Scalar(p.t)));
+      values.push_back(derivatives.at(Scalar(p.z), Scalar(p.t)));
       paths.push_back(solution.path(Scalar(p.z), Scalar(p.t)));
     }
   }
@@ -60,25 +61,20 @@ struct ExactRun {
 
 namespace exact_side_by_side_detail {
 
-/// Every derivative of a gradient times its parameter.
+/// Every derivative times its entry, of heights times the height of the bed.
 template <Real Scalar>
-std::vector<Scalar> scaled(const Scene<Scalar>& scene, const Gradient<Scalar>& gradient) {
+std::vector<Scalar> scaled(const Scene<Scalar>& scene, const std::vector<Scalar>& derivatives) {
   std::vector<Scalar> all;
-  const Scalar height = scene.top() - scene.bottom();
-  const auto add = [&](const auto& derivatives, const auto& parameter) {
-    for (std::size_t i = 0; i < derivatives.size(); ++i) all.push_back(derivatives[i] * parameter(i));
-  };
-  const auto in_heights = [&](std::size_t) { return height; };
-  const auto plain = [](std::size_t) { return Scalar(1); };
-  if (const auto* layers = std::get_if<Piecewise<Scalar>>(&scene.shear_rate()))
-    add(gradient.shear_rate_values(), [&](std::size_t i) { return layers->values[i]; });
-  add(gradient.shear_rate_breaks(), in_heights);
-  add(gradient.initial_breaks(), in_heights);
-  add(gradient.initial_values(), plain);
-  all.push_back(gradient.scale * scene.scale());
-  if (const auto* smooth = std::get_if<Exponential<Scalar>>(&scene.shear_rate())) {
-    all.push_back(gradient.amplitude * smooth->amplitude);
-    all.push_back(gradient.decay * smooth->decay);
+  SceneSpec<Scalar> spec = scene.spec();
+  const auto places = entry_places(spec);
+  const auto named = entries(spec);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (!derivative_refusal(scene, named[i]).empty()) continue;
+    const bool is_height = named[i].field.ends_with(".breaks") || named[i].field.ends_with(".z");
+    const Scalar unit = is_height                            ? Scalar(scene.top() - scene.bottom())
+                        : named[i].field == "initial.values" ? Scalar(1)
+                                                             : *places[i];
+    all.push_back(derivatives[i] * unit);
   }
   return all;
 }

@@ -8,8 +8,8 @@
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
-#include "shearfront/exact/solver.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront::testing {
 
@@ -25,7 +25,7 @@ inline SceneSpec<double> small_above_large(std::vector<double> breaks, std::vect
 inline Observations observed(const SceneSpec<double>& truth, const ObservationPlan& plan, double sigma,
                              std::uint64_t seed, bool with_sigma) {
   const Scene<double> scene(truth);
-  Observations data = observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
+  Observations data = observe(plan, scene, solve<ExactSolver>(scene, request_of(plan, scene)));
   add_noise(data, sigma, seed);
   if (!with_sigma)
     for (Observation& o : data.rows) o.sigma = Observation{}.sigma;

@@ -18,12 +18,12 @@ enum class FluxShape { convex_parabolas, concave_parabolas, convex, concave };
 inline Flux<double> random_flux(SceneMaker& make, FluxShape shape) {
   switch (shape) {
     case FluxShape::convex_parabolas:
-      return Packed<double>{Grains::small};
+      return Quadratic<double>{};
     case FluxShape::concave_parabolas:
-      if (make.integer(0, 1) == 0) return Packed<double>{Grains::large};
+      if (make.integer(0, 1) == 0) return Lwr<double>{};
       return Lwr<double>{make.uniform(0.125, 2)};
     case FluxShape::convex:
-      if (make.integer(0, 2) == 0) return Packed<double>{Grains::small};
+      if (make.integer(0, 2) == 0) return Quadratic<double>{};
       if (make.integer(0, 1) == 0)
         return FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.1875, -0.25, -0.1875, 0}};
       if (make.integer(0, 1) == 0) return Cubic<double>{make.uniform(0, 0.5)};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstddef>
 #include <cstdint>
 
-#include "shearfront/solver/solver.hpp"
+#include "shearfront/fv/options.hpp"
 #include "support/random_scene.hpp"
 
 /// Random scenes and grids for the laws of finite volumes.
@@ -13,12 +12,18 @@ inline SceneMaker maker_of(int number) { return SceneMaker(seed_of(7000 + std::u
 inline Scene<double> draw(SceneMaker& maker) {
   return Scene<double>(maker.data(maker.integer(1, 6), maker.order(), 12));
 }
-inline SolverOptions options_of(SceneMaker& maker) {
-  SolverOptions options;
-  options.cells = static_cast<std::size_t>(maker.integer(1, 150));
+inline fv::GridOptions options_of(SceneMaker& maker) {
+  fv::GridOptions options;
+  options.cells = static_cast<std::uint64_t>(maker.integer(1, 150));
   options.cfl = maker.integer(0, 1) == 0 ? 1.0 : maker.uniform(0.1, 1);
   options.align_cells = maker.integer(0, 1) == 1;
-  options.local_steps = maker.integer(0, 1) == 1;
+  return options;
+}
+/// The options of a solver with these for its grid.
+template <class Solver>
+typename Solver::Options with_grid(const fv::GridOptions& grid) {
+  typename Solver::Options options;
+  static_cast<fv::GridOptions&>(options) = grid;
   return options;
 }
 

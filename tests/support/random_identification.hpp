@@ -9,7 +9,7 @@
 
 #include "shearfront/fit/shock_rows.hpp"
 #include "shearfront/exact/events.hpp"
-#include "shearfront/exact/sensitivities.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "support/identification.hpp"
 #include "support/random_scene.hpp"
 
@@ -22,11 +22,16 @@ inline double worst_error(const Identification& problem) {
   const ExactSolution<double> solution{Scene<double>(problem.truth)};
   const auto& values = std::get<Piecewise<double>>(problem.truth.shear_rate).values;
   const auto n = static_cast<Eigen::Index>(values.size());
-  const auto add = [&](Eigen::MatrixXd& normal, const Gradient<double>& gradient) {
+  const Derivatives<double> derivatives(solution);
+  const auto all = entries(problem.truth);
+  const auto first = std::find_if(all.begin(), all.end(), [](const Entry& entry) {
+                       return entry.field == "shear_rate.values";
+                     }) - all.begin();
+  const auto add = [&](Eigen::MatrixXd& normal, const std::vector<double>& gradient) {
     Eigen::VectorXd row(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      row[k] = gradient.shear_rate_values()[i] * values[i];
+      row[k] = gradient[static_cast<std::size_t>(first) + i] * values[i];
     }
     normal += row * row.transpose();
   };
@@ -35,7 +40,7 @@ inline double worst_error(const Identification& problem) {
   const fit::Parameters parameters(Scene<double>(problem.truth), {problem.parameters, {}, {}, {}, {}});
   const auto is_smooth = fit::rows_without_jumps(parameters, {}, places, parameters.start());
   for (std::size_t i = 0; i < places.rows.size(); ++i) {
-    const auto at = sensitivities(solution, places.rows[i].z, places.rows[i].t);
+    const auto at = derivatives.at(places.rows[i].z, places.rows[i].t);
     add(normal_M, at.M);
     if (is_smooth[i]) add(normal_phi, at.phi);
   }

@@ -5,7 +5,6 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/sensitivities.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"
 #include "support/random_scene.hpp"

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "shearfront/fit/fit.hpp"
+#include "shearfront/io/method_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -66,8 +67,7 @@ TEST_F(FitFiles, DefaultsAreThoseOfTheSpecification) {
   EXPECT_EQ(spec.unknown.parameters, std::vector<std::string>{"shear_rate.values"});
   EXPECT_TRUE(spec.unknown.start.empty() && spec.unknown.lower.empty() && spec.unknown.upper.empty());
   EXPECT_EQ(spec.unknown.shape, Shape::none);
-  EXPECT_EQ(spec.forward.method, ForwardSpec{}.method);
-  EXPECT_EQ(spec.forward.options.cells, SolverOptions{}.cells);
+  EXPECT_EQ(settings(spec.forward.method), settings(Method()));
   EXPECT_FALSE(spec.misfit.loss_scale.has_value() || spec.misfit.two_stage.has_value());
   EXPECT_EQ(spec.search.algorithm, SearchSpec{}.algorithm);
   EXPECT_EQ(spec.search.tolerance, SearchSpec{}.tolerance);
@@ -79,7 +79,7 @@ TEST_F(FitFiles, EveryEntryIsTaken) {
   const FitSpec spec = parse(
       "name = \"both rates\"\n" + kFit +
       "start = [2.5, 0.7]\nlower = [0.01, 1e-2]\nupper = [20, inf]\nshape = \"convex\"\n"
-      "[forward]\nmethod = \"front-tracking\"\nresolution = 0.02\ncells = 1_000\ncfl = 0.9\nlayers = 50\n"
+      "[forward]\nmethod = \"front-tracking\"\nresolution = 0.02\nmax_collisions = 1_000\ncfl = 0.9\nlayers = 50\n"
       "grid = \"singular-mapping\"\nreconstruct = \"linear\"\n"
       "[misfit]\nquantity = \"bin\"\nloss = \"cauchy\"\nloss_scale = 3\ntwo_stage = false\n"
       "[search]\nalgorithm = \"ceres\"\nstarts = 0x10\nseed = 9007199254740991\nmax_evaluations = 1e4\n"
@@ -90,13 +90,9 @@ TEST_F(FitFiles, EveryEntryIsTaken) {
   EXPECT_EQ(spec.unknown.lower, (std::vector<double>{0.01, 0.01}));
   EXPECT_EQ(spec.unknown.upper, (std::vector<double>{20, std::numeric_limits<double>::infinity()}));
   EXPECT_EQ(spec.unknown.shape, Shape::convex);
-  EXPECT_EQ(spec.forward.method, "front-tracking");
-  EXPECT_EQ(spec.forward.options.resolution, 0.02);
-  EXPECT_EQ(spec.forward.options.cells, 1000U);
-  EXPECT_EQ(spec.forward.options.cfl, 0.9);
-  EXPECT_EQ(spec.forward.options.layers, 50U);
-  EXPECT_EQ(spec.forward.options.grid, GridKind::singular_mapping);
-  EXPECT_EQ(spec.forward.options.reconstruct, Reconstruction::linear);
+  EXPECT_EQ(settings(spec.forward.method),
+            "--method front-tracking --resolution 0.02 --grid singular-mapping --reconstruct linear --layers 50 "
+            "--max-collisions 1000");
   EXPECT_EQ(quantity_of(spec), "bin");
   EXPECT_EQ(loss_of(spec), "cauchy");
   EXPECT_EQ(spec.misfit.loss_scale, 3);

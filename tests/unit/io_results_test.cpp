@@ -75,7 +75,7 @@ TEST_F(Results, EventsAsJson) {
   summary.status = Status::steady;
   summary.message = "a \"quoted\" \\ message\n";
   summary.collisions = 18446744073709551615U;
-  EXPECT_EQ(written([&](OutputFile& f) { write_events_json(f, "s\xff", "exact", timeline, summary, 0); }),
+  EXPECT_EQ(written([&](OutputFile& f) { write_events_json(f, "s\xff", "exact", text_of(timeline, 0), summary); }),
             "{\n  \"scene\": \"s\xEF\xBF\xBD\",\n  \"method\": \"exact\",\n  \"mass\": 0.5,\n  "
             "\"steady_height\": 0,\n"
             "  \"t0\": 0.5,\n  \"t1\": null,\n  \"t_star\": null,\n  \"interfaces\": [\n"
@@ -91,7 +91,7 @@ TEST_F(Results, EventsWithManyDigits) {
   timeline.t0 = Real110(2) / Real110(3);
   timeline.t1 = Real110("123456789012345678901234567890");
   const std::string text =
-      written([&](OutputFile& f) { write_events_json(f, "s", "exact", timeline, {}, 30); });
+      written([&](OutputFile& f) { write_events_json(f, "s", "exact", text_of(timeline, 30), {}); });
   EXPECT_NE(text.find("\"t0\": 0.666666666666666666666666666667,"), std::string::npos) << text;
   EXPECT_NE(text.find("\"t1\": 123456789012345678901234567890,"), std::string::npos) << text;
 }

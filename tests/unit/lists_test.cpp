@@ -125,15 +125,17 @@ TEST(Skeletons, ExampleOfTheDocsIsAShearRate) {
   EXPECT_EQ(complaints[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
 }
 
-TEST(Skeletons, SolverSaysThatItSolvesNothing) {
-  SolverRequest request;
-  request.times = {0.0, 1.0};
-  request.heights = {0.25, 0.75};
-  const SolverResult result = SkeletonSolver::solve(half_and_half(), request, {});
-  ASSERT_EQ(result.samples.size(), 4U);
-  EXPECT_EQ(result.samples[1].phi, 1.0);
-  EXPECT_EQ(result.summary.status, Status::unsupported);
-  EXPECT_FALSE(result.summary.usable());
+TEST(Skeletons, SolverWorksAsItStands) {
+  const Scene<double> scene = half_and_half();
+  EXPECT_EQ(SkeletonSolver::refusal(scene, {}), "");
+  const auto run = SkeletonSolver::start(scene, {}, {});
+  for (const double t : {0.0, 1.0}) {
+    ASSERT_EQ(run->advance(t), Status::ok);
+    EXPECT_EQ(run->field().at(0.25).phi, 0);
+    EXPECT_EQ(run->field().at(0.75).phi, 1);
+    EXPECT_EQ(run->field().at(0.75).M, 0.25);
+  }
+  EXPECT_TRUE(run->summary().usable());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ const double kLn2 = std::log(2.0);
 
 Scene<double> bed(DepthFunction<double> solid_fraction) {
   SceneSpec<double> spec;
-  spec.fluxes = {Packed<double>{}};
+  spec.fluxes = {Quadratic<double>{}};
   spec.shear_rate = Piecewise<double>{{}, {1}};
   spec.solid_fraction = std::move(solid_fraction);
   spec.initial_values = {0.5};

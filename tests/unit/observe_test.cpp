@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "shearfront/exact/solver.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
@@ -23,7 +23,7 @@ Scene<double> may(double bottom = 0, double top = 1) {
 }
 
 Observations observed(const ObservationPlan& plan, const Scene<double>& scene) {
-  return observe(plan, scene, ExactSolver::solve(scene, request_of(plan, scene), {}));
+  return observe(plan, scene, solve<ExactSolver>(scene, request_of(plan, scene)));
 }
 
 std::string complaints(const ObservationPlan& plan) {

@@ -53,4 +53,13 @@ int report_unusable(const Summary& summary) {
 
 void note(std::string_view text) { fmt::print(stderr, "shearfront: {}\n", text); }
 
+void print_remarks(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) fmt::print(stderr, "{}\n", remark);
+}
+
+Scene<double> with_remarks(Scene<double> scene) {
+  print_remarks(scene.spec().remarks);
+  return scene;
+}
+
 }  // namespace shearfront::tools

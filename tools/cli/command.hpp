@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/summary.hpp"
 
 namespace CLI {
@@ -45,5 +46,9 @@ void check_outputs(const std::string& input, const std::vector<Output>& outputs)
 int report_unusable(const Summary& summary);
 /// A remark on standard error.
 void note(std::string_view text);
+/// What readers have to say about their files, on standard error.
+void print_remarks(const std::vector<std::string>& remarks);
+/// The scene as it is, its remarks printed.
+[[nodiscard]] Scene<double> with_remarks(Scene<double> scene);
 
 }  // namespace shearfront::tools

@@ -90,8 +90,9 @@ std::string comparison_text(const std::vector<fit::ComparedModel>& models) {
   return table.text();
 }
 
-Json comparison_json(const std::vector<fit::ComparedModel>& models) {
-  Json rows = Json::array();
+detail::Json comparison_json(const std::vector<fit::ComparedModel>& models) {
+  using detail::json_or_null;
+  detail::Json rows = detail::Json::array();
   for (const fit::ComparedModel& m : models)
     rows.push_back({{"model", m.model},
                     {"parameters", m.parameters},

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/json.hpp"
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/model_comparison.hpp"
+#include "shearfront/io/detail/json.hpp"
 #include "shearfront/io/output_file.hpp"
 
 /// Estimates for people and spreadsheets.
@@ -22,7 +22,7 @@ void write_residuals_csv(OutputFile& file, const Observations& observations, con
 
 [[nodiscard]] std::string comparison_text(const std::vector<fit::ComparedModel>& models);
 /// [{"model","parameters","misfit","aic","daic","aic_weight","bic","dbic"}]
-[[nodiscard]] Json comparison_json(const std::vector<fit::ComparedModel>& models);
+[[nodiscard]] detail::Json comparison_json(const std::vector<fit::ComparedModel>& models);
 
 /// A row of CSV; what is not finite is left empty.
 [[nodiscard]] std::string csv_row(std::initializer_list<double> numbers);

@@ -68,7 +68,7 @@ class FitReader {
     const auto name = root.text("name", Need::optional, "must be text");
     const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
     const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
-    if (scene_path) load("scene", *scene_path, [&] { scene_ = read_scene<double>(*scene_path); });
+    if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
     if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
       unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
@@ -82,14 +82,15 @@ class FitReader {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
     if (data_path)
-      load("observations", *data_path, [&] { data_ = read_observations(*data_path, bottom, top); });
+      load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
     check_unknown();
     check_quantity();
     throw_if_any();
+    remarks_.insert(remarks_.begin(), scene_->spec().remarks.begin(), scene_->spec().remarks.end());
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
                     std::move(search_), uncertainty_},
-            *scene_path, *data_path};
+            *scene_path, *data_path, std::move(remarks_)};
   }
 
  private:
@@ -105,6 +106,11 @@ class FitReader {
 
   void unknown(TableReader& table) {
     unknown_.parameters = table.texts("parameters", Need::required, "must be an array of names of entries");
+    for (std::string& name : unknown_.parameters)
+      if (name.starts_with("packing.")) {
+        const std::string old = std::exchange(name, "solid_fraction" + name.substr(name.find('.')));
+        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " + printable(name));
+      }
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);
     numbers(table, "upper", unknown_.upper, true);
@@ -214,12 +220,12 @@ class FitReader {
   /// Reads another file. One that cannot be read at all is a complaint about the entry that names it; those
   /// inside it are its own.
   template <class Read>
-  void load(const char* key, const std::string& path, Read&& read) {
+  void load(const char* key, Read&& read) {
     try {
       read();
     } catch (const FileError& error) {
       const Complaint& first = error.complaints().front();
-      if (first.key != printable(path) || !first.value.empty())
+      if (first.kind != Complaint::Kind::unreadable)
         others_.push_back(error);
       else
         add({key, source_.shown(*source_.find(key).node), first.constraint});
@@ -282,6 +288,7 @@ class FitReader {
   MisfitSpec misfit_;
   SearchSpec search_;
   UncertaintySpec uncertainty_;
+  std::vector<std::string> remarks_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/io/file_error.hpp"
@@ -13,6 +14,7 @@ namespace shearfront::fit {
 struct FitFile {
   FitSpec spec;
   std::string scene, observations;
+  std::vector<std::string> remarks;  ///< on old names in this file and in the scene
 };
 
 /// Reads a fit file, its scene and its observations; their names are relative to the fit file.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/exact/canonical_form.hpp"
-#include "shearfront/numeric/instantiated.hpp"
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <variant>
+
+#include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
 
@@ -15,63 +17,104 @@ bool is_parabola(const AnyFlux& flux) {
   return std::visit([](const auto& f) { return bool(std::remove_cvref_t<decltype(f)>::kIsParabola); }, flux);
 }
 
-/// Only a(z) varies, in a bed of one parabola.
+/// a(z) where it alone varies in a bed of one parabola, if it is exponential.
 template <Real Scalar>
-bool only_rate_varies(const Scene<Scalar>& scene) {
-  return scene.fluxes().size() == 1 && is_parabola(scene.fluxes().front()) && !scene.spec().solid_fraction &&
-         !scene.spec().temperature &&
-         (std::holds_alternative<Exponential<Scalar>>(scene.shear_rate()) ||
-          std::holds_alternative<Table<Scalar>>(scene.shear_rate()));
+std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scene) {
+  if (scene.fluxes().size() > 1 || !is_parabola(scene.fluxes().front()) || scene.spec().solid_fraction ||
+      scene.spec().temperature)
+    return {};
+  return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
+}
+
+template <Real Scalar>
+LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers, bool is_one_piece) {
+  if (scene.is_layered()) return exact_layers(scene);
+  if (!is_one_piece) return staircase(scene, layers);
+  std::vector<Scalar> ends{scene.bottom(), scene.top()};
+  LayerMaterial<Scalar> material = material_of(scene, ends);
+  return {std::move(ends), {Scalar(1)}, scene.scale(), {}, std::move(material)};
 }
 
 /// |f| at its extremum.
-template <Real Scalar, class AnyFlux>
-Scalar depth_of(const AnyFlux& flux) {
+template <Real Scalar>
+Scalar depth_of(const Flux<Scalar>& flux) {
   const Scalar f = std::visit([](const auto& m) { return Scalar(m.value(m.extrema().front())); }, flux);
   return f < 0 ? Scalar(-f) : f;
-}
-
-template <Real Scalar>
-DepthFunction<Scalar> stretched(DepthFunction<Scalar> rate, const Scalar& stretch, const Scalar& factor) {
-  const auto multiply = [](std::vector<Scalar>& numbers, const Scalar& by) {
-    for (Scalar& x : numbers) x *= by;
-  };
-  std::visit(
-      [&]<class Model>(Model& model) {
-        if constexpr (std::is_same_v<Model, Exponential<Scalar>>) {
-          model.amplitude *= factor;
-          model.decay *= stretch;
-        } else if constexpr (std::is_same_v<Model, Table<Scalar>>) {
-          multiply(model.z, stretch);
-          multiply(model.values, factor);
-        }
-      },
-      rate);
-  return rate;
 }
 
 }  // namespace
 
 template <Real Scalar>
-LayerStack<Scalar> CanonicalForm<Scalar>::layers_of(const Scene<Scalar>& scene, std::size_t layers) {
-  if (scene.is_layered()) return exact_layers(scene);
-  if (only_rate_varies(scene)) {
-    std::vector<Scalar> ends{scene.bottom(), scene.top()};
-    LayerMaterial<Scalar> material = material_of(scene, ends);
-    return {std::move(ends), {Scalar(1)}, scene.scale(), {}, std::move(material)};
+CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers)
+    : scene_(std::move(scene)),
+      is_identity_(scene_->is_plain()),
+      is_concave_(std::visit([](const auto& f) { return f.curvature() == Curvature::concave; },
+                             scene_->fluxes().front())),
+      is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(), is_parabola<Flux<Scalar>>)),
+      exponential_(exponential_of(*scene_)),
+      layers_(layers_of(*scene_, layers, exponential_.has_value())) {
+  if (is_identity_) {
+    set_identity();
+    return;
   }
-  return staircase(scene, layers);
+  set_layers();
+  set_initial_data();
+  mass_ = image_mass();
 }
 
 template <Real Scalar>
-CanonicalForm<Scalar>::CanonicalForm(const Scene<Scalar>& scene, std::size_t layers)
-    : scene_(scene),
-      is_concave_(std::visit([](const auto& f) { return f.curvature() == Curvature::concave; },
-                             scene.fluxes().front())),
-      is_parabolic_(std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>)),
-      keeps_model_(scene.is_layered() || only_rate_varies(scene)),
-      layers_(layers_of(scene, layers)),
-      image_(make_image()) {}
+void CanonicalForm<Scalar>::set_identity() {
+  const std::size_t n = layers_.n_layers();
+  lowest_ = {Scalar(0)};
+  highest_ = width_ = {Scalar(1)};
+  stretch_.assign(n, Scalar(1));
+  rate_factor_.assign(n, Scalar(1));
+  y_ = layers_.boundaries();
+  for (std::size_t k = 0; k < n; ++k) rates_.push_back(layers_.rate(k));
+  initial_breaks_ = scene_->initial_breaks();
+  initial_values_ = scene_->initial_values();
+  for (std::size_t j = 0; j < initial_values_.size(); ++j) {
+    initial_piece_.push_back(j);
+    initial_layer_.push_back(0);  // one flux everywhere
+    if (j > 0) initial_break_.push_back(j - 1);
+  }
+  mass_ = scene_->mass();
+}
+
+template <Real Scalar>
+void CanonicalForm<Scalar>::set_layers() {
+  std::vector<Scalar> depth;
+  for (const Flux<Scalar>& flux : scene_->fluxes()) {
+    const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, flux);
+    lowest_.push_back(range.lowest);
+    highest_.push_back(range.highest);
+    width_.push_back(range.highest - range.lowest);
+    depth.push_back(depth_of<Scalar>(flux));
+  }
+  CompensatedSum<Scalar> y, least, most;
+  least_ = most_ = {Scalar(0)};
+  for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
+    const std::size_t i = layers_.flux_index(k);
+    const Scalar c = layers_.solid_fraction(k), height = layers_.boundary(k + 1) - layers_.boundary(k);
+    stretch_.push_back(c * width_[i]);
+    rate_factor_.push_back(Scalar(4) * depth[i] * c);
+    rates_.push_back(layers_.scale() * (rate_factor_.back() * layers_.shear_rate(k)));
+    if (k == 0) {
+      y += stretch_[0] * layers_.bottom();
+      y_ = {y.value()};
+    }
+    y += stretch_.back() * height;
+    least += c * lowest_[i] * height;
+    most += c * highest_[i] * height;
+    y_.push_back(y.value());
+    least_.push_back(least.value());
+    most_.push_back(most.value());
+  }
+  if (!exponential_) return;
+  y_.back() = stretch_[0] * layers_.top();
+  exponential_->amplitude *= rate_factor_[0];
+  exponential_->decay *= stretch_[0];
+}
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::state_of(const Scalar& share, std::size_t k) const {
@@ -85,60 +128,15 @@ Scalar CanonicalForm<Scalar>::share_of(const Scalar& u, std::size_t k) const {
   return is_concave_ ? highest_[i] - u * width_[i] : lowest_[i] + u * width_[i];
 }
 
-template <Real Scalar>
-Scene<Scalar> CanonicalForm<Scalar>::make_image() {
-  std::vector<Scalar> depth;
-  for (const Flux<Scalar>& flux : scene_.fluxes()) {
-    const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, flux);
-    lowest_.push_back(range.lowest);
-    highest_.push_back(range.highest);
-    width_.push_back(range.highest - range.lowest);
-    depth.push_back(depth_of<Scalar>(flux));
-  }
-  SceneSpec<Scalar> spec;
-  Piecewise<Scalar> rates;
-  CompensatedSum<Scalar> y, least, most;
-  for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
-    const std::size_t i = layers_.flux_index(k);
-    const Scalar c = layers_.solid_fraction(k), height = layers_.boundary(k + 1) - layers_.boundary(k);
-    stretch_.push_back(c * width_[i]);
-    rate_factor_.push_back(Scalar(4) * depth[i] * c);
-    rates.values.push_back(rate_factor_.back() * layers_.shear_rate(k));
-    if (k == 0) {
-      y += stretch_[0] * layers_.bottom();
-      y_ = {y.value()};
-      least_ = most_ = {Scalar(0)};
-    } else {
-      rates.breaks.push_back(y_.back());
-    }
-    y += stretch_.back() * height;
-    least += c * lowest_[i] * height;
-    most += c * highest_[i] * height;
-    y_.push_back(y.value());
-    least_.push_back(least.value());
-    most_.push_back(most.value());
-  }
-  if (scene_.is_layered() || !keeps_model_) {
-    spec.shear_rate = std::move(rates);
-  } else {
-    y_.back() = stretch_[0] * layers_.top();
-    spec.shear_rate = stretched(scene_.shear_rate(), stretch_[0], rate_factor_[0]);
-  }
-  spec.scale = scene_.scale();
-  spec.bottom = y_.front();
-  spec.top = y_.back();
-  set_initial_data(spec);
-  return Scene<Scalar>(std::move(spec));
-}
-
 /// The initial data, cut wherever the flux changes as well.
 template <Real Scalar>
-void CanonicalForm<Scalar>::set_initial_data(SceneSpec<Scalar>& spec) {
-  const std::vector<Scalar>& jumps = scene_.initial_breaks();
+void CanonicalForm<Scalar>::set_initial_data() {
+  const std::vector<Scalar>& jumps = scene_->initial_breaks();
+  const Scalar &bottom = y_.front(), &top = y_.back();
   std::size_t piece = 0, k = 0;
   const auto drop_break = [&] {
-    if (spec.initial_breaks.empty()) return;
-    spec.initial_breaks.pop_back();
+    if (initial_breaks_.empty()) return;
+    initial_breaks_.pop_back();
     initial_break_.pop_back();
   };
   while (true) {
@@ -147,25 +145,25 @@ void CanonicalForm<Scalar>::set_initial_data(SceneSpec<Scalar>& spec) {
     if (is_same) {
       drop_break();  // an interface inside the piece
     } else {
-      const Scalar u = state_of(scene_.initial_values()[piece], k);
-      spec.initial_values.push_back(std::min(Scalar(1), std::max(Scalar(0), u)));
+      const Scalar u = state_of(scene_->initial_values()[piece], k);
+      initial_values_.push_back(std::min(Scalar(1), std::max(Scalar(0), u)));
       initial_piece_.push_back(piece);
       initial_layer_.push_back(k);
     }
-    const bool last_piece = piece == jumps.size(), last_layer = k + 1 == n_layers();
+    const bool last_piece = piece == jumps.size(), last_layer = k + 1 == layers_.n_layers();
     if (last_piece && last_layer) return;
     const bool is_jump = !last_piece && (last_layer || !(layers_.boundary(k + 1) < jumps[piece]));
     const bool is_interface = !last_layer && (last_piece || !(jumps[piece] < layers_.boundary(k + 1)));
     const Scalar at = is_interface ? y_[k + 1] : image_of(jumps[piece]);
-    if (!(at < spec.top)) return;
-    if (!(at > (spec.initial_breaks.empty() ? spec.bottom : spec.initial_breaks.back()))) {
-      spec.initial_values.pop_back();  // a piece too thin for two numbers of the image
+    if (!(at < top)) return;
+    if (!(at > (initial_breaks_.empty() ? bottom : initial_breaks_.back()))) {
+      initial_values_.pop_back();  // a piece too thin for two numbers of the image
       initial_piece_.pop_back();
       initial_layer_.pop_back();
       drop_break();
     }
-    if (at > spec.bottom) {
-      spec.initial_breaks.push_back(at);
+    if (at > bottom) {
+      initial_breaks_.push_back(at);
       initial_break_.push_back(is_jump ? piece : kNone);
     }
     piece += is_jump ? 1 : 0;
@@ -173,17 +171,33 @@ void CanonicalForm<Scalar>::set_initial_data(SceneSpec<Scalar>& spec) {
   }
 }
 
+/// No more than there is room for: where all of the bed is pure, that is the mass to the bit.
+template <Real Scalar>
+Scalar CanonicalForm<Scalar>::image_mass() const {
+  CompensatedSum<Scalar> sum;
+  for (std::size_t j = 0; j < initial_values_.size(); ++j) {
+    const Scalar& lo = j == 0 ? y_.front() : initial_breaks_[j - 1];
+    const Scalar& hi = j == initial_breaks_.size() ? y_.back() : initial_breaks_[j];
+    sum += (hi - lo) * initial_values_[j];
+  }
+  const Scalar height = y_.back() - y_.front();
+  const auto [least, most] = std::minmax_element(initial_values_.begin(), initial_values_.end());
+  return std::clamp(sum.value(), Scalar(*least * height), Scalar(*most * height));
+}
+
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::image_of(const Scalar& z) const {
+  if (is_identity_) return z;
   if (!(z > layers_.bottom())) return y_.front();
   if (!(z < layers_.top())) return y_.back();
-  if (n_layers() == 1) return std::min(y_.back(), std::max(y_.front(), Scalar(stretch_[0] * z)));
+  if (layers_.n_layers() == 1) return std::min(y_.back(), std::max(y_.front(), Scalar(stretch_[0] * z)));
   const std::size_t k = layers_.layer_at(z);
   return std::min(y_[k + 1], Scalar(y_[k] + stretch_[k] * (z - layers_.boundary(k))));
 }
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::height_of(const Scalar& y) const {
+  if (is_identity_) return y;
   const auto it = std::upper_bound(y_.begin() + 1, y_.end() - 1, y);
   const auto k = static_cast<std::size_t>(it - y_.begin()) - 1;
   const Scalar z = layers_.boundary(k) + (y - y_[k]) / stretch_[k];
@@ -192,15 +206,17 @@ Scalar CanonicalForm<Scalar>::height_of(const Scalar& y) const {
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::phi_of(const Scalar& z, const Scalar& u) const {
+  if (is_identity_) return u;
   const std::size_t k = layers_.layer_at(z), i = layers_.flux_index(k);
   const Scalar share = is_concave_ ? highest_[i] - width_[i] * u : lowest_[i] + width_[i] * u;
   const Scalar kept = std::min(highest_[i], std::max(lowest_[i], share));
-  if (!scene_.spec().solid_fraction) return kept;
-  return (scene_.is_layered() ? layers_.solid_fraction(k) : scene_.solid_fraction_at(z)) * kept;
+  if (!scene_->spec().solid_fraction) return kept;
+  return (scene_->is_layered() ? layers_.solid_fraction(k) : scene_->solid_fraction_at(z)) * kept;
 }
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::amount_of(const Scalar& z, const Scalar& amount) const {
+  if (is_identity_) return amount;
   const std::size_t k = layers_.layer_at(z), i = layers_.flux_index(k);
   const Scalar inside = layers_.solid_fraction(k) * (z - layers_.boundary(k));
   const Scalar least = least_[k] + inside * lowest_[i], most = most_[k] + inside * highest_[i];
@@ -210,6 +226,7 @@ Scalar CanonicalForm<Scalar>::amount_of(const Scalar& z, const Scalar& amount) c
 
 template <Real Scalar>
 Profile<Scalar> CanonicalForm<Scalar>::image_of(const Profile<Scalar>& profile) const {
+  if (is_identity_) return profile;
   std::vector<Scalar> y{y_.front()}, below, above;
   std::size_t k = 0;
   for (std::size_t cell = 0; cell < profile.n_cells(); ++cell) {
@@ -225,7 +242,7 @@ Profile<Scalar> CanonicalForm<Scalar>::image_of(const Profile<Scalar>& profile) 
       y.push_back(std::max(y.back(), image_of(hi)));
     };
     Scalar lo = from;
-    for (; k + 1 < n_layers() && !(to < layers_.boundary(k + 1)); ++k) {
+    for (; k + 1 < layers_.n_layers() && !(to < layers_.boundary(k + 1)); ++k) {
       add(lo, layers_.boundary(k + 1));
       lo = layers_.boundary(k + 1);
     }

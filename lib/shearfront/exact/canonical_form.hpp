@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "shearfront/model/depth/model.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
@@ -14,39 +17,47 @@ namespace shearfront::exact {
 ///
 /// With the states of layer k between c lo and c hi, w = hi - lo, put
 ///
-///     u = (phi / c - lo) / w   for convex fluxes,   u = (hi - phi / c) / w   for concave ones,   dy = c w
-///     dz:
+///     u = (phi / c - lo) / w   for convex fluxes,   u = (hi - phi / c) / w   for concave ones,   dy = c w dz:
 ///
 /// then u_t + (rate_k c_k g_k(u))_y = 0 with g_k(u) = +-f_k <= 0, and int u dy = +-(int phi dz - int c lo dz)
 /// (int c hi dz for concave ones). The capacity rate_k c_k |f_k(m_k)| of a layer is that of the quadratic
-/// flux with the shear rate 4 c_k |f_k(m_k)| a_k sqrt(T_k): these are the shear rates of image(). A parabola
-/// (quadratic, packed, lwr) thereby IS the quadratic flux, and image() a plain scene with the same solution
-/// u(y, t).
+/// flux with the rate 4 c_k |f_k(m_k)| s a_k sqrt(T_k): these are rates(). A parabola thereby IS the quadratic flux, and
+/// the scene of one quadratic flux with c = T = 1 its own canonical form (is_identity()).
 ///
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
-/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. A smooth
-/// scene is represented by the layers it is given, unless only a(z) varies in a bed of one parabola: then
-/// image() has the same kind of shear rate (keeps_model()). Precondition: refusal(scene) is empty.
+/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. A smooth scene is
+/// represented by a staircase of layers, unless a(z) alone varies in a bed of one parabola and is exponential: then it
+/// is one piece, exponential(). Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   /// `layers`: about how many for a smooth scene.
-  CanonicalForm(const Scene<Scalar>& scene, std::size_t layers);
+  CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers);
 
-  [[nodiscard]] const Scene<Scalar>& image() const { return image_; }
+  [[nodiscard]] const Scene<Scalar>& scene() const { return *scene_; }
+  [[nodiscard]] bool is_identity() const { return is_identity_; }
   [[nodiscard]] bool is_concave() const { return is_concave_; }
   /// Whether all fluxes are parabolas.
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
-  [[nodiscard]] bool keeps_model() const { return keeps_model_; }
-  /// Layers in the heights of the scene; one if keeps_model() and a is smooth.
+  /// Whether it represents the scene without approximation.
+  [[nodiscard]] bool is_exact() const { return scene_->is_layered() || exponential_; }
+  /// a(z) in the coordinates of the image, times the scale s; one layer then.
+  [[nodiscard]] const std::optional<ExponentialPiece<Scalar>>& exponential() const { return exponential_; }
+  /// Layers in the heights of the scene.
   [[nodiscard]] const LayerStack<Scalar>& layers() const { return layers_; }
-  [[nodiscard]] std::size_t n_layers() const { return layers_.n_layers(); }
+
+  /// The image: heights of bottom, interfaces and top; 4 times the capacity of each layer; initial data; int u dy.
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const { return y_; }
+  [[nodiscard]] const std::vector<Scalar>& rates() const { return rates_; }
+  [[nodiscard]] const std::vector<Scalar>& initial_breaks() const { return initial_breaks_; }
+  [[nodiscard]] const std::vector<Scalar>& initial_values() const { return initial_values_; }
+  [[nodiscard]] const Scalar& mass() const { return mass_; }
 
   /// dy / dz in layer k.
   [[nodiscard]] const Scalar& stretch(std::size_t k) const { return stretch_[k]; }
-  /// Shear rate of image() in layer k over a: the factor 4 c |f(m)| (times sqrt(T)).
+  /// rates() in layer k over s a sqrt(T): the factor 4 c |f(m)|.
   [[nodiscard]] const Scalar& rate_factor(std::size_t k) const { return rate_factor_[k]; }
   /// +1 for convex fluxes, -1 for concave ones: the sign of d(int phi dz) / d(int u dy).
   [[nodiscard]] Scalar sign() const { return Scalar(is_concave_ ? -1 : 1); }
@@ -72,21 +83,22 @@ class CanonicalForm {
   [[nodiscard]] Profile<Scalar> image_of(const Profile<Scalar>& profile) const;
 
  private:
-  [[nodiscard]] static LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers);
-  [[nodiscard]] Scene<Scalar> make_image();
-  void set_initial_data(SceneSpec<Scalar>& spec);
+  void set_identity();
+  void set_layers();
+  void set_initial_data();
+  [[nodiscard]] Scalar image_mass() const;
 
-  Scene<Scalar> scene_;
-  bool is_concave_, is_parabolic_, keeps_model_;
+  std::shared_ptr<const Scene<Scalar>> scene_;
+  bool is_identity_, is_concave_, is_parabolic_;
+  std::optional<ExponentialPiece<Scalar>> exponential_;
   LayerStack<Scalar> layers_;
   std::vector<Scalar> lowest_, highest_, width_;  ///< per flux
   std::vector<Scalar> stretch_, rate_factor_;     ///< per layer
-  std::vector<Scalar> y_, least_,
-      most_;  ///< per boundary: image, int c lo dz and int c hi dz from the bottom
+  std::vector<Scalar> y_, rates_;
+  std::vector<Scalar> least_, most_;  ///< per boundary: int c lo dz and int c hi dz from the bottom
+  std::vector<Scalar> initial_breaks_, initial_values_;
   std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
-  Scene<Scalar> image_;
+  Scalar mass_{0};
 };
-
-extern template class CanonicalForm<double>;
 
 }  // namespace shearfront::exact

@@ -2,11 +2,11 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/numeric/sum.hpp"
-#include "shearfront/scene/scene.hpp"
 
 namespace shearfront::exact {
 
@@ -23,9 +23,9 @@ struct Cells {
   std::vector<Scalar> x, M, M_low, phi;
   std::vector<std::size_t> layer, first;
 
-  Cells(const Scene<Scalar>& scene, const std::vector<Scalar>& boundaries) {
-    const auto& jumps = scene.initial_breaks();
-    const auto& values = scene.initial_values();
+  /// The states `values` between the heights `jumps`, in layers between `boundaries`.
+  Cells(const std::vector<Scalar>& jumps, const std::vector<Scalar>& values,
+        const std::vector<Scalar>& boundaries) {
     x.reserve(jumps.size() + boundaries.size());
     std::merge(jumps.begin(), jumps.end(), boundaries.begin(), boundaries.end(), std::back_inserter(x));
     x.erase(std::unique(x.begin(), x.end()), x.end());

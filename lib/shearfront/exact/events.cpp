@@ -2,146 +2,213 @@
 #include "shearfront/exact/events.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/final_time.hpp"
-#include "shearfront/exact/first_wave.hpp"
-#include "shearfront/exact/general_first_wave.hpp"
-#include "shearfront/exact/medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
 
 namespace {
 
+using exact::CanonicalForm;
+using exact::FinalAmount;
 using exact::Medium;
+using exact::Path;
+using exact::PathKind;
 
-/// Heights of the lowest and highest initial jump where phi really changes.
+/// Whether the initial states equal `pure` on the whole of (from, to); decided from the data, not from sums.
 template <Real Scalar>
-struct RealJumps {
-  std::optional<Scalar> lowest, highest;
-  explicit RealJumps(const Scene<Scalar>& scene) {
-    const auto& values = scene.initial_values();
-    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-      if (values[i] == values[i + 1]) continue;
-      if (!lowest) lowest = scene.initial_breaks()[i];
-      highest = scene.initial_breaks()[i];
-    }
-  }
-};
-
-/// Whether the initial phi equals `pure` on the whole of (from, to); decided from the data, not from sums.
-template <Real Scalar>
-bool is_pure(const Scene<Scalar>& scene, const Scalar& from, const Scalar& to, int pure) {
-  const auto& jumps = scene.initial_breaks();
+bool is_pure(const CanonicalForm<Scalar>& form, const Scalar& from, const Scalar& to, int pure) {
+  const auto& jumps = form.initial_breaks();
   for (std::size_t i = 0; i <= jumps.size(); ++i) {
-    const Scalar& lo = i == 0 ? scene.bottom() : jumps[i - 1];
-    const Scalar& hi = i == jumps.size() ? scene.top() : jumps[i];
-    if (lo < to && hi > from && scene.initial_values()[i] != Scalar(pure)) return false;
+    const Scalar& lo = i == 0 ? form.boundaries().front() : jumps[i - 1];
+    const Scalar& hi = i == jumps.size() ? form.boundaries().back() : jumps[i];
+    if (lo < to && hi > from && form.initial_values()[i] != Scalar(pure)) return false;
   }
   return true;
 }
 
 /// 1s below, 0s above, or only one of them.
 template <Real Scalar>
-bool is_steady(const Scene<Scalar>& scene) {
+bool is_steady(const std::vector<Scalar>& states) {
   bool seen_zero = false;
-  for (const Scalar& phi : scene.initial_values()) {
-    if (phi == Scalar(0)) {
+  for (const Scalar& u : states) {
+    if (u == Scalar(0)) {
       seen_zero = true;
-    } else if (phi != Scalar(1) || seen_zero) {
+    } else if (u != Scalar(1) || seen_zero) {
       return false;
     }
   }
   return true;
 }
 
+/// First time at which M(z, t) reaches its final amount.
+///
+/// Finds the root of N(t) = amount, N the least value over paths that do not start at a wall: before the root
+/// N = M is increasing with slope H, after it N > amount (or no such path is left). Newton with the known
+/// slope, kept inside a bracket, on the shortfall itself: where H is small, the difference of two rounded
+/// amounts would cost u (top - bottom) / H of the time. For the same reason a path with H = 0 that ties with
+/// the amount (a pure region that reached z before the wall's own path; `tie` tells it from one that misses a
+/// real volume) makes way for the best moving one, whose shortfall decides. Precondition: M(z, 0) < amount.
+/// `start` is any positive guess. Cost: about 10 queries.
 template <Real Scalar>
-Scalar last_time(const Scene<Scalar>& scene, const Medium<Scalar>& medium, const Scalar& z,
-                 const Scalar& mass, bool is_straight) {
-  const Scalar steady_height = std::min(Scalar(scene.bottom() + mass), scene.top());
-  const auto amount = z < steady_height   ? exact::FinalAmount::full_below
-                      : z > steady_height ? exact::FinalAmount::all_mass
-                                          : exact::FinalAmount::both;
-  const Scalar start =
-      std::max(medium.pure_travel_time(scene.bottom(), z), medium.pure_travel_time(scene.top(), z));
-  const Scalar height = scene.top() - scene.bottom();
-  const Scalar t = exact::final_time(medium, z, amount, start, height);
-  return is_straight ? exact::final_time_of_contacts(medium, z, amount, t, height) : t;
+Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
+                                const Scalar& start, const Scalar& height) {
+  const Scalar u = unit_roundoff<Scalar>();
+  const Scalar tie = Scalar(64) * u * height;
+  const auto shortfall = [&](const Path<Scalar>& path, const Scalar& time) {
+    return path.kind == PathKind::none ? Scalar(0) : medium.shortfall(path, z, time, amount);
+  };
+  Scalar lo(0), hi = infinity<Scalar>(), t = start;
+  constexpr int kMaxQueries = 4000;  // bisection of the whole exponent range
+  for (int n = 0; n < kMaxQueries; ++n) {
+    Path<Scalar> best = medium.best_free(z, t, infinity<Scalar>());
+    Scalar missing = shortfall(best, t);
+    if (best.kind != PathKind::none && best.H == 0 && missing <= tie) {
+      best = medium.best_moving(z, t);
+      missing = shortfall(best, t);
+    }
+    const bool none = best.kind == PathKind::none;
+    (missing > 0 ? lo : hi) = t;
+    Scalar next = t;
+    if (!none && best.H > 0) {
+      const Scalar step = missing / best.H;
+      next = t + step;
+      const Scalar size = step < 0 ? Scalar(-step) : step;
+      if (size <= Scalar(4) * u * t) return next;
+    }
+    if (!(next > lo && next < hi)) {
+      if (!is_finite(hi)) {
+        next = Scalar(2) * t;
+      } else if (lo > 0 && hi > Scalar(4) * lo) {
+        using std::sqrt;
+        next = sqrt(lo) * sqrt(hi);
+      } else {
+        next = lo + (hi - lo) / Scalar(2);
+      }
+    }
+    if (is_finite(hi) && hi - lo <= Scalar(4) * u * hi) return hi;
+    t = next;
+  }
+  return t;
 }
 
-/// The times of a scene of the quadratic flux, or of the canonical form of another one, in the medium given;
-/// `is_straight`: that one has straight branches.
+/// The same for fluxes with straight branches: pure states then travel with the contacts behind them, and a
+/// moving path that ties with one at rest says nothing. M meets its final amount with a slope that is no
+/// smaller than that of a contact, so M itself tells the time, to `tie` over that slope. Precondition:
+/// `late` is no earlier. Cost: 60 queries.
 template <Real Scalar>
-Timeline<Scalar> plain_timeline(const Scene<Scalar>& scene, const Medium<Scalar>* medium,
-                                bool is_straight = false) {
-  Timeline<Scalar> events;
-  events.mass = scene.mass();
-  events.steady_height = std::min(Scalar(scene.bottom() + events.mass), scene.top());
-
-  const RealJumps<Scalar> jumps(scene);
-  const Scalar& at_bottom = scene.initial_values().front();
-  const Scalar& at_top = scene.initial_values().back();
-  if (at_bottom == Scalar(0)) {
-    if (jumps.lowest) events.t0 = medium->pure_travel_time(*jumps.lowest, scene.bottom());
-  } else if (at_bottom != Scalar(1)) {
-    events.t0 = Scalar(0);
+Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
+                                            const Scalar& late, const Scalar& height) {
+  const Scalar u = unit_roundoff<Scalar>(), tie = Scalar(64) * u * height;
+  const auto is_reached = [&](const Scalar& time) {
+    const Path<Scalar> best = medium.best_free(z, time, infinity<Scalar>());
+    return best.kind == PathKind::none || !(medium.shortfall(best, z, time, amount) > tie);
+  };
+  Scalar lo(0), hi = late;
+  while (hi - lo > Scalar(4) * u * hi) {
+    const Scalar t = lo + (hi - lo) / Scalar(2);
+    if (!(t > lo && t < hi)) break;
+    (is_reached(t) ? hi : lo) = t;
   }
-  if (at_top == Scalar(1)) {
-    if (jumps.highest) events.t1 = medium->pure_travel_time(*jumps.highest, scene.top());
-  } else if (at_top != Scalar(0)) {
-    events.t1 = Scalar(0);
-  }
-  events.t_star = is_steady(scene)
-                      ? Scalar(0)
-                      : last_time(scene, *medium, events.steady_height, events.mass, is_straight);
+  return hi;
+}
 
-  if (!scene.is_layered()) return events;
-  const auto add = [&](const Scalar& z, std::optional<Scalar> first) {
-    typename Timeline<Scalar>::InterfaceTimes times{z, std::move(first), {}};
-    // Only 1 below or only 0 above: no flux ever passes z, which acts as a wall; the first wave there is the
+/// Whether pure states travel with contacts: a branch of a flux is straight.
+template <Real Scalar>
+bool has_contacts(const Scene<Scalar>& scene) {
+  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<Scalar>& flux) {
+    return std::visit(
+        [](const auto& f) {
+          const Scalar m = f.extrema().front();
+          return !f.kIsParabola && (is_straight(f, f.range().lowest, m) || is_straight(f, m, f.range().highest));
+        },
+        flux);
+  });
+}
+
+/// The times of a canonical form, at its heights.
+template <Real Scalar>
+class Events {
+ public:
+  Events(const CanonicalForm<Scalar>& form, const Medium<Scalar>& medium)
+      : form_(form), medium_(medium), has_contacts_(has_contacts(form.scene())) {}
+
+  Timeline<Scalar> all() const {
+    Timeline<Scalar> events;
+    events.t0 = at_wall(false);
+    events.t1 = at_wall(true);
+    events.t_star = is_steady(form_.initial_values()) ? Scalar(0) : last_time(medium_.steady_height());
+    if (!form_.scene().is_layered()) return events;
+    for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i) events.interfaces.push_back(at_interface(i));
+    return events;
+  }
+
+ private:
+  /// First wave at the bottom or the top: of the nearest jump where the states really change, if the state at the wall
+  /// is the one that does not stay there.
+  std::optional<Scalar> at_wall(bool is_top) const {
+    const auto& states = form_.initial_values();
+    const Scalar& state = is_top ? states.back() : states.front();
+    if (state == Scalar(is_top ? 0 : 1)) return std::nullopt;
+    if (state != Scalar(is_top ? 1 : 0)) return Scalar(0);
+    for (std::size_t n = 0; n + 1 < states.size(); ++n) {
+      const std::size_t i = is_top ? states.size() - 2 - n : n;
+      if (states[i] != states[i + 1])
+        return medium_.pure_travel_time(form_.initial_breaks()[i], is_top ? medium_.top() : medium_.bottom());
+    }
+    return std::nullopt;
+  }
+
+  typename Timeline<Scalar>::InterfaceTimes at_interface(std::size_t i) const {
+    const Scalar& y = form_.boundaries()[i];
+    typename Timeline<Scalar>::InterfaceTimes times{form_.layers().boundary(i), medium_.first_wave(i), {}};
+    // Only 1 below or only 0 above: no flux ever passes y, which acts as a wall; the first wave there is the
     // last.
-    if (is_pure(scene, scene.bottom(), z, 1) || is_pure(scene, z, scene.top(), 0)) {
+    if (is_pure(form_, medium_.bottom(), y, 1) || is_pure(form_, y, medium_.top(), 0)) {
       times.last = times.first;
     } else {
-      times.last = last_time(scene, *medium, z, events.mass, is_straight);
+      times.last = last_time(y);
       // The same wave can be the first and the last: rounding must not order them.
       if (times.first && *times.last < *times.first) times.last = times.first;
     }
-    events.interfaces.push_back(std::move(times));
-  };
-  if (const auto* layered = dynamic_cast<const exact::LayeredMedium<Scalar>*>(medium))
-    for (std::size_t i = 1; i < layered->layers().n_layers(); ++i)
-      add(layered->layers().boundary(i), exact::first_wave(*layered, i, events.mass));
-  if (const auto* general = dynamic_cast<const exact::GeneralMedium<Scalar>*>(medium))
-    for (std::size_t i = 1; i < general->layers().n_layers(); ++i)
-      add(general->layers().boundary(i), exact::first_wave(*general, i, events.mass, *events.t_star));
-  return events;
-}
+    return times;
+  }
+
+  Scalar last_time(const Scalar& y) const {
+    const Scalar steady_height = medium_.steady_height();
+    const auto amount = y < steady_height   ? FinalAmount::full_below
+                        : y > steady_height ? FinalAmount::all_mass
+                                            : FinalAmount::both;
+    const Scalar start = std::max(medium_.pure_travel_time(medium_.bottom(), y),
+                                  medium_.pure_travel_time(medium_.top(), y));
+    const Scalar height = medium_.top() - medium_.bottom();
+    const Scalar t = final_time(medium_, y, amount, start, height);
+    return has_contacts_ ? final_time_of_contacts(medium_, y, amount, t, height) : t;
+  }
+
+  const CanonicalForm<Scalar>& form_;
+  const Medium<Scalar>& medium_;
+  bool has_contacts_;
+};
 
 }  // namespace
 
 template <Real Scalar>
 Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
-  if (scene.is_plain()) {
-    const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::kDefaultLayers;
-    return plain_timeline(scene, exact::make_medium(scene, n).get());
-  }
-  const ExactSolution<Scalar> solution(scene, {options.layers});
-  const exact::CanonicalForm<Scalar>& form = *solution.canonical_form();
-  const bool is_straight =
-      std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
-                  [](const Flux<Scalar>& flux) { return std::holds_alternative<Triangular<Scalar>>(flux); });
-  Timeline<Scalar> events = plain_timeline(form.image(), &solution.medium(), is_straight);
-  events.mass = solution.mass();
-  events.steady_height = solution.steady_height();
-  if (!scene.is_layered()) {
-    events.interfaces.clear();
-    events.steady_height = scene.steady_height();  // of the smooth c, not of its staircase
-  }
-  for (std::size_t i = 0; i < events.interfaces.size(); ++i)
-    events.interfaces[i].z = form.layers().boundary(i + 1);
+  const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::default_layers(scene);
+  const CanonicalForm<Scalar> form(std::make_shared<const Scene<Scalar>>(scene), n);
+  const auto medium = exact::make_medium(form);
+  Timeline<Scalar> events = Events<Scalar>(form, *medium).all();
+  events.mass = scene.mass();
+  // Of a smooth c, not of its staircase.
+  events.steady_height = scene.is_layered() || form.is_identity() ? form.height_of(medium->steady_height())
+                                                                  : scene.steady_height();
   return events;
 }
 

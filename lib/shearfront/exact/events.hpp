@@ -23,8 +23,7 @@ struct TimelineOptions {
 /// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
 /// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
 /// M: the change before it is reported); tabulated a: order 3/2 in the layer height. Only jumps of a
-/// layered scene are listed as interfaces; where a flux is no parabola a shock that comes first is found by
-/// bisection (exact/general_first_wave.hpp). Errors: none. Cost: O((jumps + layers) * layers) for first
+/// layered scene are listed as interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first
 /// arrivals, some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two
 /// layers.
 template <Real Scalar>

@@ -17,41 +17,34 @@ namespace {
 
 using Node = exact::PathNode<double>;
 
-/// c g(x) dz in the coordinates of the solution without a canonical form: g(share of u) times d(solid) / dy.
+/// c g(x) dz in the coordinates of the canonical form: g(share of u) times d(solid) / dy.
 class Integrand {
  public:
-  Integrand(const ExactSolution<double>& exact, const ShareFunction& g)
-      : form_(exact.canonical_form()), g_(&g) {}
+  Integrand(const exact::CanonicalForm<double>& form, const ShareFunction& g) : form_(form), g_(g) {}
 
-  /// The layer that holds [lo, hi]; a staircase of the solution may have more of them than the canonical form.
-  void set_layer(double lo, double hi) {
-    if (!form_) return;
-    layer_ = form_->n_layers() == 1 ? 0 : form_->layers().layer_at(form_->height_of(lo + (hi - lo) / 2));
-    solid_ = 1 / std::abs(form_->state_slope(layer_));
+  void set_layer(std::size_t k) {
+    layer_ = k;
+    solid_ = 1 / std::abs(form_.state_slope(k));
   }
-  [[nodiscard]] double operator()(double u) const {
-    return g_->value(form_ ? form_->share_of(u, layer_) : u) * solid_;
-  }
+  [[nodiscard]] double operator()(double u) const { return g_.value(form_.share_of(u, layer_)) * solid_; }
   /// The states u where the slope of g jumps, in any order.
   [[nodiscard]] std::vector<double> kinks() const {
-    std::vector<double> all = g_->kinks;
-    if (form_)
-      for (double& x : all) x = form_->state_of(x, layer_);
+    std::vector<double> all = g_.kinks;
+    for (double& x : all) x = form_.state_of(x, layer_);
     return all;
   }
 
  private:
-  const exact::CanonicalForm<double>* form_;
-  const ShareFunction* g_;
+  const exact::CanonicalForm<double>& form_;
+  const ShareFunction& g_;
   std::size_t layer_ = 0;
   double solid_ = 1;
 };
 
 class ShareIntegral {
  public:
-  /// `exact` has no canonical form itself; `is_staircase`: a rule of low order will do.
-  ShareIntegral(const ExactSolution<double>& exact, Integrand integrand, double t, bool is_staircase)
-      : exact_(exact), integrand_(integrand), t_(t), is_staircase_(is_staircase) {}
+  ShareIntegral(const ExactSolution<double>& exact, const ShareFunction& g, double t)
+      : exact_(exact), integrand_(exact.form(), g), t_(t) {}
 
   double run() {
     const bool is_initial = t_ == 0;
@@ -59,7 +52,7 @@ class ShareIntegral {
     const exact::SmoothPieces<double> pieces(exact_, t_);
     const std::vector<double>& z = pieces.boundaries();
     for (std::size_t k = 0; k + 1 < z.size(); ++k) {
-      integrand_.set_layer(z[k], z[k + 1]);
+      integrand_.set_layer(k);
       kinks_ = integrand_.kinks();
       const bool is_top = k + 2 == z.size();
       pieces.split(
@@ -76,7 +69,7 @@ class ShareIntegral {
     const std::vector<double>& z = pieces.boundaries();
     std::size_t i = 0;
     for (std::size_t k = 0; k + 1 < z.size(); ++k) {
-      integrand_.set_layer(z[k], z[k + 1]);
+      integrand_.set_layer(k);
       double lo = z[k];
       while (i < profile.n_cells()) {
         const double hi = std::min(z[k + 1], profile.z()[i + 1]);
@@ -113,18 +106,21 @@ class ShareIntegral {
       add(lo, b.z);
   }
 
+  [[nodiscard]] double state_at(double y) const {
+    return exact_.image_value(exact_.medium().best_path(y, t_), y).phi;
+  }
   [[nodiscard]] double height_of(double phi, const Node& a, const Node& b) const {
     std::uintmax_t n = 100;
     const auto [lo, hi] = boost::math::tools::toms748_solve(
-        [&](double z) { return exact_.phi(z, t_) - phi; }, a.z, b.z, a.phi - phi, b.phi - phi,
+        [&](double z) { return state_at(z) - phi; }, a.z, b.z, a.phi - phi, b.phi - phi,
         [&](double x, double y) { return y - x <= 1e-13 * (b.z - a.z); }, n);
     return lo + (hi - lo) / 2;
   }
 
   void add(double lo, double hi) {
     if (!(hi > lo)) return;
-    const auto value = [&](double z) { return integrand_(exact_.phi(z, t_)); };
-    if (is_staircase_) {
+    const auto value = [&](double z) { return integrand_(state_at(z)); };
+    if (!exact_.is_exact()) {  // a rule of low order will do
       // Inside, for the ends may belong to the next piece.
       const double middle = lo + (hi - lo) / 2, half = (hi - lo) / 2 * std::sqrt(0.6);
       sum_ += (hi - lo) * ((5 * value(middle - half) + 8 * value(middle) + 5 * value(middle + half)) / 18);
@@ -132,7 +128,7 @@ class ShareIntegral {
     }
     // Relative to the whole bed: in a short piece the rounding of phi would be taken for structure.
     constexpr unsigned kMostHalvings = 8;
-    const double tolerance = 1e-12 * ((exact_.scene().top() - exact_.scene().bottom()) / (hi - lo));
+    const double tolerance = 1e-12 * ((exact_.medium().top() - exact_.medium().bottom()) / (hi - lo));
     sum_ += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(value, lo, hi, kMostHalvings,
                                                                           std::min(tolerance, 1e-3));
   }
@@ -140,7 +136,6 @@ class ShareIntegral {
   const ExactSolution<double>& exact_;
   Integrand integrand_;
   double t_;
-  bool is_staircase_;
   std::vector<double> kinks_;
   CompensatedSum<double> sum_;
 };
@@ -149,8 +144,7 @@ class ShareIntegral {
 
 double share_integral(const ExactSolution<double>& exact, double t, const ShareFunction& g) {
   SHEARFRONT_EXPECTS(t >= 0 && g, "a time and a function");
-  const ExactSolution<double>& image = exact.image() ? *exact.image() : exact;
-  return ShareIntegral(image, Integrand(exact, g), t, !exact.is_exact()).run();
+  return ShareIntegral(exact, g, t).run();
 }
 
 }  // namespace shearfront

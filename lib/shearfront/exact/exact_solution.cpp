@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
-#include "shearfront/exact/general_medium.hpp"
-#include "shearfront/exact/medium.hpp"
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
-
-using exact::Path;
-using exact::PathKind;
 
 template <Real Scalar>
 std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
@@ -26,155 +22,101 @@ std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
 }
 
 template <Real Scalar>
-ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options)
-    : scene_(scene), mass_(scene.mass()), steady_height_(scene.bottom() + mass_) {
+auto ExactSolution<Scalar>::represent(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers)
+    -> Representation {
+  Representation of;
+  of.form = std::make_shared<const exact::CanonicalForm<Scalar>>(std::move(scene), layers);
+  of.medium = exact::make_medium(*of.form);
+  return of;
+}
+
+template <Real Scalar>
+ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options) : mass_(scene.mass()) {
+  SHEARFRONT_EXPECTS(exact::refusal(scene).empty(), "a scene with an exact solution");
   const std::size_t n = options.layers > 0 ? options.layers : default_layers(scene);
-  if (!scene.is_plain()) {
-    SHEARFRONT_EXPECTS(exact::refusal(scene).empty(), "a scene with an exact solution");
-    form_ = std::make_shared<const exact::CanonicalForm<Scalar>>(scene, n);
-    image_.reset(new ExactSolution(*form_, n));
-    medium_ = image_->medium_;
-    n_layers_ = image_->n_layers_;
-    steady_height_ = form_->height_of(image_->steady_height_);
-    if (form_->keeps_model()) return;
-    coarse_form_ = std::make_shared<const exact::CanonicalForm<Scalar>>(scene, (n + 1) / 2);
-    coarse_image_.reset(new ExactSolution(*coarse_form_, n));
-    return;
-  }
-  if (steady_height_ > scene.top()) steady_height_ = scene.top();
-  medium_ = exact::make_medium(scene, n);
-  if (const auto* layered = dynamic_cast<const exact::LayeredMedium<Scalar>*>(medium_.get()))
-    n_layers_ = layered->layers().n_layers();
-  if (!exact::has_exact_medium(scene)) coarse_ = exact::make_medium(scene, (n + 1) / 2);
+  const auto shared = std::make_shared<const Scene<Scalar>>(scene);
+  fine_ = represent(shared, n);
+  if (!form().is_exact()) coarse_ = represent(shared, (n + 1) / 2);
+  steady_height_ = form().height_of(medium().steady_height());
 }
 
 template <Real Scalar>
-ExactSolution<Scalar>::ExactSolution(const exact::CanonicalForm<Scalar>& form, std::size_t layers)
-    : scene_(form.image()), mass_(scene_.mass()), steady_height_(scene_.bottom() + mass_) {
-  if (form.is_parabolic()) {
-    *this = ExactSolution(scene_, Options{layers});
-    return;
-  }
-  if (steady_height_ > scene_.top()) steady_height_ = scene_.top();
-  medium_ = std::make_shared<const exact::GeneralMedium<Scalar>>(form);
-  n_layers_ = form.n_layers();
+std::size_t ExactSolution<Scalar>::n_layers() const {
+  return form().exponential() ? 0 : form().layers().n_layers();
 }
 
-/// A value of the canonical form's solution as one of the scene.
+/// A value of the canonical form as one of the scene.
 template <Real Scalar>
-typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_in_scene(
-    const exact::CanonicalForm<Scalar>& form, Value value, const Scalar& z) const {
-  const std::size_t k = form.layers().layer_at(z);
-  const Scalar slope = form.state_slope(k) * form.layers().solid_fraction(k);
+auto ExactSolution<Scalar>::in_scene(const Representation& of, Value value, const Scalar& z) const -> Value {
+  const exact::CanonicalForm<Scalar>& form = *of.form;
+  if (form.is_identity()) return value;
   value.phi = form.phi_of(z, value.phi);
-  value.M = z == scene_.top() ? mass_ : form.amount_of(z, value.M);
+  value.M = z == form.scene().top() ? mass_ : form.amount_of(z, value.M);
   value.H *= form.sign();
-  value.phi_error *= slope < 0 ? Scalar(-slope) : slope;
   return value;
 }
 
 template <Real Scalar>
-Path<Scalar> ExactSolution<Scalar>::best_path(const exact::Medium<Scalar>& medium, const Scalar& z,
-                                              const Scalar& t) const {
-  Path<Scalar> wall;
-  if (medium.pure_travel_time(scene_.bottom(), z) <= t) {
-    wall.value = z - scene_.bottom();
-    wall.p = Scalar(1);
-    wall.kind = PathKind::bottom_wall;
-    wall.upward = true;
-    wall.foot = scene_.bottom();
-  }
-  // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
-  // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
-  // decide.
-  const bool at_top = z == scene_.top();
-  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (scene_.top() - scene_.bottom());
-  const bool full = at_top && wall.value <= mass_ + tie;
-  if (medium.pure_travel_time(scene_.top(), z) <= t && !(mass_ > wall.value) && !full) {
-    wall = Path<Scalar>{};
-    wall.value = mass_;
-    wall.kind = PathKind::top_wall;
-    wall.foot = scene_.top();
-  }
-  Path<Scalar> free = medium.best_free(z, t, wall.value);
-  if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
-    return free;
-  return free.better_than(wall) ? free : wall;
-}
-
-template <Real Scalar>
-typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_from(const Path<Scalar>& path,
-                                                                        const Scalar& z) const {
+auto ExactSolution<Scalar>::image_value(const exact::Medium<Scalar>& medium, const Path& path,
+                                        const Scalar& y) -> Value {
+  const Scalar& mass = medium.mass();
   Value value;
-  const Scalar low = std::max(Scalar(0), Scalar(mass_ - (scene_.top() - z)));
-  const Scalar high = std::min(Scalar(z - scene_.bottom()), mass_);
-  value.M = z == scene_.top() ? mass_ : std::max(low, std::min(high, path.value));
+  const Scalar low = std::max(Scalar(0), Scalar(mass - (medium.top() - y)));
+  const Scalar high = std::min(Scalar(y - medium.bottom()), mass);
+  value.M = y == medium.top() ? mass : std::max(low, std::min(high, path.value));
   value.phi = std::min(Scalar(1), std::max(Scalar(0), path.p));
   // A path may end on an interface with a flux that only the layer it comes from can carry, if it sets out
   // within rounding of the interface: no flux through it exceeds what the layer above carries.
-  value.H = std::min(path.H, medium_->capacity_at(z));
+  value.H = std::min(path.H, Scalar(medium.rate_at(y) / Scalar(4)));
   return value;
 }
 
 template <Real Scalar>
-Path<Scalar> ExactSolution<Scalar>::path(const Scalar& z, const Scalar& t) const {
-  if (form_) return image_->path(form_->image_of(z), t);
+exact::Path<Scalar> ExactSolution<Scalar>::path(const Scalar& z, const Scalar& t) const {
   if (t == Scalar(0) || !is_finite(t)) return {};
-  return best_path(*medium_, z, t);
+  return medium().best_path(form().image_of(z), t);
 }
 
+/// The initial data, or the steady state.
 template <Real Scalar>
-typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::at(const Scalar& z, const Scalar& t) const {
-  SHEARFRONT_EXPECTS(z >= scene_.bottom() && z <= scene_.top() && t >= Scalar(0), "a point of the domain");
-  if (form_) {
-    if (t > Scalar(0) && is_finite(t)) return value_of(path(z, t), z, t);
-    Value value = value_in_scene(*form_, image_->at(form_->image_of(z), t), z);
-    if (t == Scalar(0)) value.phi = scene_.initial_phi(z);
-    return value;
-  }
+auto ExactSolution<Scalar>::value_at_rest(const Scalar& z, bool is_initial) const -> Value {
+  const Scalar y = form().image_of(z), &mass = medium().mass();
   Value value;
-  if (t == Scalar(0)) {
-    value.phi = scene_.initial_phi(z);
-    const auto& jumps = scene_.initial_breaks();
-    CompensatedSum<Scalar> sum;
-    for (std::size_t i = 0; i <= jumps.size(); ++i) {
-      const Scalar& lo = i == 0 ? scene_.bottom() : jumps[i - 1];
-      if (!(lo < z)) break;
-      sum += (std::min(z, i == jumps.size() ? scene_.top() : jumps[i]) - lo) * scene_.initial_values()[i];
-    }
-    value.M = z == scene_.top() ? mass_ : std::min(sum.value(), mass_);
-    value.H = medium_->flux_at(z, value.phi);
-    return value;
+  if (is_initial) {
+    const auto& cells = medium().cells();
+    value.phi = cells.phi[cells.cell_at(y)];
+    value.M = y == medium().top() ? mass : std::min(cells.cumulative(y), mass);
+    value.H = medium().flux_at(y, value.phi);
+  } else {
+    const Scalar steady = medium().steady_height();
+    value.phi = Scalar(y >= steady && steady < medium().top() ? 0 : 1);
+    value.M = std::min(Scalar(y - medium().bottom()), mass);
   }
-  if (!is_finite(t)) {
-    const bool pure_above = z >= steady_height_ && steady_height_ < scene_.top();
-    value.phi = Scalar(pure_above ? 0 : 1);
-    value.M = std::min(Scalar(z - scene_.bottom()), mass_);
-    return value;
-  }
-  return value_of(best_path(*medium_, z, t), z, t);
+  value = in_scene(fine_, std::move(value), z);
+  if (is_initial) value.phi = scene().initial_phi(z);
+  return value;
 }
 
 template <Real Scalar>
-typename ExactSolution<Scalar>::Value ExactSolution<Scalar>::value_of(const Path<Scalar>& path,
-                                                                      const Scalar& z,
-                                                                      const Scalar& t) const {
-  const auto coarse_value = [&] {
-    if (coarse_image_)
-      return value_in_scene(*coarse_form_, coarse_image_->at(coarse_form_->image_of(z), t), z);
-    return value_from(best_path(*coarse_, z, t), z);
-  };
-  Value value =
-      form_ ? value_in_scene(*form_, image_->value_of(path, form_->image_of(z), t), z) : value_from(path, z);
-  if (coarse_ || coarse_image_) {
-    const Value coarse = coarse_value();
-    // Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of the change on average; stairs that fit a turning point by
-    // chance make the change smaller than that.
-    constexpr int kSafety = 3;
-    value.M_error =
-        Scalar(kSafety) * (coarse.M > value.M ? Scalar(coarse.M - value.M) : Scalar(value.M - coarse.M));
-    value.phi_error = coarse.phi > value.phi ? coarse.phi - value.phi : value.phi - coarse.phi;
-  }
+auto ExactSolution<Scalar>::at(const Scalar& z, const Scalar& t) const -> Value {
+  SHEARFRONT_EXPECTS(z >= scene().bottom() && z <= scene().top() && t >= Scalar(0), "a point of the domain");
+  if (t == Scalar(0) || !is_finite(t)) return value_at_rest(z, t == Scalar(0));
+  return value_of(path(z, t), z, t);
+}
+
+template <Real Scalar>
+auto ExactSolution<Scalar>::value_of(const Path& path, const Scalar& z, const Scalar& t) const -> Value {
+  Value value = in_scene(fine_, image_value(path, form().image_of(z)), z);
+  if (is_exact()) return value;
+  const Scalar y = coarse_.form->image_of(z);
+  const exact::Medium<Scalar>& medium = *coarse_.medium;
+  const Value coarse = in_scene(coarse_, image_value(medium, medium.best_path(y, t), y), z);
+  const auto change = [](const Scalar& a, const Scalar& b) { return a > b ? Scalar(a - b) : Scalar(b - a); };
+  // Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of the change on average; stairs that fit a turning point by
+  // chance make the change smaller than that.
+  constexpr int kSafety = 3;
+  value.M_error = Scalar(kSafety) * change(coarse.M, value.M);
+  value.phi_error = change(coarse.phi, value.phi);
   return value;
 }
 

@@ -3,22 +3,21 @@
 #include <cstddef>
 #include <memory>
 
-#include "shearfront/exact/path.hpp"
 #include "shearfront/exact/canonical_form.hpp"
+#include "shearfront/exact/medium.hpp"
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/scene/scene.hpp"
 
 namespace shearfront {
 
 /// The entropy solution of phi_t + F(z, phi)_z = 0 with closed walls, point by point, from the Lax-Hopf
-/// formula in a layered or exponential medium. For the quadratic flux F = s a(z) phi (phi - 1):
+/// formula in a bed of pieces. For the quadratic flux F = s a(z) phi (phi - 1):
 ///
 ///     M(z, t) = int_bottom^z phi = min over paths ending in (z, t) of [ initial M at the start + cost ],
 ///     phi = dM/dz = momentum of the minimising path at its end,   dM/dt = H = s a phi (1 - phi).
 ///
-/// Every other scene is solved in its canonical form (exact/canonical_form.hpp) and mapped back: parabolas are
-/// the quadratic flux there, other convex or concave fluxes use their inverse branches
-/// (exact/general_medium.hpp). Value::H = dM/dt = -F is negative for concave fluxes.
+/// Every scene is solved in its canonical form (exact/canonical_form.hpp) and mapped back. Value::H = dM/dt = -F is
+/// negative for concave fluxes.
 ///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
@@ -60,41 +59,42 @@ class ExactSolution {
   /// t = 0 and t = +infinity.
   [[nodiscard]] exact::Path<Scalar> path(const Scalar& z, const Scalar& t) const;
 
-  /// The value that belongs to path(z, t).
-  [[nodiscard]] Value value_of(const exact::Path<Scalar>& path, const Scalar& z,
-                               const Scalar& t) const;
+  /// The value that belongs to path(z, t), 0 < t < +infinity.
+  [[nodiscard]] Value value_of(const exact::Path<Scalar>& path, const Scalar& z, const Scalar& t) const;
 
-  [[nodiscard]] const Scene<Scalar>& scene() const { return scene_; }
+  /// The same in the coordinates of the canonical form, without estimates: u, int u dy and H >= 0 at the height y.
+  [[nodiscard]] Value image_value(const exact::Path<Scalar>& path, const Scalar& y) const {
+    return image_value(*fine_.medium, path, y);
+  }
+
+  [[nodiscard]] const Scene<Scalar>& scene() const { return form().scene(); }
   [[nodiscard]] const Scalar& mass() const { return mass_; }
   /// Where the pure states meet in the steady state: bottom + mass for the quadratic flux and c = 1.
   [[nodiscard]] const Scalar& steady_height() const { return steady_height_; }
   /// Layers used (a staircase for smooth scenes); 0 for exponential a by closed forms.
-  [[nodiscard]] std::size_t n_layers() const { return n_layers_; }
-  /// The medium of the canonical form.
-  [[nodiscard]] const exact::Medium<Scalar>& medium() const { return *medium_; }
-  /// The canonical form and the solution in it; nullptr for the scenes of the quadratic flux with c = T = 1.
-  [[nodiscard]] const exact::CanonicalForm<Scalar>* canonical_form() const { return form_.get(); }
-  [[nodiscard]] const ExactSolution* image() const { return image_.get(); }
+  [[nodiscard]] std::size_t n_layers() const;
+  [[nodiscard]] const exact::CanonicalForm<Scalar>& form() const { return *fine_.form; }
+  /// The bed of the canonical form.
+  [[nodiscard]] const exact::Medium<Scalar>& medium() const { return *fine_.medium; }
   /// Whether the scene is represented without approximation.
-  [[nodiscard]] bool is_exact() const {
-    return !coarse_ && !coarse_image_ && (!image_ || image_->is_exact());
-  }
+  [[nodiscard]] bool is_exact() const { return !coarse_.form; }
 
  private:
-  using Form = std::shared_ptr<const exact::CanonicalForm<Scalar>>;
-  ExactSolution(const exact::CanonicalForm<Scalar>& form, std::size_t layers);
-  [[nodiscard]] Value value_in_scene(const exact::CanonicalForm<Scalar>& form, Value value,
-                                     const Scalar& z) const;
-  [[nodiscard]] exact::Path<Scalar> best_path(const exact::Medium<Scalar>& medium, const Scalar& z,
-                                                      const Scalar& t) const;
-  [[nodiscard]] Value value_from(const exact::Path<Scalar>& path, const Scalar& z) const;
+  using Path = exact::Path<Scalar>;
+  /// The scene with some number of layers.
+  struct Representation {
+    std::shared_ptr<const exact::CanonicalForm<Scalar>> form;
+    std::shared_ptr<const exact::Medium<Scalar>> medium;
+  };
+  [[nodiscard]] static Representation represent(std::shared_ptr<const Scene<Scalar>> scene,
+                                                std::size_t layers);
+  [[nodiscard]] Value in_scene(const Representation& of, Value value, const Scalar& z) const;
+  [[nodiscard]] static Value image_value(const exact::Medium<Scalar>& medium, const Path& path,
+                                         const Scalar& y);
+  [[nodiscard]] Value value_at_rest(const Scalar& z, bool is_initial) const;
 
-  Scene<Scalar> scene_;
+  Representation fine_, coarse_;  ///< coarse_: half as many layers, for estimates of the error
   Scalar mass_, steady_height_;
-  std::size_t n_layers_ = 0;
-  std::shared_ptr<const exact::Medium<Scalar>> medium_, coarse_;
-  Form form_, coarse_form_;
-  std::shared_ptr<const ExactSolution> image_, coarse_image_;
 };
 
 extern template class ExactSolution<double>;

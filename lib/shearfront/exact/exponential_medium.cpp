@@ -3,19 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
+#include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/exponential_path.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
 
 template <Real Scalar>
-ExponentialMedium<Scalar>::ExponentialMedium(const Scene<Scalar>& scene)
-    : scale_(scene.scale()),
-      amplitude_(std::get<Exponential<Scalar>>(scene.shear_rate()).amplitude),
-      decay_(std::get<Exponential<Scalar>>(scene.shear_rate()).decay),
-      cells_(scene, {scene.bottom(), scene.top()}) {
+ExponentialMedium<Scalar>::ExponentialMedium(const CanonicalForm<Scalar>& form)
+    : Medium<Scalar>({form.initial_breaks(), form.initial_values(), form.boundaries()}, form.mass()),
+      scale_(form.scene().scale()),
+      amplitude_(form.exponential()->amplitude),
+      decay_(form.exponential()->decay),
+      boundaries_(form.boundaries()) {
   for (const Scalar& x : cells_.x) rate_.push_back(rate_at(x));
 }
 
@@ -139,6 +140,82 @@ Scalar ExponentialMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scal
   const Scalar& mass = cells_.M.back();
   const bool full = amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward);
   return (full ? below : mass) - path.value;
+}
+
+namespace {
+
+/// (1 + x) log(1 + x) - x for x >= -1 without cancellation: sum (-1)^n x^n / (n (n - 1)), n >= 2.
+template <Real Scalar>
+Scalar entropy_excess(const Scalar& x) {
+  using std::log1p;
+  const Scalar size = x < 0 ? Scalar(-x) : x;
+  if (size > Scalar(0.125)) {
+    if (!(x > -1)) return Scalar(1);
+    return (Scalar(1) + x) * log1p(x) - x;
+  }
+  Scalar power = x * x, sum(0);
+  for (int n = 2; n < 400; ++n) {
+    const Scalar term = power / Scalar(n * (n - 1));
+    sum += term;
+    const Scalar term_size = term < 0 ? Scalar(-term) : term;
+    if (term_size <= unit_roundoff<Scalar>() * sum * Scalar(0.25)) break;
+    power *= -x;
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <Real Scalar>
+PathGradient<Scalar> ExponentialMedium<Scalar>::gradient(const Path<Scalar>& path, const Scalar& z,
+                                                         const Scalar& t) const {
+  using std::expm1;
+  PathGradient<Scalar> out;
+  if (path.kind != PathKind::fan && path.kind != PathKind::constant) return out;
+  const Scalar one(1), two(2), four(4);
+  Scalar phi_log_rate(0), phi_decay(0);
+  const Scalar& lambda = decay_;
+  const Scalar& x = path.foot;
+  const Scalar B = rate_at(x) * t / lambda;
+  Scalar p0, one_minus_p0;
+  if (path.kind == PathKind::fan) {
+    const Scalar log_E = (z - x) / lambda, e = expm1(log_E);
+    const FanMomenta<Scalar> fan(B, log_E, e);
+    const Scalar& E = fan.E;
+    p0 = fan.p0;
+    one_minus_p0 = fan.one_minus_p0;
+    // p = 1/2 + (E - S) / B: with d p / d log B = E (1 - S) / (S B) the sum of both logarithmic derivatives
+    // is E / (2 S B), which keeps them apart from their rounding.
+    const Scalar by_B = -E * ((e / B + B / four) / fan.S / (one + fan.S));
+    const Scalar by_both = E / (two * B) / fan.S;
+    out.start = {p0, one_minus_p0};
+    out.phi_start = -by_both / lambda;
+    phi_log_rate = by_B;
+    phi_decay = (by_B * (z - lambda) - by_both * (z - x)) / (lambda * lambda);
+  } else {
+    p0 = cells_.phi[path.source];
+    one_minus_p0 = one - p0;
+    const Scalar b = rate_at(z) * t / lambda, h = p0 * one_minus_p0, twist = p0 + (p0 - one);
+    const FootRoot<Scalar> root(b, p0);
+    const Scalar& E = root.E;
+    const Scalar F_E = two * b * b * h * E + (one - b * twist);
+    const Scalar F_b = two * b * h * E * E - twist * E;
+    const Scalar F_p = -b * b * twist * E * E - two * b * E;
+    const Scalar p_b = -h * (E - b * F_b / F_E);  // p = p0 - b E h
+    phi_log_rate = p_b * b;
+    phi_decay = p_b * b * (z - lambda) / (lambda * lambda);
+    // 1 + b E twist, by the equation of E without cancellation, and the change of E.
+    out.phi_state = E + h * (b * E) * (b * E) + h * b * F_p / F_E;
+  }
+  const Scalar Ht = path.H * t;
+  // int z dt along the path, times H / lambda^2 = d(rate)/d(lambda) / rate integrated.
+  const Scalar alpha = std::min(one, Scalar(B * one_minus_p0));
+  const Scalar M_decay = Ht * x / (lambda * lambda) - (p0 * entropy_excess(Scalar(-alpha)) -
+                                                       one_minus_p0 * entropy_excess(Scalar(B * p0)));
+  out.pieces = {{Ht / amplitude_, phi_log_rate / amplitude_}, {M_decay, phi_decay}};
+  out.boundaries.resize(1);
+  out.phi_log_scale = phi_log_rate;
+  return out;
 }
 
 template class ExponentialMedium<Instantiated>;

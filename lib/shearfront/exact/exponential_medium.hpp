@@ -3,9 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/exact/path.hpp"
-#include "shearfront/exact/cells.hpp"
-#include "shearfront/scene/scene.hpp"
+#include "shearfront/exact/medium.hpp"
 
 namespace shearfront::exact {
 
@@ -24,7 +22,12 @@ namespace shearfront::exact {
 template <Real Scalar>
 class ExponentialMedium final : public Medium<Scalar> {
  public:
-  explicit ExponentialMedium(const Scene<Scalar>& scene);
+  /// Precondition: form.exponential().
+  explicit ExponentialMedium(const CanonicalForm<Scalar>& form);
+
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const override { return boundaries_; }
+  /// amplitude, decay
+  [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
 
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t,
                                             const Scalar& upper) const override;
@@ -33,20 +36,25 @@ class ExponentialMedium final : public Medium<Scalar> {
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override;
   [[nodiscard]] Scalar rate_at(const Scalar& z) const override;
-  [[nodiscard]] const Cells<Scalar>& cells() const { return cells_; }
-  [[nodiscard]] const Scalar& decay() const { return decay_; }
+  [[nodiscard]] Scalar flux_at(const Scalar& z, const Scalar& phi) const override {
+    return rate_at(z) * phi * (Scalar(1) - phi);
+  }
+  [[nodiscard]] std::optional<Scalar> first_wave(std::size_t /*i*/) const override { return {}; }
+  /// The closed forms differentiated. Cost: O(1).
+  [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
+                                              const Scalar& t) const override;
 
  private:
+  using Medium<Scalar>::cells_;
+
   [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, bool moving_only) const;
   void try_source(const Scalar& z, const Scalar& t, std::size_t i, Path<Scalar>& best) const;
   void try_cell(const Scalar& z, const Scalar& t, std::size_t i, Path<Scalar>& best) const;
   [[nodiscard]] bool turns_outside(const Scalar& p0, const Scalar& p, const Scalar& H) const;
 
   Scalar scale_, amplitude_, decay_;
-  Cells<Scalar> cells_;
-  std::vector<Scalar> rate_;  ///< s a at the points of cells_
+  std::vector<Scalar> boundaries_;  ///< bottom and top
+  std::vector<Scalar> rate_;        ///< s a at the points of cells_
 };
-
-extern template class ExponentialMedium<double>;
 
 }  // namespace shearfront::exact

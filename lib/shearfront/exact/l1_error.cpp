@@ -23,8 +23,8 @@ template <Real Scalar>
 class L1Integral {
  public:
   L1Integral(const ExactSolution<Scalar>& exact, const Profile<Scalar>& profile, const Scalar& t)
-      : pieces_(exact, t), profile_(profile), top_(exact.scene().top()) {
-    noise_ = Scalar(8) * unit_roundoff<Scalar>() * (top_ - exact.scene().bottom());
+      : pieces_(exact, t), profile_(profile), top_(exact.medium().top()) {
+    noise_ = Scalar(8) * unit_roundoff<Scalar>() * (top_ - exact.medium().bottom());
   }
 
   ProfileErrors<Scalar> run() {
@@ -175,10 +175,10 @@ ProfileErrors<Scalar> errors_against(const ExactSolution<Scalar>& exact, const P
                                      const Scalar& t) {
   SHEARFRONT_EXPECTS(profile.n_cells() > 0 && t >= Scalar(0), "a profile at a time");
   // |phi - exact phi| dz = |u - exact u| dy: the canonical form has the same errors.
-  if (exact.image()) return errors_against(*exact.image(), exact.canonical_form()->image_of(profile), t);
+  const Profile<Scalar> image = exact.form().image_of(profile);
   if (t == Scalar(0) || !is_finite(t))
-    return errors_at_rest(exact::profile_at_rest(exact, t == Scalar(0)), profile);
-  return L1Integral<Scalar>(exact, profile, t).run();
+    return errors_at_rest(exact::profile_at_rest(exact, t == Scalar(0)), image);
+  return L1Integral<Scalar>(exact, image, t).run();
 }
 
 template ProfileErrors<Instantiated> errors_against(const ExactSolution<Instantiated>&,

@@ -1,103 +1,96 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/exact/layered_medium.hpp"
-#include "shearfront/numeric/instantiated.hpp"
 
 #include <algorithm>
 
+#include "shearfront/exact/first_wave.hpp"
+#include "shearfront/exact/layered_gradient.hpp"
+#include "shearfront/numeric/instantiated.hpp"
+
 namespace shearfront::exact {
 
-template <Real Scalar>
-struct LayeredMedium<Scalar>::Query {
-  Scalar z, t, upper;
-  std::size_t k;             ///< layer of z
-  bool moving_only = false;  ///< leave out H = 0
-};
-
 namespace {
-
-/// Height at which paths leave the start layer (or the query height itself, in the own layer).
-template <Real Scalar>
-Scalar exit_height(const Geometry<Scalar>& g, const Sweep<Scalar>& sweep, const Scalar& z) {
-  if (sweep.start == sweep.own) return z;
-  return g.layers.boundary(sweep.upward ? sweep.start + 1 : sweep.start);
-}
 
 /// Allowance for rounding in lower bounds; any larger value is as correct, only slower.
 template <Real Scalar>
 Scalar bound_slack(const Geometry<Scalar>& g) {
-  return Scalar(1 << 12) * unit_roundoff<Scalar>() * (g.layers.top() - g.layers.bottom());
+  return Scalar(1 << 12) * unit_roundoff<Scalar>() * (g.top() - g.bottom());
 }
 
-/// Makes the H of a path the H' of later lower bounds in the same sweep.
-template <Real Scalar>
-void set_dual(const Geometry<Scalar>& g, Sweep<Scalar>& sweep, const FanState<Scalar>& fan) {
-  sweep.h_dual = Scalar(4) * fan.H;
-  sweep.Q_dual = Scalar(0);
-  sweep.for_each_crossed(g, [&](const Scalar& d, std::size_t k) {
-    sweep.Q_dual += d * momentum_root<Scalar>(g.rate[k] - sweep.h_dual, g.inverse_rate[k]);
-  });
+template <Real Scalar, class Law>
+std::vector<Scalar> cell_fluxes(const Law& law, const Cells<Scalar>& cells) {
+  std::vector<Scalar> h;
+  h.reserve(cells.n_cells());
+  for (std::size_t i = 0; i < cells.n_cells(); ++i) h.push_back(law.h_of(cells.layer[i], cells.phi[i]));
+  return h;
 }
 
 }  // namespace
 
-template <Real Scalar>
-LayeredMedium<Scalar>::LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scalar> layers)
-    : geometry_(std::move(layers)),
-      cells_(scene, geometry_.layers.boundaries()),
-      slack_(bound_slack(geometry_)),
-      waiting_(geometry_, cells_, slack_) {
-  for (std::size_t i = 0; i < cells_.n_cells(); ++i)
-    h_cell_.push_back(Scalar(4) * geometry_.rate[cells_.layer[i]] * cells_.phi[i] *
-                      (Scalar(1) - cells_.phi[i]));
-  // Going up from a point needs 4 s a phi (1 - phi) of the cell above <= 4 H <= the same of the cell below
-  // when phi_b > 1/2, its capacity otherwise (beyond that, resting is better); going down mirrored. The slack
-  // keeps rounding from dropping a borderline source: next to 1/2, 4 phi (1 - phi) may come out above 1.
-  const Scalar slack = Scalar(1) + Scalar(1) / Scalar(1 << 20);
+template <Real Scalar, class Law>
+LayeredMedium<Scalar, Law>::LayeredMedium(Law law, Cells<Scalar> cells, Scalar mass)
+    : Medium<Scalar>(std::move(cells), std::move(mass)),
+      law_(std::move(law)),
+      h_cell_(cell_fluxes<Scalar>(law_, cells_)),
+      slack_(bound_slack<Scalar>(law_)),
+      waiting_(law_, cells_, h_cell_, slack_) {
   emits_.assign(cells_.x.size(), 0);
-  const Scalar half(0.5);
   for (std::size_t i = 1; i < cells_.n_cells(); ++i) {
-    const Scalar& below = cells_.phi[i - 1];
-    const Scalar& above = cells_.phi[i];
-    const Scalar up_limit = below > half ? h_cell_[i - 1] : geometry_.rate[cells_.layer[i - 1]];
-    const Scalar down_limit = above < half ? h_cell_[i] : geometry_.rate[cells_.layer[i]];
-    if (above >= half && h_cell_[i] <= up_limit * slack && (above > half || below < half)) emits_[i] |= 1U;
-    if (below <= half && h_cell_[i - 1] <= down_limit * slack && (below < half || above > half))
-      emits_[i] |= 2U;
-    if (below == above && h_cell_[i] == 0) emits_[i] = 0;
+    const bool is_pure = cells_.phi[i - 1] == cells_.phi[i] && h_cell_[i] == 0;
+    if (is_pure) continue;
+    if (may_emit(i, true)) emits_[i] |= 1U;
+    if (may_emit(i, false)) emits_[i] |= 2U;
   }
 }
 
-template <Real Scalar>
-Path<Scalar> LayeredMedium<Scalar>::best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const {
-  return search({z, t, upper, geometry_.layers.layer_at(z)});
+/// Leaving a point needs 4 H of the state ahead <= 4 H <= that of the state behind if it lies beyond the peak, its
+/// capacity otherwise (beyond that, resting is better). The slack keeps rounding from dropping a borderline source:
+/// next to the peak the flux of a state may come out above the capacity.
+template <Real Scalar, class Law>
+bool LayeredMedium<Scalar, Law>::may_emit(std::size_t i, bool upward) const {
+  const Scalar slack = Scalar(1) / Scalar(1 << 20);
+  const std::size_t ahead = upward ? i : i - 1, behind = upward ? i - 1 : i;
+  const std::size_t k = cells_.layer[ahead], l = cells_.layer[behind];
+  const Scalar over_ahead = law_.excess(k, cells_.phi[ahead], upward);
+  const Scalar over_behind = law_.excess(l, cells_.phi[behind], upward);
+  if (over_ahead < -Scalar(Law::kSlack)) return false;
+  const Scalar limit = over_behind > 0 ? h_cell_[behind] : law_.rate[l];
+  return h_cell_[ahead] <= limit * (Scalar(1) + slack) &&
+         (over_ahead > 0 || over_behind < 0 || Law::kMovesAtCapacity);
 }
 
-template <Real Scalar>
-Path<Scalar> LayeredMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t) const {
-  return search({z, t, infinity<Scalar>(), geometry_.layers.layer_at(z), true});
+template <Real Scalar, class Law>
+Path<Scalar> LayeredMedium<Scalar, Law>::best_free(const Scalar& z, const Scalar& t,
+                                                   const Scalar& upper) const {
+  return search({z, t, upper, law_.layer_at(z)});
 }
 
-template <Real Scalar>
-Path<Scalar> LayeredMedium<Scalar>::search(const Query& query) const {
+template <Real Scalar, class Law>
+Path<Scalar> LayeredMedium<Scalar, Law>::best_moving(const Scalar& z, const Scalar& t) const {
+  return search({z, t, infinity<Scalar>(), law_.layer_at(z), true});
+}
+
+template <Real Scalar, class Law>
+Path<Scalar> LayeredMedium<Scalar, Law>::search(const Query& query) const {
   const auto& [z, t, upper, k, moving_only] = query;
   Path<Scalar> best;
   for (const bool upward : {true, false}) {
-    Sweep<Scalar> sweep{
-        upward, k, k,
-        upward ? Scalar(z - geometry_.layers.boundary(k)) : Scalar(geometry_.layers.boundary(k + 1) - z)};
+    Sweep<Scalar> sweep{upward, k, k,
+                        upward ? Scalar(z - law_.boundary(k)) : Scalar(law_.boundary(k + 1) - z)};
     search_layer(query, sweep, best);
-    sweep.cross(geometry_, sweep.d_own);
-    while (sweep.start < geometry_.layers.n_layers() && sweep.T0 <= t) {
+    sweep.cross(law_, sweep.d_own);
+    while (sweep.start < law_.n_layers() && sweep.T0 <= t) {
       search_layer(query, sweep, best);
-      sweep.cross(geometry_, geometry_.height[sweep.start]);
+      sweep.cross(law_, law_.height[sweep.start]);
     }
   }
-  waiting_.search(geometry_, cells_, z, k, t, upper, best);
+  waiting_.search(law_, cells_, z, k, t, upper, best);
   return best;
 }
 
-template <Real Scalar>
-void LayeredMedium<Scalar>::search_layer(const Query& query, Sweep<Scalar>& sweep, Path<Scalar>& best) const {
+template <Real Scalar, class Law>
+void LayeredMedium<Scalar, Law>::search_layer(const Query& query, Sweep<Scalar>& sweep,
+                                              Path<Scalar>& best) const {
   std::size_t begin = cells_.first[sweep.start], end = cells_.first[sweep.start + 1];
   if (sweep.start == sweep.own) {
     // The cell that holds z belongs to both directions; only the matching one can have its foot there.
@@ -114,9 +107,9 @@ void LayeredMedium<Scalar>::search_layer(const Query& query, Sweep<Scalar>& swee
 }
 
 /// Cells begin .. end - 1 with the source at the outer end of each (below it for paths going up).
-template <Real Scalar>
-void LayeredMedium<Scalar>::search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin,
-                                         std::size_t end, Path<Scalar>& best) const {
+template <Real Scalar, class Law>
+void LayeredMedium<Scalar, Law>::search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin,
+                                              std::size_t end, Path<Scalar>& best) const {
   constexpr std::size_t kLeaf = 6;
   if (end - begin <= kLeaf) {
     for (std::size_t n = 0; n < end - begin; ++n) {
@@ -127,7 +120,7 @@ void LayeredMedium<Scalar>::search_range(const Query& query, Sweep<Scalar>& swee
     return;
   }
   const std::size_t middle = begin + (end - begin) / 2;
-  const Scalar exit = exit_height(geometry_, sweep, query.z);
+  const Scalar& exit = sweep.exit(law_, query.z);
   const FanState<Scalar> fan = try_source(query, sweep, middle, false, best);
   const Scalar d_middle = sweep.upward ? exit - cells_.x[middle] : cells_.x[middle] - exit;
   if (!fan.reachable && d_middle > 0) {  // everything farther out is out of reach, too
@@ -140,10 +133,10 @@ void LayeredMedium<Scalar>::search_range(const Query& query, Sweep<Scalar>& swee
   const std::size_t j = sweep.start;
   const auto bound = [&](std::size_t a, std::size_t b) {
     if (!fan.reachable) return Scalar(-infinity<Scalar>());
-    const Scalar q = fan.q(geometry_.rate[j], geometry_.inverse_rate[j]);
-    const Scalar p = sweep.upward ? (Scalar(1) + q) / Scalar(2) : (Scalar(1) - q) / Scalar(2);
+    const Scalar q = law_.q_on(j, sweep.upward, fan.r_min, fan.x);
+    const Scalar p = law_.momentum(j, sweep.upward, q, fan.H);
     const Scalar& x_middle = cells_.x[middle];
-    const Scalar from_middle = fan.H * query.t + ((query.z - x_middle) + fan.Q) / Scalar(2);
+    const Scalar from_middle = fan.H * query.t + (law_.peaks(x_middle, query.z) + fan.Q / Scalar(2));
     const Scalar rise = cells_.M[b] - cells_.M[a];
     return Scalar(from_middle + cells_.M[a] - p * ((cells_.x[b] - rise) - x_middle));
   };
@@ -159,30 +152,31 @@ void LayeredMedium<Scalar>::search_range(const Query& query, Sweep<Scalar>& swee
 }
 
 /// The fan from point i. With `prune` false it is solved to the end even when it cannot be the best.
-template <Real Scalar>
-FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i,
-                                                   bool prune, Path<Scalar>& best) const {
+template <Real Scalar, class Law>
+FanState<Scalar> LayeredMedium<Scalar, Law>::try_source(const Query& query, Sweep<Scalar>& sweep,
+                                                        std::size_t i, bool prune,
+                                                        Path<Scalar>& best) const {
   FanState<Scalar> fan;
   if (i == 0 || i + 1 == cells_.x.size()) return fan;  // walls
   if (prune && !emits(i, sweep.upward)) return fan;
   const Scalar& x = cells_.x[i];
-  const Scalar exit = exit_height(geometry_, sweep, query.z);
+  const Scalar& exit = sweep.exit(law_, query.z);
   const Scalar d = sweep.upward ? exit - x : x - exit;
   if (d < 0) return fan;
-  const Scalar base = cells_.M[i] + (query.z - x) / Scalar(2);
+  const Scalar lean = law_.peaks(x, query.z);
+  const Scalar base = cells_.M[i] + lean;
   const Scalar limit = prune ? Scalar(std::min(query.upper, best.value) + slack_) : infinity<Scalar>();
   const bool own = sweep.start == sweep.own;
   if (own && d == 0) {
     // A jump at the query height itself: rest there. On an interface this is a waiting path.
     if (cells_.first[sweep.own] == i) return fan;
     fan.reachable = true;
-    fan.r_min = geometry_.rate[sweep.own];
+    fan.r_min = law_.rate[sweep.own];
     fan.H = fan.r_min / Scalar(4);
   } else {
-    if (prune && !own && cells_.M[i] + dual_bound(geometry_, sweep, d, Scalar(query.z - x), query.t) > limit)
-      return fan;
-    fan = solve_fan(geometry_, sweep, d, query.t, base, limit);
-    if (prune && !own && fan.reachable) set_dual(geometry_, sweep, fan);
+    if (prune && !own && cells_.M[i] + dual_bound(law_, sweep, d, lean, query.t) > limit) return fan;
+    fan = law_.solve_fan(sweep, d, query.t, base, limit);
+    if (prune && !own && fan.reachable) sweep.set_dual(law_, Scalar(Scalar(4) * fan.H));
   }
   if (!fan.reachable || fan.pruned) return fan;
   Path<Scalar> path;
@@ -195,28 +189,25 @@ FanState<Scalar> LayeredMedium<Scalar>::try_source(const Query& query, Sweep<Sca
   path.foot = x;
   path.r_reference = fan.r_min;
   path.x = fan.x;
-  const Scalar q = fan.q(geometry_.rate[query.k], geometry_.inverse_rate[query.k]);
-  path.p = sweep.upward ? (Scalar(1) + q) / Scalar(2)
-                        : Scalar(2) * fan.H * geometry_.inverse_rate[query.k] / (Scalar(1) + q);
+  path.p = law_.momentum(query.k, sweep.upward, law_.q_on(query.k, sweep.upward, fan.r_min, fan.x), fan.H);
   if (path.better_than(best)) best = path;
   return fan;
 }
 
 /// The characteristic of the constant initial state of cell i.
-template <Real Scalar>
-void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i,
-                                     Path<Scalar>& best) const {
+template <Real Scalar, class Law>
+void LayeredMedium<Scalar, Law>::try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i,
+                                          Path<Scalar>& best) const {
   const Scalar& phi = cells_.phi[i];
-  const Scalar half(0.5);
   const bool own = sweep.start == sweep.own;
-  if (sweep.upward ? phi < half : phi > half) return;
-  if (!own && phi == half) return;  // at rest, never leaves its cell
+  const std::size_t j = sweep.start;
+  const Scalar over = law_.excess(j, phi, sweep.upward);
+  if (over < 0 || (!own && over == 0)) return;  // at the peak it rests and never leaves its cell
   const Scalar& h = h_cell_[i];
   if (query.moving_only && h == 0) return;
-  if (!own && !(h < sweep.r_min)) return;
-  const Scalar& r = geometry_.rate[sweep.start];
-  const Scalar speed = r * (sweep.upward ? phi + (phi - Scalar(1)) : (Scalar(1) - phi) - phi);
-  const Scalar exit = exit_height(geometry_, sweep, query.z);
+  if (!own && !(h < sweep.r_min)) return;  // ends of the cell cover what is equal to a capacity
+  const Scalar speed = over > 0 ? Scalar(law_.rate[j] * law_.steepness(j, sweep.upward, over)) : Scalar(0);
+  const Scalar& exit = sweep.exit(law_, query.z);
   const Scalar nearest = sweep.upward ? exit - cells_.x[i + 1] : cells_.x[i] - exit;
   const Scalar farthest = sweep.upward ? exit - cells_.x[i] : cells_.x[i + 1] - exit;
   if ((query.t - sweep.T0) * speed < nearest) return;  // the crossing takes at least T0
@@ -224,28 +215,26 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
     const Scalar limit = std::min(query.upper, best.value) + slack_;
     const auto bound = [&](std::size_t end, const Scalar& d) {
       return Scalar(cells_.M[end] +
-                    dual_bound(geometry_, sweep, d, Scalar(query.z - cells_.x[end]), query.t));
+                    dual_bound(law_, sweep, d, law_.peaks(cells_.x[end], query.z), query.t));
     };
     const Scalar bottom = bound(i, sweep.upward ? farthest : nearest);
     const Scalar top = bound(i + 1, sweep.upward ? nearest : farthest);
     if (std::min(bottom, top) > limit) return;
   }
-  Scalar time = sweep.T0, Q(0);
+  Leg<Scalar> beyond{sweep.T0};
   if (h > 0) {
-    time = Scalar(0);
-    sweep.for_each_crossed(geometry_, [&](const Scalar& d, std::size_t k) {
-      const Scalar q = momentum_root<Scalar>(geometry_.rate[k] - h, geometry_.inverse_rate[k]);
-      time += d * geometry_.inverse_rate[k] / q;
-      Q += d * q;
+    beyond.time = Scalar(0);
+    sweep.for_each_crossed(law_, [&](const Scalar& d, std::size_t k) {
+      add_layer(law_, d, k, sweep.upward, Scalar(law_.rate[k] - h), beyond);
     });
   }
-  const Scalar d = (query.t - time) * speed;
+  const Scalar d = (query.t - beyond.time) * speed;
   if (!(d >= nearest && d <= farthest) || d < 0) return;
   Path<Scalar> path;
   path.foot = sweep.upward ? exit - d : exit + d;
   path.H = h / Scalar(4);
-  path.r_reference = r;
-  path.x = speed / r;
+  path.r_reference = law_.rate[j];
+  path.x = law_.root_lack(j, sweep.upward, over);
   path.kind = PathKind::constant;
   path.upward = sweep.upward;
   path.source = i;
@@ -257,39 +246,20 @@ void LayeredMedium<Scalar>::try_cell(const Query& query, const Sweep<Scalar>& sw
     path.p = phi;
     path.value = start + (phi * (query.z - path.foot) + path.H * query.t);
   } else {
-    Q += d * (speed / r);
-    path.value = start + ((query.z - path.foot) + Q) / Scalar(2) + path.H * query.t;
-    const Scalar& ir = geometry_.inverse_rate[query.k];
-    const Scalar q = momentum_root<Scalar>(geometry_.rate[query.k] - h, ir);
-    path.p = sweep.upward ? (Scalar(1) + q) / Scalar(2) : Scalar(2) * path.H * ir / (Scalar(1) + q);
+    const Scalar Q = beyond.Q + d * over;
+    path.value = start + (law_.peaks(path.foot, query.z) + Q / Scalar(2)) + path.H * query.t;
+    const Scalar q = law_.q(query.k, sweep.upward, Scalar(law_.rate[query.k] - h));
+    path.p = law_.momentum(query.k, sweep.upward, q, path.H);
   }
   if (path.better_than(best)) best = path;
 }
 
-/// sum d (1 - q) / 2 between two heights on the path: what going up gains less than d, or going down more
-/// than 0.
-template <Real Scalar>
-Scalar LayeredMedium<Scalar>::loss(const Path<Scalar>& path, const Scalar& z1, const Scalar& z2) const {
-  const Geometry<Scalar>& g = geometry_;
-  const Scalar& lo = std::min(z1, z2);
-  const Scalar& hi = std::max(z1, z2);
-  Scalar sum(0);
-  for (std::size_t k = g.layers.layer_at(lo); k < g.layers.n_layers() && g.layers.boundary(k) < hi; ++k) {
-    const Scalar d = std::min(hi, g.layers.boundary(k + 1)) - std::max(lo, g.layers.boundary(k));
-    if (!(d > 0)) continue;
-    const Scalar q = momentum_root<Scalar>(
-        (g.rate[k] - path.r_reference) + path.r_reference * path.x * path.x, g.inverse_rate[k]);
-    sum += d * (path.H * g.inverse_rate[k] / (Scalar(1) + q));
-  }
-  return Scalar(2) * sum;
-}
-
-/// With U the height gained by the legs of the path that go up, its cost is U + H t - sum d (1 - q) / 2, so
-/// the shortfall is (final amount - initial amount at the start - U) - H t + sum d (1 - q) / 2: the bracket
-/// holds data only, and the other two terms are small when the bracket is.
-template <Real Scalar>
-Scalar LayeredMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
-                                        FinalAmount amount) const {
+/// With U the height gained by the legs of the path that go up, its cost is U + H t - sum d loss (what going up gains
+/// less than d, or going down more than 0), so the shortfall is (final amount - initial amount at the start - U) - H t
+/// + sum d loss: the bracket holds data only, and the other two terms are small when the bracket is.
+template <Real Scalar, class Law>
+Scalar LayeredMedium<Scalar, Law>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
+                                             FinalAmount amount) const {
   CompensatedSum<Scalar> sum;
   if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
     sum += z;
@@ -308,14 +278,19 @@ Scalar LayeredMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& 
   }
   Scalar lost(0);
   const auto leg = [&](const Scalar& from, const Scalar& to) {
-    if (from < to) {
+    const bool upward = from < to;
+    if (upward) {
       sum += from;
       sum += -to;
     }
-    lost += loss(path, from, to);
+    law_.for_each_layer(from, to, [&](const Scalar& d, std::size_t k) {
+      const Scalar q = law_.q(k, upward, Scalar((law_.rate[k] - path.r_reference) +
+                                                path.r_reference * path.x * path.x));
+      lost += d * law_.loss(k, upward, q, path.H);
+    });
   };
   if (path.kind == PathKind::waiting) {
-    const Scalar& rest = geometry_.layers.boundary(path.interface);
+    const Scalar& rest = law_.boundary(path.interface);
     leg(path.foot, rest);
     leg(rest, z);
   } else {
@@ -326,6 +301,18 @@ Scalar LayeredMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& 
   return sum.value();
 }
 
-template class LayeredMedium<Instantiated>;
+template <Real Scalar, class Law>
+std::optional<Scalar> LayeredMedium<Scalar, Law>::first_wave(std::size_t i) const {
+  return exact::first_wave(*this, i);
+}
+
+template <Real Scalar, class Law>
+PathGradient<Scalar> LayeredMedium<Scalar, Law>::gradient(const Path<Scalar>& path, const Scalar& z,
+                                                          const Scalar& t) const {
+  return layered_gradient(law_, cells_, path, z, t);
+}
+
+template class LayeredMedium<Instantiated, ParabolaLaw<Instantiated>>;
+template class LayeredMedium<Instantiated, UnimodalLaw<Instantiated>>;
 
 }  // namespace shearfront::exact

@@ -2,78 +2,96 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "shearfront/exact/path.hpp"
-#include "shearfront/exact/cells.hpp"
-#include "shearfront/exact/travel.hpp"
+#include "shearfront/exact/canonical_form.hpp"
+#include "shearfront/exact/law.hpp"
+#include "shearfront/exact/medium.hpp"
 #include "shearfront/exact/waiting.hpp"
-#include "shearfront/scene/layer_stack.hpp"
 
 namespace shearfront::exact {
 
-/// The Lax-Hopf formula in a stack of layers of constant a: minimum over
-///   1. fans from initial jumps and interfaces, T(H) = t (exact/travel.hpp),
+/// The Lax-Hopf formula in a stack of layers, in each of which a(z) is constant: minimum over
+///   1. fans from initial jumps and interfaces, T(H) = t (exact/law.hpp),
 ///   2. the same resting at an interface (exact/waiting.hpp),
-///   3. constant initial states, H = s a phi (1 - phi) known, foot point from the travel time.
-/// Walls are added by the caller.
+///   3. constant initial states, H known, foot point from the travel time.
+/// Walls are added by best_path().
 ///
 /// Which candidates are left out, and why the minimum stays the same:
-///   * A source at x with phi_b below and phi_a above can only be the start of an optimal path if moving it
-///   does
-///     not pay: phi_b <= p <= phi_a for the momenta p of the path on both sides. Going up p >= 1/2, so
-///     phi_a > 1/2; going down p <= 1/2, so phi_b < 1/2.
+///   * A source at x with phi_b below and phi_a above can only be the start of an optimal path if moving it does not
+///     pay: phi_b <= p <= phi_a for the momenta p of the path on both sides. Going up p lies above the peak, so phi_a
+///     does; going down p lies below it, so phi_b does.
 ///   * Duality: cost(x -> z, t) >= H' t + sum +-p_k(H') d_k for every H' up to the capacity of the layers
 ///     crossed, so every Newton iterate bounds its candidate from below, and since phi is in [0, 1] also all
 ///     starts of a whole range of cells in one layer. What lies above the best value so far is dropped.
-///   * Speeds are at most s a: starts outside the domain of dependence reach z too late.
+///   * No state is faster than the pure ones: starts outside the domain of dependence reach z too late.
 ///
 /// Cost of a query: O(layers crossed) per source that survives, O(log jumps) ranges per layer when the data
 /// have many jumps. Immutable after construction, safe to share between threads.
-template <Real Scalar>
+template <Real Scalar, class Law>
 class LayeredMedium final : public Medium<Scalar> {
  public:
-  LayeredMedium(const Scene<Scalar>& scene, LayerStack<Scalar> layers);
+  LayeredMedium(Law law, Cells<Scalar> cells, Scalar mass);
 
-  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t,
-                                            const Scalar& upper) const override;
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const override { return law_.boundaries; }
+  [[nodiscard]] std::size_t numbers_per_piece() const override { return 1; }
+  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
-  [[nodiscard]] Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const override {
-    return exact::travel_time(geometry_, z1, z2, Scalar(0));
+  [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override {
+    return exact::pure_travel_time<Scalar>(law_, from, to);
   }
   /// In twice the digits where amounts nearly cancel; error of a few u H t, far below u (top - bottom) where
   /// little is missing.
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override;
-  [[nodiscard]] Scalar rate_at(const Scalar& z) const override {
-    return geometry_.rate[geometry_.layers.layer_at(z)];
+  [[nodiscard]] Scalar rate_at(const Scalar& z) const override { return law_.rate[law_.layer_at(z)]; }
+  [[nodiscard]] Scalar flux_at(const Scalar& z, const Scalar& phi) const override {
+    return law_.h_of(law_.layer_at(z), phi) / Scalar(4);
   }
-  [[nodiscard]] const Geometry<Scalar>& geometry() const { return geometry_; }
-  [[nodiscard]] const Cells<Scalar>& cells() const { return cells_; }
-  [[nodiscard]] const LayerStack<Scalar>& layers() const { return geometry_.layers; }
-  [[nodiscard]] const Waiting<Scalar>& waiting() const { return waiting_; }
+  [[nodiscard]] std::optional<Scalar> first_wave(std::size_t i) const override;
+  [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
+                                              const Scalar& t) const override;
+
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const Waiting<Scalar, Law>& waiting() const { return waiting_; }
+  /// 4 H of the state of a cell.
+  [[nodiscard]] const Scalar& h_cell(std::size_t i) const { return h_cell_[i]; }
   /// Whether a fan can leave inner point i upwards (downwards): some H satisfies phi_b <= p <= phi_a.
   [[nodiscard]] bool emits(std::size_t i, bool upward) const { return (emits_[i] & (upward ? 1U : 2U)) != 0; }
 
  private:
-  struct Query;
+  using Medium<Scalar>::cells_;
+
+  struct Query {
+    Scalar z, t, upper;
+    std::size_t k;             ///< layer of z
+    bool moving_only = false;  ///< leave out H = 0
+  };
+  [[nodiscard]] bool may_emit(std::size_t i, bool upward) const;
   [[nodiscard]] Path<Scalar> search(const Query& query) const;
   void search_layer(const Query& query, Sweep<Scalar>& sweep, Path<Scalar>& best) const;
   void search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin, std::size_t end,
                     Path<Scalar>& best) const;
   FanState<Scalar> try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i, bool prune,
                               Path<Scalar>& best) const;
-  [[nodiscard]] Scalar loss(const Path<Scalar>& path, const Scalar& z1, const Scalar& z2) const;
   void try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i, Path<Scalar>& best) const;
 
-  Geometry<Scalar> geometry_;
-  Cells<Scalar> cells_;
-  std::vector<Scalar> h_cell_;       ///< 4 s a phi (1 - phi) per cell
+  Law law_;
+  std::vector<Scalar> h_cell_;       ///< 4 H of the state of each cell
   std::vector<std::uint8_t> emits_;  ///< per point: bit 0 upwards, bit 1 downwards
   Scalar slack_;                     ///< rounding allowance of lower bounds
-  Waiting<Scalar> waiting_;
+  Waiting<Scalar, Law> waiting_;
 };
 
-extern template class LayeredMedium<double>;
+/// The law of a canonical form by its inverse branches; parabolas have it, too.
+template <Real Scalar>
+[[nodiscard]] UnimodalLaw<Scalar> unimodal_law(const CanonicalForm<Scalar>& form) {
+  std::vector<InverseFlux<Scalar>> fluxes;
+  for (const Flux<Scalar>& flux : form.layers().fluxes()) fluxes.emplace_back(flux);
+  std::vector<std::size_t> flux_of;
+  for (std::size_t k = 0; k < form.layers().n_layers(); ++k) flux_of.push_back(form.layers().flux_index(k));
+  return {form.boundaries(), form.rates(), std::move(fluxes), std::move(flux_of)};
+}
 
 }  // namespace shearfront::exact

@@ -1,29 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <variant>
+#include <optional>
+#include <utility>
+#include <vector>
 
-#include "shearfront/exact/exponential_medium.hpp"
-#include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/exact/cells.hpp"
+#include "shearfront/exact/path.hpp"
 
 namespace shearfront::exact {
 
-/// The medium of a scene: layered a exactly, exponential a by closed forms, any other a as a staircase of
-/// about `staircase_layers` layers.
 template <Real Scalar>
-[[nodiscard]] std::shared_ptr<const Medium<Scalar>> make_medium(const Scene<Scalar>& scene,
-                                                                std::size_t staircase_layers) {
-  if (scene.is_layered()) return std::make_shared<const LayeredMedium<Scalar>>(scene, exact_layers(scene));
-  if (std::holds_alternative<Exponential<Scalar>>(scene.shear_rate()))
-    return std::make_shared<const ExponentialMedium<Scalar>>(scene);
-  return std::make_shared<const LayeredMedium<Scalar>>(scene, staircase(scene, staircase_layers));
-}
+class CanonicalForm;
 
-/// Whether make_medium represents a(z) of the scene without approximation.
+/// Momentum at the start of a path and what it lacks to 1, each to a few units in the last place.
 template <Real Scalar>
-[[nodiscard]] bool has_exact_medium(const Scene<Scalar>& scene) {
-  return scene.is_layered() || std::holds_alternative<Exponential<Scalar>>(scene.shear_rate());
-}
+struct StartMomentum {
+  Scalar p{0}, missing{1};
+
+  /// d M / d (height of an initial jump from `below` to anything), the path starting there.
+  [[nodiscard]] Scalar against(const Scalar& below) const {
+    return p > missing ? Scalar((below - Scalar(1)) + missing) : Scalar(below - p);
+  }
+};
+
+/// Derivatives of M and phi with respect to what a path depends on besides the initial data: the numbers of every
+/// piece of the bed, every inner boundary, and the height of its start (at fixed initial M).
+template <Real Scalar>
+struct PathGradient {
+  struct Pair {
+    Scalar M{0}, phi{0};
+  };
+  std::size_t first = 0;         ///< the lowest piece the path touches
+  std::vector<Pair> pieces;      ///< Medium::numbers_per_piece() for each of first, first + 1, ...
+  std::vector<Pair> boundaries;  ///< boundaries[n]: the lower boundary of piece first + n, n >= 1
+  StartMomentum<Scalar> start;
+  Scalar phi_start{0};      ///< d phi / d (height of the source), fan kind
+  Scalar phi_state{0};      ///< d phi / d (initial state), constant kind
+  Scalar phi_log_scale{0};  ///< d phi / d log s
+};
+
+/// A bed in which the Lax-Hopf formula is evaluated: pieces between boundaries(), in each of which a(z) has a form
+/// with closed travel times. In the coordinates of a canonical form: states 0 .. 1, H >= 0.
+template <Real Scalar>
+class Medium {
+ public:
+  Medium(Cells<Scalar> cells, Scalar mass) : cells_(std::move(cells)), mass_(std::move(mass)) {}
+  virtual ~Medium() = default;
+
+  [[nodiscard]] const Cells<Scalar>& cells() const { return cells_; }
+  [[nodiscard]] const Scalar& bottom() const { return cells_.x.front(); }
+  [[nodiscard]] const Scalar& top() const { return cells_.x.back(); }
+  [[nodiscard]] const Scalar& mass() const { return mass_; }
+  /// Where the pure states meet in the end.
+  [[nodiscard]] Scalar steady_height() const { return std::min(Scalar(bottom() + mass_), top()); }
+
+  /// Bottom, inner boundaries of the pieces, top.
+  [[nodiscard]] virtual const std::vector<Scalar>& boundaries() const = 0;
+  /// How many numbers describe a(z) in a piece: 1 where it is constant (r = s a), 2 where it is exponential
+  /// (amplitude, decay), as linear pieces would have (a at both ends).
+  [[nodiscard]] virtual std::size_t numbers_per_piece() const = 0;
+  /// Best path that does not start at a wall; kind none if there is none. May return any candidate whose
+  /// value exceeds `upper` when the best one does. Domain: bottom <= z <= top, 0 < t < infinity.
+  [[nodiscard]] virtual Path<Scalar> best_free(const Scalar& z, const Scalar& t,
+                                               const Scalar& upper) const = 0;
+  /// The same among paths with H > 0 only.
+  [[nodiscard]] virtual Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const = 0;
+  /// Time a pure state (H = 0) needs from one height to another: |int dz / (s a)| for the quadratic flux.
+  [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& from, const Scalar& to) const = 0;
+  /// Final amount minus the value of a path that best_free(z, t) returned.
+  [[nodiscard]] virtual Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
+                                         FinalAmount amount) const = 0;
+  /// Four times the largest flux at z (s a for the quadratic flux); at a boundary the value above it, at the top the
+  /// value below.
+  [[nodiscard]] virtual Scalar rate_at(const Scalar& z) const = 0;
+  /// Flux H of the state phi at z, with the same choice at a boundary.
+  [[nodiscard]] virtual Scalar flux_at(const Scalar& z, const Scalar& phi) const = 0;
+  /// First time at which phi next to inner boundary i leaves its initial states (exact/first_wave.hpp); empty if
+  /// it never does.
+  [[nodiscard]] virtual std::optional<Scalar> first_wave(std::size_t i) const = 0;
+  /// Derivatives along a path that best_path(z, t) returned. Cost: O(pieces touched).
+  [[nodiscard]] virtual PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
+                                                      const Scalar& t) const = 0;
+
+  /// The best of all paths, those from the walls included.
+  [[nodiscard]] Path<Scalar> best_path(const Scalar& z, const Scalar& t) const;
+
+ protected:
+  Cells<Scalar> cells_;
+  Scalar mass_;
+};
+
+/// The medium of a canonical form: layers of parabolas, of other fluxes, or one exponential piece.
+template <Real Scalar>
+[[nodiscard]] std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form);
 
 }  // namespace shearfront::exact

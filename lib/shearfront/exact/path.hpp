@@ -28,8 +28,8 @@ struct Path {
   std::size_t source = 0;     ///< fan, waiting: point of Cells; constant: cell of Cells
   std::size_t interface = 0;  ///< waiting: boundary index of the interface
   Scalar foot{0};             ///< height where it starts
-  /// Layered media: 4 H = r_reference (1 - x^2), so that q_k = sqrt((r_k - r_reference + r_reference x^2) /
-  /// r_k) keeps its accuracy near a capacity, where H alone does not.
+  /// Layered media: 4 H = r_reference (1 - x^2), so that what layer k lacks to its capacity, (r_k - r_reference +
+  /// r_reference x^2) / r_k, keeps its accuracy near the capacity, where H alone does not.
   Scalar r_reference{0}, x{1};
 
   /// Smaller value first; at a tie (a shock passes through z) the smaller p, which is the state above.
@@ -41,31 +41,5 @@ struct Path {
 /// What M(z, .) comes to in the end: z - bottom (phi = 1 all the way below z), the whole mass, or, at the
 /// steady height, both.
 enum class FinalAmount : std::uint8_t { full_below, all_mass, both };
-
-/// A medium in which the Lax-Hopf formula is evaluated.
-template <Real Scalar>
-class Medium {
- public:
-  virtual ~Medium() = default;
-  /// Best path that does not start at a wall; kind none if there is none. May return any candidate whose
-  /// value exceeds `upper` when the best one does. Domain: bottom <= z <= top, 0 < t < infinity.
-  [[nodiscard]] virtual Path<Scalar> best_free(const Scalar& z, const Scalar& t,
-                                                    const Scalar& upper) const = 0;
-  /// The same among paths with H > 0 only.
-  [[nodiscard]] virtual Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const = 0;
-  /// Time a pure state (H = 0) needs from one height to another: |int dz / (s a)| for the quadratic flux.
-  [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& from, const Scalar& to) const = 0;
-  /// Final amount minus the value of a path that best_free(z, t) returned.
-  [[nodiscard]] virtual Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
-                                         FinalAmount amount) const = 0;
-  /// s a(z); at a jump of a the value above it, at the top the value below.
-  [[nodiscard]] virtual Scalar rate_at(const Scalar& z) const = 0;
-  /// Largest flux at z, with the same choice at a jump.
-  [[nodiscard]] virtual Scalar capacity_at(const Scalar& z) const { return rate_at(z) / Scalar(4); }
-  /// Flux H of the state phi at z, with the same choice at a jump.
-  [[nodiscard]] virtual Scalar flux_at(const Scalar& z, const Scalar& phi) const {
-    return rate_at(z) * phi * (Scalar(1) - phi);
-  }
-};
 
 }  // namespace shearfront::exact

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/general_medium.hpp"
-#include "shearfront/exact/medium.hpp"
 
 namespace shearfront::exact {
 
-/// The exact solution at a height, approached from above or from below, and how its path begins.
+/// The image of the exact solution (exact/canonical_form.hpp) at a height, approached from above or from below, and how its path begins.
 template <Real Scalar>
 struct PathNode {
   Scalar z, M, phi;
@@ -25,12 +23,13 @@ struct PathNode {
   }
 };
 
-/// Where the exact solution at one time is smooth in z: between the interfaces, cut at shocks and kinks.
+/// Where the image of the exact solution at one time is smooth: between the interfaces, cut at shocks and kinks. All
+/// heights and states are those of the canonical form.
 ///
 /// A cut lies where the minimising path begins in another way. Optimal paths do not cross, so the heights
 /// served by one source in one way are an interval, and its ends are found by bisection (where phi jumps
 /// down, sped up by intersecting the values of M of both sides). Between the cuts phi does not decrease.
-/// Precondition: 0 < t < +infinity, and no canonical form (use exact.image()). Cost of a cut: about 20 queries
+/// Precondition: 0 < t < +infinity. Cost of a cut: about 20 queries
 /// for a shock, 50 for a kink.
 template <Real Scalar>
 class SmoothPieces {
@@ -38,30 +37,24 @@ class SmoothPieces {
   using Node = PathNode<Scalar>;
 
   SmoothPieces(const ExactSolution<Scalar>& exact, const Scalar& t) : exact_(&exact), t_(t) {
-    const Scene<Scalar>& scene = exact.scene();
+    const Medium<Scalar>& medium = exact.medium();
     const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
     narrow_ = Scalar(4) * unit_roundoff<Scalar>() *
-              std::max({Scalar(scene.top() - scene.bottom()), size(scene.top()), size(scene.bottom())});
-    if (const auto* layered = dynamic_cast<const LayeredMedium<Scalar>*>(&exact.medium()))
-      boundaries_ = layered->layers().boundaries();
-    else if (const auto* general = dynamic_cast<const GeneralMedium<Scalar>*>(&exact.medium()))
-      boundaries_ = general->layers().boundaries();
-    else
-      boundaries_ = {scene.bottom(), scene.top()};
+              std::max({Scalar(medium.top() - medium.bottom()), size(medium.top()), size(medium.bottom())});
   }
 
   /// Bottom, interfaces, top.
-  [[nodiscard]] const std::vector<Scalar>& boundaries() const { return boundaries_; }
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const { return exact_->medium().boundaries(); }
 
   [[nodiscard]] Node node(const Scalar& z) const {
-    const auto path = exact_->path(z, t_);
-    const auto value = exact_->value_of(path, z, t_);
+    const auto path = exact_->medium().best_path(z, t_);
+    const auto value = exact_->image_value(path, z);
     return {z, value.M, value.phi, path.kind, path.upward, path.source, path.interface};
   }
   /// The limit from below at an interface.
   [[nodiscard]] Node below(const Scalar& z) const {
     Node n = node(Scalar(z - narrow_ / Scalar(2)));
-    n.M = exact_->M(z, t_);
+    n.M = node(z).M;
     n.z = z;
     return n;
   }
@@ -120,23 +113,21 @@ class SmoothPieces {
 
   const ExactSolution<Scalar>* exact_;
   Scalar t_, narrow_;
-  std::vector<Scalar> boundaries_;
 };
 
-/// The exact solution where it is constant in pieces: at t = 0 and in the steady state. Precondition: no
-/// canonical form.
+/// The image of the exact solution where it is constant in pieces: at t = 0 and in the steady state.
 template <Real Scalar>
 [[nodiscard]] Profile<Scalar> profile_at_rest(const ExactSolution<Scalar>& exact, bool is_initial) {
-  const Scene<Scalar>& scene = exact.scene();
-  std::vector<Scalar> z{scene.bottom()}, phi;
+  const CanonicalForm<Scalar>& form = exact.form();
+  std::vector<Scalar> z{exact.medium().bottom()}, phi;
   if (is_initial) {
-    phi = scene.initial_values();
-    z.insert(z.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
+    phi = form.initial_values();
+    z.insert(z.end(), form.initial_breaks().begin(), form.initial_breaks().end());
   } else {
     phi = {Scalar(1), Scalar(0)};
-    z.push_back(exact.steady_height());
+    z.push_back(exact.medium().steady_height());
   }
-  z.push_back(scene.top());
+  z.push_back(exact.medium().top());
   return {std::move(z), phi, phi};
 }
 

@@ -2,12 +2,13 @@
 #include "shearfront/exact/solver.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_share_integral.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/refusal.hpp"
-#include "shearfront/exact/sensitivities.hpp"
 
 namespace shearfront {
 namespace {
@@ -65,18 +66,6 @@ class ExactRun final : public Run {
   Status status_ = Status::ok;
 };
 
-/// The part of a gradient that belongs to a field of the scene file; empty if there is none.
-std::span<const double> part_of(const Gradient<double>& gradient, std::string_view field) {
-  if (field == "shear_rate.values") return gradient.shear_rate_values();
-  if (field == "shear_rate.breaks") return gradient.shear_rate_breaks();
-  if (field == "shear_rate.amplitude") return {&gradient.amplitude, 1};
-  if (field == "shear_rate.decay") return {&gradient.decay, 1};
-  if (field == "shear_rate.scale") return {&gradient.scale, 1};
-  if (field == "initial.breaks") return gradient.initial_breaks();
-  if (field == "initial.values") return gradient.initial_values();
-  return {};
-}
-
 }  // namespace
 
 std::string ExactSolver::refusal(const Scene<double>& scene, const Options&) { return exact::refusal(scene); }
@@ -85,33 +74,29 @@ std::unique_ptr<Run> ExactSolver::start(const Scene<double>& scene, const Option
   return std::make_unique<ExactRun>(scene, options, watch);
 }
 
-std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry) {
-  const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
-  if (std::string why = sensitivity_refusal(solution); !why.empty()) return why;
-  const auto probe = sensitivities(solution, scene.bottom(), 0.0);
-  return entry.index < part_of(probe.M, entry.field).size() ? "" : entry.name() + " has no exact derivative";
+std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Options&, const Entry& entry) {
+  return shearfront::derivative_refusal(scene, entry);
 }
 
 Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& options,
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                                      std::any&) {
   const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
-  const std::vector<Entry> all = entries(scene.spec());
+  std::optional<Derivatives<double>> derivatives;
+  if (!wanted.empty()) derivatives.emplace(solution);
   Linearisation result;
   result.summary.status = Status::ok;
   result.samples.reserve(places.size());
   result.derivatives.reserve(places.size() * wanted.size());
   for (const Place& place : places) {
-    if (wanted.empty()) {
+    if (!derivatives) {
       const auto value = solution.at(place.z, place.t);
       result.samples.push_back({value.phi, value.M});
       continue;
     }
-    const auto at = sensitivities(solution, place.z, place.t);
+    const auto at = derivatives->at(place.z, place.t);
     result.samples.push_back({at.value.phi, at.value.M});
-    for (const std::size_t i : wanted)
-      result.derivatives.push_back(
-          {part_of(at.phi, all[i].field)[all[i].index], part_of(at.M, all[i].field)[all[i].index]});
+    for (const std::size_t i : wanted) result.derivatives.push_back({at.phi[i], at.M[i]});
   }
   return result;
 }

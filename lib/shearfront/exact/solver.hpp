@@ -28,8 +28,7 @@ struct ExactSolver {
   }
   static std::string refusal(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
-  /// There are none where c, T or a general flux vary smoothly, and for entries other than those of shear_rate and
-  /// initial.
+  /// See exact/derivatives.hpp.
   static std::string derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry);
   static Linearisation linearise(const Scene<double>& scene, const Options& options, const std::vector<Place>& places,
                                  const std::vector<std::size_t>& entries, std::any& memory);

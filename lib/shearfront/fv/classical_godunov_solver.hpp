@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/fv/options.hpp"
+#include "shearfront/fv/run.hpp"
 
 namespace shearfront {
 
 /// Godunov scheme as it is without thought for jumps of a, c or T, first order, kept for comparison:
 /// Godunov's formula, the least flux between the states of two cells where phi rises across the face and the
 /// largest where it falls, with the cells' own fluxes, whether or not the other cell can carry as much
-/// (FaceRule::classical_godunov). What cannot be carried on piles up: phi exceeds c(z), by O(dz) where the
+/// (fv::Rule::classical_godunov). What cannot be carried on piles up: phi exceeds c(z), by O(dz) where the
 /// coefficients are continuous, by an amount that does not fall with dz at a jump; at large jumps the scheme
 /// diverges. It is `godunov` where the coefficients are constant. Guaranteed: the mass is kept, nothing else.
 /// Half the time step of godunov, since shares beyond [0, 1] are faster. Parabolas only. Tables:
 /// docs/packing.md, also for the source.
 struct ClassicalGodunovSolver {
   static constexpr std::string_view kName = "classical-godunov";
-  static constexpr std::string_view kDescription =
-      "Godunov scheme that does not match fluxes at jumps; overshoots";
+  static constexpr std::string_view kDescription = "Godunov scheme that does not match fluxes at jumps; overshoots";
   static constexpr std::string_view kScenes = "parabolas, open ends";
 
   using Options = fv::GridOptions;
@@ -25,8 +24,15 @@ struct ClassicalGodunovSolver {
     g.conservative = g.has_profiles = true;
     return g;
   }
-  static std::string refusal(const Scene<double>& scene, const Options& options);
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  static std::string refusal(const Scene<double>& scene, const Options& options) {
+    return fv::refusal(scheme(options), scene, options);
+  }
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+    return fv::start(scheme(options), scene, options, watch);
+  }
+
+ private:
+  static fv::Scheme scheme(const Options&) { return {fv::Rule::classical_godunov}; }
 };
 static_assert(Solver<ClassicalGodunovSolver>);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/fv/options.hpp"
+#include "shearfront/fv/run.hpp"
 
 namespace shearfront {
 
@@ -9,26 +9,25 @@ namespace shearfront {
 ///   F = s a_face ( f(max(u_l, m)) + f(min(u_r, m)) - f(m) ),   f(m) the minimum of f,
 ///
 /// a_face the harmonic mean of a between the middles of the two cells. Without f(m) (which cancels where a
-/// is constant) the scheme would not converge for any other a. Packing, several fluxes and ends: as
-/// GodunovSolver; between different fluxes and at open ends it takes Godunov's flux.
-/// Guaranteed under the Courant condition: the mass is kept exactly, phi stays in the range of the flux, L1
-/// contraction, u <= v stays u <= v. A steady shock takes two mixed cells. L1 error of phi: O(sqrt(dz)) by
-/// theory, near O(dz) in practice. Time steps, errors, cost: fv/solve.hpp; fluxes: fv/kernel.hpp.
-/// Source: Engquist & Osher (1981), Math. Comp. 36, 321-351; Towers (2000), SIAM J. Numer. Anal. 38, 681-698.
+/// is constant) the scheme would not converge for any other a. Solid fraction, several fluxes, ends and guarantees: as
+/// GodunovSolver; between different fluxes and at open ends it takes Godunov's flux. A steady shock takes two mixed
+/// cells. Source: Engquist & Osher (1981), Math. Comp. 36, 321-351; Towers (2000), SIAM J. Numer. Anal. 38, 681-698.
 struct EngquistOsherSolver {
   static constexpr std::string_view kName = "engquist-osher";
   static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
   static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
 
   struct Options : fv::GridOptions {
-    /// Coefficient of a face: harmonic mean of a between the middles of the cells, or a(z) there.
     FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
       fv::GridOptions::fields(self, visit);
-      visit(OptionInfo{"face-coefficient", "harmonic mean of a(z) between the middles of two cells, or its value at "
-                                           "their face", {}, kFaceCoefficientNames}, self.face_coefficient);
+      visit(OptionInfo{"face-coefficient",
+                       "harmonic mean of a(z) between the middles of two cells, or its value at their face",
+                       {},
+                       kFaceCoefficientNames},
+            self.face_coefficient);
     }
   };
 
@@ -39,8 +38,15 @@ struct EngquistOsherSolver {
     g.order_M = 1;
     return g;
   }
-  static std::string refusal(const Scene<double>& scene, const Options& options);
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  static std::string refusal(const Scene<double>& scene, const Options& options) {
+    return fv::refusal(scheme(options), scene, options);
+  }
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+    return fv::start(scheme(options), scene, options, watch);
+  }
+
+ private:
+  static fv::Scheme scheme(const Options& options) { return {fv::Rule::engquist_osher, options.face_coefficient}; }
 };
 static_assert(Solver<EngquistOsherSolver>);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/fv/options.hpp"
+#include "shearfront/fv/run.hpp"
 
 namespace shearfront {
 
@@ -11,11 +11,10 @@ namespace shearfront {
 /// the exact flux of the Riemann problem between the two cells, also where a jumps, up or down. a_l, a_r are
 /// the harmonic means of a over the cells. With solid fraction or granular temperature the states are phi / c and a
 /// stands for a sqrt(T) c (fv/grid.hpp): the modified Godunov method, without overshoot, phi <= c(z) exactly.
-/// Different fluxes, open and periodic ends: fv/plain_march.hpp; the mass then changes by what enters.
-/// Guaranteed under the Courant condition: the mass is kept exactly, phi stays in the range of the flux, L1
-/// contraction, u <= v stays u <= v. A steady shock takes one mixed cell. L1 error of phi: O(sqrt(dz)) by
-/// theory, near O(dz) in practice. Time steps, errors, cost: fv/solve.hpp; fluxes: fv/kernel.hpp.
-/// Source: Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42, 179-208.
+/// Guaranteed under the Courant condition: the mass changes only by what enters or leaves at open ends, phi stays in
+/// the range of the flux, L1 contraction, u <= v stays u <= v. A steady shock takes one mixed cell. L1 error of phi:
+/// O(sqrt(dz)) by theory, near O(dz) in practice. Fluxes: fv/face_flux.hpp; ends: fv/march.hpp; time steps, outcomes,
+/// cost: fv/run.hpp. Source: Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42, 179-208.
 struct GodunovSolver {
   static constexpr std::string_view kName = "godunov";
   static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
@@ -30,8 +29,15 @@ struct GodunovSolver {
     g.order_M = 1;
     return g;
   }
-  static std::string refusal(const Scene<double>& scene, const Options& options);
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  static std::string refusal(const Scene<double>& scene, const Options& options) {
+    return fv::refusal(scheme(options), scene, options);
+  }
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+    return fv::start(scheme(options), scene, options, watch);
+  }
+
+ private:
+  static fv::Scheme scheme(const Options&) { return {fv::Rule::godunov}; }
 };
 static_assert(Solver<GodunovSolver>);
 

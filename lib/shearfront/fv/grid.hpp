@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -7,62 +8,55 @@
 
 namespace shearfront::fv {
 
-/// A grid of n_cells >= 1 cells over [bottom, top]; cell j is [edge(j), edge(j + 1)]. Uniform unless there
-/// are edges.
+/// Cells over [bottom, top]; cell j is [edges[j], edges[j + 1]].
 struct Grid {
-  double bottom = 0, top = 1;
-  std::size_t n_cells = 1;
-  std::vector<double> edges{};   ///< of the cells, or none
-  std::vector<double> widths{};  ///< of the cells, equal to the bit where cells are equal; as many, or none
+  std::vector<double> edges;   ///< ascending, the first and last are exactly those of the scene
+  std::vector<double> widths;  ///< one less; of equal cells equal to the bit
 
-  /// Ascending in j; edge(0) == bottom and edge(n_cells) == top exactly.
-  [[nodiscard]] double edge(std::size_t j) const {
-    if (!edges.empty()) return edges[j];
-    if (j == n_cells) return top;
-    return bottom + (top - bottom) * (static_cast<double>(j) / static_cast<double>(n_cells));
-  }
-  [[nodiscard]] double middle(std::size_t j) const {
-    if (!edges.empty()) return edges[j] + (edges[j + 1] - edges[j]) / 2;
-    return bottom + (top - bottom) * ((static_cast<double>(j) + 0.5) / static_cast<double>(n_cells));
-  }
-  /// Width of the cells; of grids with edges the mean.
-  [[nodiscard]] double cell_width() const { return (top - bottom) / static_cast<double>(n_cells); }
+  [[nodiscard]] std::size_t n_cells() const { return widths.size(); }
+  [[nodiscard]] double middle(std::size_t j) const { return edges[j] + (edges[j + 1] - edges[j]) / 2; }
 };
 
-/// About `n_cells` cells (each layer at least one, their number in proportion to its thickness), equal within
-/// a layer or between two knots of a, with edges on the interfaces.
-[[nodiscard]] Grid aligned_grid(const Scene<double>& scene, std::size_t n_cells);
+/// n_cells >= 1 equal cells.
+[[nodiscard]] Grid equal_cells(const Scene<double>& scene, std::size_t n_cells);
 
-/// Mean of the share x = phi(z, 0) / c(z) over the grains of every cell, int phi dz / int c dz, exact to
-/// rounding, so the grid starts with the mass of the scene. Continuous in the heights of the initial jumps.
-/// Cost: O(n_cells + jumps + knots).
-[[nodiscard]] std::vector<double> initial_averages(const Scene<double>& scene, const Grid& grid);
+/// About n_cells cells with edges on the knots of the scene: each stretch between two knots has at least one,
+/// their number in proportion to its thickness, and all of its cells are equal.
+[[nodiscard]] Grid aligned_cells(const Scene<double>& scene, std::size_t n_cells);
 
-/// Mean of c over every cell; empty for a scene without solid fraction. Cost: O(n_cells + knots).
-[[nodiscard]] std::vector<double> cell_packings(const Scene<double>& scene, const Grid& grid);
+/// Calls visit(lo, hi) for the pieces into which the cuts (ascending) divide [begin, end], bottom to top.
+template <class Visit>
+void for_pieces(const std::vector<double>& cuts, double begin, double end, Visit&& visit) {
+  double lo = begin;
+  for (auto cut = std::upper_bound(cuts.begin(), cuts.end(), begin); cut != cuts.end() && *cut < end; ++cut) {
+    visit(lo, *cut);
+    lo = *cut;
+  }
+  visit(lo, end);
+}
 
-/// int c dz of every cell; empty where all are equal to the bit. Cost: as above.
+// With the share x = phi / c the law is (c x)_t + (s a sqrt(T) c f(x))_z = 0: a cell holds int c dz of grains,
+// and a rate counts times c. In what follows a stands for a sqrt(T). Cost of each: O(cells log knots).
+
+/// int c dz of every cell; without solid fraction its width.
 [[nodiscard]] std::vector<double> capacities(const Scene<double>& scene, const Grid& grid);
 
-// With x = phi / c the law is (c x)_t + (s a sqrt(T) c f(x))_z = 0: a cell of width w and solid fraction c is a cell
-// of width w c for x, and a rate counts times c. In what follows a stands for a sqrt(T).
+/// Mean share of the grains of every cell, int phi dz / int c dz at t = 0, to rounding, so the grid starts
+/// with the mass of the scene. Continuous in the heights of the initial jumps.
+[[nodiscard]] std::vector<double> initial_shares(const Scene<double>& scene, const Grid& grid);
 
-/// s times the harmonic mean of a over every cell, times its solid fraction: result[j] belongs to cell j.
+/// s times the harmonic mean of a over every cell, times its mean c.
 ///
-/// The harmonic mean (width / int dz / a) keeps the travel time of pure grains (phi = 0 or 1) across a cell
-/// exact. For smooth a it is a(middle) up to O(width^2); in a cell cut by an interface it depends
-/// continuously on the height of the interface, which the value at the middle would not: a fit that moves an
-/// interface needs that. Cost: O(n_cells + knots).
+/// The harmonic mean (width / int dz / a) keeps the travel time of pure grains across a cell exact. For smooth
+/// a it is a(middle) up to O(width^2); in a cell cut by an interface it depends continuously on the height of
+/// the interface, which the value at the middle would not: a fit that moves an interface needs that.
 [[nodiscard]] std::vector<double> cell_rates(const Scene<double>& scene, const Grid& grid);
 
-/// s times the harmonic mean of a from the middle of cell j - 1 to the middle of cell j, times the mean of c
-/// there: result[j] belongs to the face below cell j, 1 <= j < n_cells; result[0] and result[n_cells], the
-/// walls, are 0.
-///
-/// For smooth a this is a(face) up to O(width^2). Cost: O(n_cells + knots).
+/// The same from the middle of cell j - 1 to that of cell j: result[j], 1 <= j < n_cells, belongs to the face
+/// below cell j; result[0] and result[n_cells], the ends, are 0.
 [[nodiscard]] std::vector<double> face_rates(const Scene<double>& scene, const Grid& grid);
 
-/// s a(z) c(z) at every face, the upper value at a jump; 0 at the walls. Cost: O(n_cells log knots).
+/// s a(z) c(z) at every face, the upper value at a jump; 0 at the ends.
 [[nodiscard]] std::vector<double> face_values(const Scene<double>& scene, const Grid& grid);
 
 }  // namespace shearfront::fv

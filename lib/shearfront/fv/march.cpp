@@ -2,154 +2,336 @@
 #include "shearfront/fv/march.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
+#include <limits>
 
-#include "shearfront/numeric/contract.hpp"
+#include "shearfront/fv/vectorised.hpp"
+#include "shearfront/numeric/sum.hpp"
 
 namespace shearfront::fv {
-
-March::March(const Kernel& kernel, const UnimodalFlux& flux, CellData data, double cfl)
-    : kernel_(kernel), lo_(flux.lo), hi_(flux.hi), quantum_(kernel.numbers().quantum) {
-  // The fast kernel knows a minimum only: a parabola with a maximum is one for the share of the other grains.
-  const bool is_reflected = kernel.numbers().is_for_minima && !flux.is_minimum;
-  if (is_reflected) std::swap(lo_, hi_);
-  const std::size_t n = data.phi.size();
-  SHEARFRONT_EXPECTS(data.rates.size() == n || data.rates.size() == n + 1, "one rate per cell or face");
-  const KernelNumbers numbers = kernel.numbers();
-  data.coefficient = cfl * numbers.largest_courant * numbers.coefficient_weight;
-  data.fastest = 0;
-  for (std::size_t j = 0; j < n; ++j) data.fastest = std::max(data.fastest, speed_of(data, j));
-  for (const int octave : data.octaves) slowest_octave_ = std::max(slowest_octave_, octave);
-  speed_ = flux.largest_slope * data.fastest / numbers.largest_courant / std::ldexp(1.0, slowest_octave_);
-  const double at_bottom = flux.is_minimum || is_reflected ? 1 : -1;
-  for (std::size_t first = 0, end = 0; first < n; first = end) {
-    end = first + 1;
-    if (data.octaves.empty()) end = n;
-    while (end < n && data.octaves[end] == data.octaves[first]) ++end;
-    const auto& section = bed_.sections.emplace_back(kernel, data, first, end - first, lo_, hi_,
-                                                     std::array<double, 2>{at_bottom, -at_bottom});
-    updates_per_step_ += (end - first) << (slowest_octave_ - section.octave());
-    if (end < n) bed_.borders.emplace_back(data.octaves[first] < data.octaves[end]);
-  }
-  phi_.resize(n);
-}
-
-void March::step(Bed& bed, int octave) const {
-  if (octave > 0) {
-    step(bed, octave - 1);
-    step(bed, octave - 1);
-  }
-  for (std::size_t i = 0; i < bed.sections.size(); ++i) {
-    Section& section = bed.sections[i];
-    if (section.octave() != octave) continue;
-    section.sweep(kernel_, 1);
-    if (i > 0) {
-      Border& border = bed.borders[i - 1];
-      border.is_faster_below() ? border.deliver(bed.sections[i - 1], section, quantum_)
-                               : border.collect(bed.sections[i - 1], section, quantum_);
-    }
-    if (i + 1 < bed.sections.size()) {
-      Border& border = bed.borders[i];
-      border.is_faster_below() ? border.collect(section, bed.sections[i + 1], quantum_)
-                               : border.deliver(section, bed.sections[i + 1], quantum_);
-    }
-  }
-}
-
-void March::advance(std::uint64_t steps) {
-  n_steps_ += steps;
-  if (bed_.sections.size() > 1) {
-    for (; steps > 0; --steps) step(bed_, slowest_octave_);
-    return;
-  }
-  for (; steps > Section::kDepth; steps -= Section::kDepth) bed_.sections[0].sweep(kernel_, Section::kDepth);
-  bed_.sections[0].sweep(kernel_, static_cast<std::size_t>(steps));
-}
-
-bool March::is_at_rest() {
-  side_ = bed_;
-  const auto is_back = [&] {
-    for (std::size_t i = 0; i < bed_.sections.size(); ++i)
-      if (!side_.sections[i].has_states_of(bed_.sections[i])) return false;
-    return true;
-  };
-  // The two mixed cells of an Engquist-Osher shock may hand a quantum to and fro for ever.
-  constexpr int kLongestCycle = 4;
-  for (int n = 0; n < kLongestCycle; ++n) {
-    step(side_, slowest_octave_);
-    if (is_back()) return true;
-  }
-  return false;
-}
-
-CellStates March::states(double fraction) {
-  side_ = bed_;
-  if (fraction > 0) {
-    for (Section& section : side_.sections) section.shorten(fraction);
-    step(side_, slowest_octave_);
-  }
-  const bool has_slopes = kernel_.numbers().has_slopes;
-  if (has_slopes) half_rises_.resize(phi_.size());
-  for (Section& section : side_.sections) {
-    const double* v = section.states();
-    if (has_slopes) section.half_rises(kernel_, section_rises_);
-    for (std::size_t j = 0; j < section.n_cells(); ++j) {
-      phi_[section.first() + j] = lo_ + (hi_ - lo_) * ((1 + v[j]) / 2);
-      if (has_slopes) half_rises_[section.first() + j] = section_rises_[j] * ((hi_ - lo_) / 2);
-    }
-  }
-  return {phi_, half_rises_};
-}
-
 namespace {
 
-/// alpha >= m of the two mixed cells of an Engquist-Osher shock that hold `amount` together.
-double upper_mixed_state(const UnimodalFlux& flux, double amount, double width_below, double width_above) {
-  const double m = flux.extremum - flux.lo, width = flux.hi - flux.lo;
-  const double sign = flux.is_minimum ? 1 : -1;
-  const auto value = [&](double x) { return sign * flux.value(flux.lo + std::clamp(x, 0.0, width)); };
-  double below = m, above = width;
+/// To a multiple of March::kQuantum, for |amount| <= 1: the digits of 3 + amount end there.
+SHEARFRONT_FV_INLINE double whole(double amount) { return (amount + 3) - 3; }
+
+/// v of the cells, at most `limit` in size.
+SHEARFRONT_FV_VECTORISED
+void read_states(const double* __restrict amounts, const double* __restrict inverses, double limit,
+                 double* __restrict v, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) {
+    double x = amounts[j] * inverses[j];
+    x = x < limit ? x : limit;
+    v[j] = x > -limit ? x : -limit;
+  }
+}
+
+/// crossing[j] is what comes into cell j from below.
+SHEARFRONT_FV_VECTORISED
+void move_amounts(double* __restrict amounts, const double* __restrict crossing, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) amounts[j] -= crossing[j + 1] - crossing[j];
+}
+
+SHEARFRONT_FV_VECTORISED
+void average_stages(double* __restrict crossing, const double* __restrict second, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) crossing[j] = whole(0.5 * (crossing[j] + second[j]));
+}
+
+SHEARFRONT_FV_VECTORISED
+void edge_states(const double* __restrict v, const double* __restrict rises, double* __restrict bottoms,
+                 double* __restrict tops, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) bottoms[j] = v[j] - rises[j], tops[j] = v[j] + rises[j];
+}
+
+// The faces between cells of one flux with one extremum, seen as a minimum (FluxShape): upward(l) = f(max(l, m)),
+// downward(r) = f(min(r, m)), both(l, r) = upward(l) + downward(r) - f(m).
+
+/// f = v^2 - 1. The extremum is no constant: GCC 12 would make branches of a comparison with 0.
+struct ParabolaSides {
+  double extremum;
+
+  SHEARFRONT_FV_INLINE double square_above(double l) const { return square(l > extremum ? l : extremum); }
+  SHEARFRONT_FV_INLINE double square_below(double r) const { return square(r < extremum ? r : extremum); }
+  SHEARFRONT_FV_INLINE double upward(double l) const { return square_above(l) - 1; }
+  SHEARFRONT_FV_INLINE double downward(double r) const { return square_below(r) - 1; }
+  SHEARFRONT_FV_INLINE double both(double l, double r) const { return upward(l) + square_below(r); }
+  SHEARFRONT_FV_INLINE static double square(double x) { return x * x; }
+};
+
+template <class Model>
+struct Sides {
+  const Model& f;
+  const FluxShape& shape;
+  double extremum = shape.state(shape.extremum()), at_extremum = value(extremum);
+
+  [[nodiscard]] double value(double v) const { return shape.sign * f.value(shape.share(v)); }
+  [[nodiscard]] double upward(double l) const { return value(std::max(l, extremum)); }
+  [[nodiscard]] double downward(double r) const { return value(std::min(r, extremum)); }
+  [[nodiscard]] double both(double l, double r) const { return upward(l) + (downward(r) - at_extremum); }
+};
+
+struct Faces {
+  const double *below, *above;          ///< states
+  const double *k_below, *k_above;      ///< coefficients
+  double scale;
+  std::size_t n;
+};
+
+template <class Flux>
+SHEARFRONT_FV_INLINE void cross_by_godunov(const Flux& f, const Faces& faces, double* __restrict crossing) {
+  const double *__restrict below = faces.below, *__restrict above = faces.above;
+  const double *__restrict k_below = faces.k_below, *__restrict k_above = faces.k_above;
+  const double scale = faces.scale;
+  for (std::size_t i = 0; i < faces.n; ++i) {
+    const double from_below = k_below[i] * f.upward(below[i]), from_above = k_above[i] * f.downward(above[i]);
+    crossing[i] = whole(scale * (from_below > from_above ? from_below : from_above));
+  }
+}
+template <class Flux>
+SHEARFRONT_FV_INLINE void cross_by_engquist_osher(const Flux& f, const Faces& faces,
+                                                  double* __restrict crossing) {
+  const double *__restrict below = faces.below, *__restrict above = faces.above;
+  const double* __restrict k = faces.k_below;
+  const double scale = faces.scale;
+  for (std::size_t i = 0; i < faces.n; ++i) crossing[i] = whole(scale * (k[i] * f.both(below[i], above[i])));
+}
+
+SHEARFRONT_FV_VECTORISED
+void parabola_by_godunov(const Faces& faces, double extremum, double* crossing) {
+  cross_by_godunov(ParabolaSides{extremum}, faces, crossing);
+}
+SHEARFRONT_FV_VECTORISED
+void parabola_by_engquist_osher(const Faces& faces, double extremum, double* crossing) {
+  cross_by_engquist_osher(ParabolaSides{extremum}, faces, crossing);
+}
+
+/// What the lower one of the two mixed cells of an Engquist-Osher shock holds (above v = -1) of their `amount`.
+double lower_of_pair(const FluxShape& flux, double amount, double capacity_below, double capacity_above) {
+  const double extremum = flux.state(flux.extremum());
+  const auto value = [&](double v) { return flux.sign * flux.value(flux.share(std::clamp(v, -1.0, 1.0))); };
+  double low = (1 + extremum) * capacity_below, high = 2 * capacity_below;
   constexpr int kHalvings = 60;  // beyond the digits of a double
   for (int i = 0; i < kHalvings; ++i) {
-    const double alpha = below + (above - below) / 2, beta = (amount - width_below * alpha) / width_above;
-    // beta > m: too little in the first; beta < 0: too much.
-    const bool is_low = beta > m || (beta > 0 && value(alpha) + value(beta) < value(m));
-    (is_low ? below : above) = alpha;
+    const double here = low + (high - low) / 2;
+    const double alpha = here / capacity_below - 1, beta = (amount - here) / capacity_above - 1;
+    const bool is_low = beta > extremum || (beta > -1 && value(alpha) + value(beta) < value(extremum));
+    (is_low ? low : high) = here;
   }
-  return below + (above - below) / 2;
+  return low + (high - low) / 2;
 }
+
+bool is_monotone(Rule rule) { return rule == Rule::godunov || rule == Rule::engquist_osher; }
 
 }  // namespace
 
-std::vector<double> steady_state(Scheme scheme, const UnimodalFlux& flux, double total,
-                                 const std::vector<double>& widths) {
-  const std::size_t n = widths.size();
-  const double range = flux.hi - flux.lo;
-  std::vector<double> phi(n, flux.lo);
-  const auto cell = [&](std::size_t i) { return flux.is_minimum ? i : n - 1 - i; };
-  double height = 0;
-  for (const double width : widths) height += width;
-  double amount = std::clamp(total - height * flux.lo, 0.0, height * range);
-  const double m = scheme == Scheme::engquist_osher ? flux.extremum - flux.lo : 0;
-  // With the wall next to it the last cell holds what is left.
-  std::size_t i = 0;
-  for (; i + 1 < n; ++i) {
-    const double width = widths[cell(i)];
-    if (amount < width * range + m * widths[cell(i + 1)]) break;
-    phi[cell(i)] = flux.hi;
-    amount = std::max(0.0, amount - width * range);
+March::March(const Scheme& scheme, const Scene<double>& scene, const Grid& grid)
+    : scheme_(scheme),
+      rates_(cell_rates(scene, grid)),
+      limit_(is_monotone(scheme.rule) ? 1 : infinity<double>()),
+      is_periodic_(scene.spec().is_periodic),
+      outside_{std::nan(""), std::nan("")} {
+  const std::size_t n = grid.n_cells();
+  for (std::size_t j = 0; j < n; ++j) {  // the middle of a cell says which flux it has
+    const Flux<double>& flux = scene.flux_at(grid.middle(j));
+    if (j == 0 || &flux != &scene.flux_at(grid.middle(j - 1))) parts_.push_back({FluxShape(flux), j, n});
+    if (parts_.size() > 1) parts_[parts_.size() - 2].end = parts_.back().first;
   }
-  const double width = widths[cell(i)];
-  if (scheme == Scheme::engquist_osher && i + 1 < n && amount > m * width) {
-    const double above = widths[cell(i + 1)], alpha = upper_mixed_state(flux, amount, width, above);
-    phi[cell(i)] = flux.lo + alpha;
-    phi[cell(i + 1)] = flux.lo + std::clamp((amount - width * alpha) / above, 0.0, range);
-  } else {
-    phi[cell(i)] = flux.lo + std::min(amount / width, range);
+  set_face_rates(scene, grid);
+  if (scheme.limiter) {
+    muscl_.emplace(*scheme.limiter, scene.is_layered() ? rates_ : std::vector<double>{});
+    stages_.emplace(n);
   }
-  return phi;
+  const std::vector<double> contents = fv::capacities(scene, grid), x = initial_shares(scene, grid);
+  double fastest = 0;
+  for (const Part& part : parts_)
+    for (std::size_t j = part.first; j < part.end; ++j) {
+      capacities_.push_back(contents[j] * ((part.flux.hi - part.flux.lo) / 2));
+      const double k = face_rates_.empty() ? rates_[j] : std::max(face_rates_[j], face_rates_[j + 1]);
+      fastest = std::max(fastest, k * part.flux.largest_slope / contents[j]);
+      crossing_time_ += contents[j] / (rates_[j] * part.flux.largest_slope);
+    }
+  largest_step_ = (limit_ == 1 && !scheme.limiter ? 1 : 0.5) / fastest;
+  unit_ = *std::max_element(capacities_.begin(), capacities_.end());
+  for (const Part& part : parts_)
+    for (std::size_t j = part.first; j < part.end; ++j) {
+      const double capacity = capacities_[j] = std::max(whole(capacities_[j] / unit_), kQuantum);
+      amounts_.push_back(whole(capacity * part.flux.state(x[j])));
+      inverses_.push_back(1 / capacity);
+      if (capacity * inverses_[j] < 1) inverses_[j] = std::nextafter(inverses_[j], infinity<double>());
+      if (limit_ != 1) solid_fractions_.push_back(contents[j] / grid.widths[j]);
+    }
+  has_steady_state_ = scene.has_walls() && limit_ == 1 &&
+                      std::all_of(parts_.begin(), parts_.end(), [](const Part& part) {
+                        return part.flux.has_one_extremum() && part.flux.vanishes;
+                      });
+}
+
+void March::set_face_rates(const Scene<double>& scene, const Grid& grid) {
+  const bool is_smooth = scheme_.limiter && !scene.is_layered();
+  if (scheme_.rule != Rule::engquist_osher && !is_smooth) return;
+  const bool is_value = is_smooth || scheme_.face_coefficient == FaceCoefficient::value;
+  face_rates_ = is_value ? face_values(scene, grid) : fv::face_rates(scene, grid);
+  if (is_periodic_)
+    face_rates_.front() = face_rates_.back() = 2 / (1 / rates_.front() + 1 / rates_.back());
+  if (scene.spec().outside_bottom) face_rates_.front() = rates_.front();
+  if (scene.spec().outside_top) face_rates_.back() = rates_.back();
+  // Between different fluxes Godunov's flux counts, with the coefficients of both cells.
+  for (std::size_t i = 1; i < parts_.size(); ++i) {
+    const std::size_t j = parts_[i].first;
+    face_rates_[j] = std::max(rates_[j - 1], rates_[j]);
+  }
+}
+
+double March::state(std::size_t j) const {
+  return std::clamp(amounts_[j] * inverses_[j], -limit_, limit_);
+}
+
+double March::end_flux(std::size_t end) const {
+  if (!is_periodic_ && std::isnan(outside_[end])) return 0;
+  const Part &lowest = parts_.front(), &highest = parts_.back();
+  const std::size_t last = n_cells() - 1;
+  const double sign = lowest.flux.sign;
+  const FaceSide bottom = side(lowest, 0, state(0)), top = side(highest, last, state(last));
+  if (is_periodic_)
+    return sign * face_flux(scheme_.rule, top, bottom, face_rates_.empty() ? 0 : face_rates_.front());
+  const Rule rule = limit_ == 1 ? Rule::godunov : scheme_.rule;
+  FaceSide outside = end == 0 ? bottom : top;
+  outside.x = outside_[end];
+  return sign * (end == 0 ? face_flux(rule, outside, bottom, 0) : face_flux(rule, top, outside, 0));
+}
+
+void March::step(double dt) {
+  muscl_ ? second_order_step(dt / unit_) : first_order_step(dt / unit_);
+}
+
+void March::first_order_step(double scale) {
+  constexpr std::size_t kBlock = 256;  // small enough for the first cache
+  // v[i + 1] belongs to cell first + i, crossing[i + 1] to the face below it; what is at 0 the last block has left.
+  alignas(64) std::array<double, kBlock + 1> v, crossing;
+  v[0] = crossing[0] = 0;
+  const double at_bottom = whole(scale * end_flux(0)), at_top = whole(scale * end_flux(1));
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const Part& part = parts_[p];
+    for (std::size_t first = part.first; first < part.end; first += kBlock) {
+      const std::size_t n = std::min(kBlock, part.end - first), begin = first == part.first ? 1 : 0;
+      read_states(&amounts_[first], &inverses_[first], limit_, &v[1], n);
+      if (first == 0) {
+        crossing[1] = at_bottom;
+      } else if (begin == 1) {
+        const FaceSide below = side(parts_[p - 1], first - 1, v[0]), above = side(part, first, v[1]);
+        crossing[1] = whole(scale * part.flux.sign * face_flux(scheme_.rule, below, above, 0));
+      }
+      cross_faces(part, first + begin, first + n, &v[begin], &v[begin + 1], scale, &crossing[begin + 1]);
+      const std::size_t skip = first == 0 ? 1 : 0;  // there is no cell below the first
+      move_amounts(amounts_.data() + (first + skip - 1), &crossing[skip], n - skip);
+      v[0] = v[n];
+      crossing[0] = crossing[n];
+    }
+  }
+  amounts_.back() -= at_top - crossing[0];
+  inflow_ += at_bottom - at_top;
+}
+
+void March::second_order_step(double scale) {
+  const std::size_t n = n_cells();
+  Stages& s = *stages_;
+  const auto cross = [&](const std::vector<double>& amounts, std::vector<double>& crossing) {
+    read_states(amounts.data(), inverses_.data(), limit_, &s.v[1], n);
+    muscl_->half_rises(parts_[0].flux, &s.v[1], s.rises.data(), n);
+    edge_states(&s.v[1], s.rises.data(), s.bottoms.data(), s.tops.data(), n);
+    if (n > 1) cross_faces(parts_[0], 1, n, &s.tops[0], &s.bottoms[1], scale, &crossing[1]);
+  };
+  cross(amounts_, s.crossing);
+  s.amounts = amounts_;
+  move_amounts(s.amounts.data(), s.crossing.data(), n);
+  cross(s.amounts, s.second_crossing);
+  average_stages(s.crossing.data(), s.second_crossing.data(), n + 1);
+  move_amounts(amounts_.data(), s.crossing.data(), n);
+}
+
+void March::cross_faces(const Part& part, std::size_t first, std::size_t end, const double* below,
+                        const double* above, double scale, double* crossing) const {
+  const bool is_godunov = scheme_.rule == Rule::godunov;
+  if (limit_ != 1 || !part.flux.has_one_extremum()) {
+    for (std::size_t j = first; j < end; ++j) {
+      const double flux = face_flux(scheme_.rule, side(part, j - 1, below[j - first]),
+                                    side(part, j, above[j - first]), face_rates_.empty() ? 0 : face_rates_[j]);
+      crossing[j - first] = whole(scale * part.flux.sign * flux);
+    }
+    return;
+  }
+  const double* k = face_rates_.empty() ? rates_.data() + first : face_rates_.data() + first;
+  Faces faces{below, above, face_rates_.empty() ? k - 1 : k, k, scale, end - first};
+  if (part.flux.is_parabola) {
+    faces.scale *= std::abs(part.flux.turn_values[1]);
+    const double extremum = part.flux.state(part.flux.extremum());  // 0
+    is_godunov ? parabola_by_godunov(faces, extremum, crossing)
+               : parabola_by_engquist_osher(faces, extremum, crossing);
+    return;
+  }
+  std::visit(
+      [&]<class Model>(const Model& f) {
+        const Sides<Model> sides{f, part.flux};
+        is_godunov ? cross_by_godunov(sides, faces, crossing)
+                   : cross_by_engquist_osher(sides, faces, crossing);
+      },
+      part.flux.flux);
+}
+
+CellShares March::shares() const {
+  CellShares cells;
+  std::vector<double> v(n_cells() + 2, 1.0), rises;
+  read_states(amounts_.data(), inverses_.data(), limit_, &v[1], n_cells());
+  for (const Part& part : parts_)
+    for (std::size_t j = part.first; j < part.end; ++j) cells.x.push_back(part.flux.share(v[j + 1]));
+  if (!scheme_.limiter) return cells;
+  v.back() = -1;
+  cells.half_rise.resize(n_cells());
+  const FluxShape& flux = parts_[0].flux;
+  muscl_->half_rises(flux, &v[1], cells.half_rise.data(), n_cells());
+  for (std::size_t j = 0; j < n_cells(); ++j) {
+    const double room = std::min(cells.x[j] - flux.lo, flux.hi - cells.x[j]);
+    const double rise = flux.sign * ((flux.hi - flux.lo) / 2) * cells.half_rise[j];
+    cells.half_rise[j] = std::clamp(rise, -room, room);
+  }
+  return cells;
+}
+
+CellShares March::shares_after(double dt) {
+  if (!(dt > 0)) return shares();
+  const std::vector<double> amounts = amounts_;
+  const double inflow = inflow_;
+  step(dt);
+  CellShares cells = shares();
+  amounts_ = amounts;
+  inflow_ = inflow;
+  return cells;
+}
+
+std::vector<double> March::settled_amounts() const {
+  const std::size_t n = n_cells();
+  CompensatedSum<double> spare;
+  for (std::size_t j = 0; j < n; ++j) spare += amounts_[j] + capacities_[j];
+  std::vector<double> settled(n);
+  for (std::size_t j = 0; j < n; ++j) settled[j] = -capacities_[j];
+  for (const Part& part : parts_) {
+    const double extremum = part.flux.state(part.flux.extremum());
+    for (std::size_t j = part.first; j < part.end; ++j) {
+      const bool is_pair = scheme_.rule == Rule::engquist_osher && j + 1 < part.end;
+      const double room = 2 * capacities_[j], amount = spare.value();
+      if (j + 1 < n && amount >= room + (is_pair ? (1 + extremum) * capacities_[j + 1] : 0)) {
+        settled[j] = capacities_[j];
+        spare += -room;
+        continue;
+      }
+      double here = std::clamp(amount, 0.0, room);
+      if (is_pair && amount > (1 + extremum) * capacities_[j])
+        here = lower_of_pair(part.flux, amount, capacities_[j], capacities_[j + 1]);
+      settled[j] = whole(here - capacities_[j]);
+      if (is_pair) settled[j + 1] = whole((amount - capacities_[j] - settled[j]) - capacities_[j + 1]);
+      return settled;
+    }
+  }
+  return settled;
 }
 
 }  // namespace shearfront::fv

@@ -1,75 +1,119 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "shearfront/fv/kernel.hpp"
-#include "shearfront/fv/section.hpp"
+#include "shearfront/fv/face_flux.hpp"
+#include "shearfront/fv/grid.hpp"
+#include "shearfront/fv/muscl.hpp"
+#include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 
-/// phi of all cells: their averages and, where it is linear inside, half its rise across each (else empty).
-struct CellStates {
-  std::span<const double> phi, half_rise;
-
-  [[nodiscard]] double at_bottom(std::size_t j) const {
-    return half_rise.empty() ? phi[j] : phi[j] - half_rise[j];
-  }
-  [[nodiscard]] double at_top(std::size_t j) const {
-    return half_rise.empty() ? phi[j] : phi[j] + half_rise[j];
-  }
+struct Scheme {
+  Rule rule = Rule::godunov;
+  FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
+  std::optional<Limiter> limiter{};  ///< second order with rule godunov (fv/muscl.hpp)
 };
 
-/// The states of all cells and their march in time, step by step.
+/// x = phi / c of all cells: their means and, where x is linear inside, half its rise across each (else empty).
+struct CellShares {
+  std::vector<double> x, half_rise;
+};
+
+/// The states of all cells and their march in time, one explicit step after the other:
 ///
-/// Guaranteed: the states after n steps depend on n only, to the bit, not on how advance() was called.
+///   x_j -= dt / (int_cell c dz) (F_{j+1} - F_j),   F by a Rule; for muscl twice, as SSP-RK2
+///
+/// Ends: at a wall F = 0; at an open end Godunov's flux (of the other rules their own) between the state outside,
+/// taken for one of the flux and coefficient of the end cell, and that cell, so what enters and what leaves is
+/// decided as at any other face, in the sense of Bardos, LeRoux & Nedelec (1979), Comm. PDE 4, 1017-1034; a
+/// periodic bed has one more inner face.
+///
+/// What is stored is the amount of grains, capacity times v (FluxShape), in units of the largest capacity. Amounts,
+/// and what crosses a face in a step, are rounded to multiples of 2^-51, so that
+///   (1) nothing is lost in an addition: the amount in the bed changes by inflow() only, for ever;
+///   (2) tails do not fade into subnormal numbers, which cost a hundred times the time of normal ones;
+///   (3) a bed at rest stays at rest.
+/// (4) x is in [lo, hi] whatever the rounding (godunov, engquist_osher): a cell that has a rounding more than it can
+///     hold counts as full.
+/// (5) L1 contraction, and x <= y stays x <= y, both to rounding (first order of these two).
+/// Price: an amount below 2^-52 in a step is lost on its way. Where c and the cells are equal that is 2^-52 of phi.
+/// Cost: tests/bench/fv_bench.cpp. Memory: about 70 bytes per cell, 110 for muscl.
 class March {
  public:
-  /// `cfl`: time step in terms of the largest allowed, in (0, 1]; sets data.coefficient and data.fastest.
-  /// With data.octaves one step is that of the slowest cells, and the others make 2, 4, 8, ... meanwhile.
-  March(const Kernel& kernel, const UnimodalFlux& flux, CellData data, double cfl);
+  /// Preconditions: see refusal() in fv/run.hpp.
+  March(const Scheme& scheme, const Scene<double>& scene, const Grid& grid);
 
-  [[nodiscard]] std::size_t n_cells() const { return phi_.size(); }
-  [[nodiscard]] std::uint64_t n_steps() const { return n_steps_; }
-  [[nodiscard]] std::uint64_t updates_per_step() const { return updates_per_step_; }
-  /// One step lasts cfl * reference width / speed(). 0 if nothing can ever move.
-  [[nodiscard]] double speed() const { return speed_; }
+  [[nodiscard]] std::size_t n_cells() const { return amounts_.size(); }
+  /// The time that the fastest waves take across the bed.
+  [[nodiscard]] double crossing_time() const { return crossing_time_; }
+  /// Up to which the bounds hold; for the other rules half of it. Infinite if nothing moves.
+  [[nodiscard]] double largest_step() const { return largest_step_; }
+  /// Shares beyond the open ends from now on; NaN: none (a wall).
+  void set_outside(std::array<double, 2> shares) { outside_ = shares; }
+  void step(double dt);
 
-  /// Cost: updates_per_step() cell updates a step. Large grids with equal steps everywhere are swept in
-  /// blocks that stay in the cache for many steps.
-  void advance(std::uint64_t steps);
-  /// Whether the states come back after a step, or after up to four. Cost: as many steps.
-  [[nodiscard]] bool is_at_rest();
-  /// phi of every cell after a last step of `fraction` (0 <= fraction < 1) of a whole one; the march itself
-  /// stays where it is. Continuous in fraction, also where the fraction turns into a whole step.
-  [[nodiscard]] CellStates states(double fraction);
+  [[nodiscard]] CellShares shares() const;
+  /// After a step of dt; the march itself stays where it is.
+  [[nodiscard]] CellShares shares_after(double dt);
+  /// What has come in through both ends since the beginning.
+  [[nodiscard]] double inflow() const { return parts_[0].flux.sign * unit_ * inflow_; }
+
+  /// In units of the largest capacity, multiples of kQuantum: v = -1 is -capacities()[j], v = 1 is capacities()[j].
+  [[nodiscard]] const std::vector<double>& amounts() const { return amounts_; }
+  [[nodiscard]] const std::vector<double>& capacities() const { return capacities_; }
+  static constexpr double kQuantum = 0x1p-51;
+
+  /// Whether settled_amounts() are the end of every march: between walls, by a monotone rule, fluxes with one
+  /// extremum that vanish in pure states.
+  [[nodiscard]] bool has_steady_state() const { return has_steady_state_; }
+  /// The state in which no face carries a flux: pure where the grains collect, pure on the other side, with one
+  /// mixed cell between (godunov, muscl) or two (engquist_osher, whose steady shocks have
+  /// f(alpha) + f(beta) = f(m)). It is the only one: without flux, a face of godunov has v = 1 below it or v = -1
+  /// above it, one of engquist_osher f(max(l, m)) + f(min(r, m)) = f(m); both force this order of states.
+  [[nodiscard]] std::vector<double> settled_amounts() const;
+  void settle() { amounts_ = settled_amounts(); }
 
  private:
-  /// All cells, and what lies between the sections: borders[i] between the sections i and i + 1.
-  struct Bed {
-    std::vector<Section> sections;
-    std::vector<Border> borders;
+  /// Cells first ... end - 1 have one flux.
+  struct Part {
+    FluxShape flux;
+    std::size_t first, end;
   };
-  /// A step of length 2^octave of all sections up to that octave.
-  void step(Bed& bed, int octave) const;
+  [[nodiscard]] FaceSide side(const Part& part, std::size_t j, double v) const {
+    return {&part.flux, rates_[j], solid_fractions_.empty() ? 1 : solid_fractions_[j], part.flux.share(v)};
+  }
+  /// What the two stages of a step of second order fill in; v has a cell more at either end.
+  struct Stages {
+    explicit Stages(std::size_t n)
+        : v(n + 2, 1.0), rises(n), bottoms(n), tops(n), crossing(n + 1), second_crossing(n + 1) {
+      v.back() = -1;
+    }
+    std::vector<double> v, rises, bottoms, tops, crossing, second_crossing, amounts;
+  };
 
-  const Kernel& kernel_;
-  double lo_, hi_, quantum_;
-  int slowest_octave_ = 0;
-  std::uint64_t n_steps_ = 0, updates_per_step_ = 0;
-  double speed_;
-  Bed bed_, side_;  ///< side_: the last, shortened step
-  std::vector<double> phi_, half_rises_, section_rises_;
+  void set_face_rates(const Scene<double>& scene, const Grid& grid);
+  [[nodiscard]] double state(std::size_t j) const;
+  [[nodiscard]] double end_flux(std::size_t end) const;
+  void first_order_step(double scale);
+  void second_order_step(double scale);
+  /// Amounts that cross the faces first ... end - 1, inner ones above the first cell of the part. below[i] and
+  /// above[i]: the states at face first + i.
+  void cross_faces(const Part& part, std::size_t first, std::size_t end, const double* below,
+                   const double* above, double scale, double* crossing) const;
+
+  Scheme scheme_;
+  std::vector<Part> parts_;
+  std::vector<double> amounts_, capacities_, inverses_;  ///< inverses_: of capacities_, not below
+  std::vector<double> rates_, face_rates_, solid_fractions_;
+  std::optional<Muscl> muscl_;
+  std::optional<Stages> stages_;
+  double unit_ = 1, limit_ = 1, inflow_ = 0, largest_step_ = 0, crossing_time_ = 0;
+  bool is_periodic_, has_steady_state_ = false;
+  std::array<double, 2> outside_;
 };
-
-/// The state of mass `total` (sum of phi * width) in which no face carries a flux: phi = hi at the bottom and
-/// lo above (is_minimum; upside down otherwise), with one mixed cell between (Godunov, muscl) or two
-/// (Engquist-Osher, whose steady shocks have f(alpha) + f(beta) = f(m)). It is the only one: without flux,
-/// a face of Godunov has hi below it or lo above it, one of Engquist-Osher f(max(l, m)) + f(min(r, m)) =
-/// f(m); both force this order of states. Accuracy: rounding. `widths`: of the cells, in any unit.
-[[nodiscard]] std::vector<double> steady_state(Scheme scheme, const UnimodalFlux& flux, double total,
-                                               const std::vector<double>& widths);
 
 }  // namespace shearfront::fv

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/fv/options.hpp"
+#include "shearfront/fv/run.hpp"
 
 namespace shearfront {
 
@@ -9,16 +9,13 @@ namespace shearfront {
 ///
 ///   v_j^+- = v_j +- r_j,  F = max( s a_l f(max(v_l^+, m)), s a_r f(min(v_r^-, m)) ),  SSP-RK2
 ///
-/// r_j is half the rise: minmod, half the smaller difference to a neighbour; mc (monotonised central), the
-/// mean of both differences / 2, at most the smaller one; van-leer, their harmonic mean / 2; 0 at an
-/// extremum. Next to a jump of a: the one-sided difference of the own layer, bounded by the state of the own
-/// layer that has the flux of the neighbour beyond (the singular mapping). What comes out is the
-/// reconstruction: phi linear, M quadratic in every cell. Guaranteed up to a Courant number of 1/2
-/// (options.cfl = 1): the mass is kept exactly, phi stays in the range of the flux, at jumps of a too. A
-/// steady shock takes one mixed cell, and steady states are kept forever. One flux with one extremum, between
-/// walls; with solid fraction see GodunovSolver; where c varies inside cells what comes out has no slopes but those
-/// of c. Error: O(dz^2) in fans, O(dz) in L1 past shocks. Source: van Leer (1979), J. Comput. Phys. 32,
-/// 101-136; Shu & Osher (1988), J. Comput. Phys. 77, 439-471.
+/// r_j is half the rise (Limiter). Next to a jump of a: the one-sided difference of the own layer, bounded by the state
+/// of the own layer that has the flux of the neighbour beyond (fv/muscl.hpp). What comes out is the reconstruction: phi
+/// linear, M quadratic in every cell. Guaranteed up to a Courant number of 1/2 (options.cfl = 1): the mass is kept, phi
+/// stays in the range of the flux, at jumps of a too. A steady shock takes one mixed cell, and steady states are kept
+/// forever. One flux with one extremum, between walls; with solid fraction see GodunovSolver; where c varies inside
+/// cells what comes out has no slopes but those of c. Error: O(dz^2) in fans, O(dz) in L1 past shocks. Source: van Leer
+/// (1979), J. Comput. Phys. 32, 101-136; Shu & Osher (1988), J. Comput. Phys. 77, 439-471.
 struct MusclSolver {
   static constexpr std::string_view kName = "muscl";
   static constexpr std::string_view kDescription = "MUSCL scheme of second order with a choice of limiters";
@@ -41,8 +38,15 @@ struct MusclSolver {
     g.order_M = 1;
     return g;
   }
-  static std::string refusal(const Scene<double>& scene, const Options& options);
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  static std::string refusal(const Scene<double>& scene, const Options& options) {
+    return fv::refusal(scheme(options), scene, options);
+  }
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+    return fv::start(scheme(options), scene, options, watch);
+  }
+
+ private:
+  static fv::Scheme scheme(const Options& options) { return {fv::Rule::godunov, {}, options.limiter}; }
 };
 static_assert(Solver<MusclSolver>);
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include "shearfront/solver/solver.hpp"
 
 namespace shearfront {
 
+/// What bounds the slope in a cell, from the differences to the cells below and above: minmod, half the smaller one;
+/// mc (monotonised central), the mean of both halves, at most the smaller difference; van_leer, half the harmonic
+/// mean of both; 0 at an extremum.
 enum class Limiter { minmod, mc, van_leer };
+/// Coefficient of a face: harmonic mean of a between the middles of the cells, or a(z) there.
 enum class FaceCoefficient { harmonic, value };
 /// Their names in files and on the command line, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> kLimiterNames{"minmod", "mc", "van-leer"};
@@ -17,11 +22,8 @@ namespace fv {
 /// What all finite-volume solvers have in common.
 struct GridOptions {
   std::uint64_t cells = 400;
-  /// Time step in terms of the largest for which phi is proved to stay in its range. That step has the Courant number
-  /// s max a max |f'| dt / dz = 1 in first order and 1/2 in second.
-  double cfl = 1.0;
+  double cfl = 1;  ///< time step over the largest one (March::largest_step)
   bool align_cells = false;
-  bool local_steps = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -32,14 +34,7 @@ struct GridOptions {
           self.cfl);
     visit(OptionInfo{"align-cells", "edges of cells on the interfaces, equal cells within each layer"},
           self.align_cells);
-    visit(OptionInfo{"local-steps", "parts of the bed that move slowly take longer time steps"}, self.local_steps);
   }
-};
-
-struct SolverOptions : GridOptions {
-  Limiter limiter = Limiter::mc;
-  FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
-  Progress progress;
 };
 
 }  // namespace fv

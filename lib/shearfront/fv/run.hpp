@@ -1,56 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
 #include <memory>
-#include <utility>
+#include <string>
 
-#include "shearfront/fv/grid.hpp"
-#include "shearfront/fv/kernel.hpp"
 #include "shearfront/fv/march.hpp"
-#include "shearfront/fv/plain_march.hpp"
-#include "shearfront/fv/unimodal_flux.hpp"
 #include "shearfront/fv/options.hpp"
 
 namespace shearfront::fv {
 
-/// A march through the times of a request.
-class Run {
- public:
-  explicit Run(Grid grid) : grid_(std::move(grid)) {}
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-  virtual ~Run() = default;
+/// The grid that the options ask for: options.cells equal cells, or with options.align_cells about as many with edges
+/// on the interfaces.
+[[nodiscard]] Grid grid_of(const Scene<double>& scene, const GridOptions& options);
 
-  [[nodiscard]] const Grid& grid() const { return grid_; }
-  [[nodiscard]] std::uint64_t n_updates() const { return n_updates_; }
-  [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
+/// Why the scheme cannot solve the scene: diffusion; options out of range; a flux with other than one extremum, or one
+/// that does not vanish at the ends of its range, between cells of unequal rate or solid fraction, or for muscl
+/// anywhere; more for muscl than one flux between walls; for the rules without balance all but parabolas.
+[[nodiscard]] std::string refusal(const Scheme& scheme, const Scene<double>& scene, const GridOptions& options);
 
-  /// The shares x = phi / c of the cells at time t; times must not descend. Empty, with the status changed,
-  /// if there are none. Valid until the next call.
-  virtual CellStates at(double t, Status& status) = 0;
-
- protected:
-  static constexpr double kMostUpdates = 1e15;  ///< some days
-  /// The caller is asked for leave to go on after so many cell updates, some hundredths of a second.
-  static constexpr std::uint64_t kUpdatesPerCall = 1 << 24;
-  /// A wave crosses the bed in as many steps as there are cells, at least: no need to look for rest more
-  /// often.
-  static constexpr std::size_t kLeastSteps = 1024;
-
-  Grid grid_;
-  std::uint64_t n_updates_ = 0;
-  bool is_at_rest_ = false;
-};
-
-/// The grid that the options ask for.
-[[nodiscard]] Grid grid_of(const Scene<double>& scene, const SolverOptions& options);
-
-/// By March: one flux with one extremum, walls. The options, the kernel and the scene must outlive the run.
-[[nodiscard]] std::unique_ptr<Run> kernel_run(Scheme scheme, const UnimodalFlux& flux, const Kernel& kernel,
-                                              const Scene<double>& scene, const SolverOptions& options);
-
-/// By PlainMarch: every scene for which refusal_of() is empty. The options must outlive the run.
-[[nodiscard]] std::unique_ptr<Run> plain_run(FaceRule rule, const Scene<double>& scene,
-                                             const SolverOptions& options);
+/// All finite-volume solvers: a March on grid_of().
+///
+/// Time steps: dt = cfl C min (int_cell c dz) / (s a c max |f'|), C = 1, 1/2 for muscl and rules without bounds; the same
+/// for the whole run. The state at a time t between n dt and (n + 1) dt comes from one shorter step that starts at n dt;
+/// the march itself goes on from n dt. So (1) what comes out at t does not depend on the other times asked for; (2) it is
+/// a continuous function of t and of the numbers of the scene: where n changes, the shorter step has become a whole one,
+/// or nothing (equal steps, n = ceil(t / dt), would jump there). Where a state outside changes, a shorter step ends there
+/// and n counts anew.
+///
+/// A march that has come to rest stops. t = infinity gives the steady state of the grid (March::settled_amounts) without
+/// a march; where there is none of that kind, a march until nothing changes by more than rounding.
+///
+/// Outcomes beside ok and steady: interrupted (watch.progress said so); not_converged (the rates differ so much that
+/// rounding stopped the slow cells; no rest after 1000 steps per cell, for t = infinity); diverged (rules without bounds);
+/// budget_reached, before it starts, where more than 1e15 cell updates are needed: t / dt per cell, but no more than ten
+/// times those in which waves cross the bed if it then rests.
+/// Cost: cells * (t / dt) cell updates; tests/bench/fv_bench.cpp.
+[[nodiscard]] std::unique_ptr<Run> start(const Scheme& scheme, const Scene<double>& scene,
+                                         const GridOptions& options, const Watch& watch);
 
 }  // namespace shearfront::fv

@@ -2,13 +2,14 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/solution/field.hpp"
 #include "shearfront/solution/front_segment.hpp"
 #include "shearfront/solution/summary.hpp"
-#include "shearfront/solution/timeline.hpp"
+#include "shearfront/solution/timeline_text.hpp"
 
 /// Results as CSV and JSON (docs/formats). Doubles are written with the shortest text that reads back to the
 /// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the
@@ -37,18 +38,17 @@ struct TimeTable {
 /// Header t and the columns, one row per time.
 void write_time_table_csv(OutputFile& file, const TimeTable& table);
 
-/// {"scene","method","times", one array per column, `extra`, "summary"}; `extra` is members of an object, or
-/// nothing.
+/// {"scene","method","times", one array per column, `extra`:{its numbers by name} if there are any, "summary"}.
+struct NamedNumbers {
+  std::string name;
+  std::vector<std::pair<std::string, double>> numbers;
+};
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
-                           const TimeTable& table, std::string_view extra, const Summary& summary);
+                           const TimeTable& table, const NamedNumbers& extra, const Summary& summary);
 
 /// {"scene","method","mass","steady_height","t0","t1","t_star","interfaces":[{"z","first","last"}],"summary"}.
-/// A time that never comes is null. `digits` > 17 writes every number of the timeline with that many digits.
-template <Real S>
+/// A time that never comes is null; numbers have the digits that they have in `timeline`.
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
-                       const Timeline<S>& timeline, const Summary& summary, int digits);
-
-extern template void write_events_json(OutputFile&, std::string_view, std::string_view,
-                                       const Timeline<double>&, const Summary&, int);
+                       const TimelineText& timeline, const Summary& summary);
 
 }  // namespace shearfront

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/text.hpp"
@@ -20,8 +23,8 @@ using detail::TableReader;
 using detail::TomlSource;
 using Need = TableReader::Need;
 
-/// A number of entries in parentheses stands for a length, not for the text of a value.
-bool is_length(const Complaint& complaint) { return complaint.value.ends_with(" entries)"); }
+/// Names of older files, which are still read.
+constexpr std::string_view kOldFlux = "packed", kOldSolidFraction = "packing";
 
 /// "shear_rate" of "shear_rate.values", "flux[1]" of "flux[1].gamma".
 std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
@@ -38,7 +41,7 @@ class SceneReader {
     fluxes(root.tables("flux", Need::optional, "must be a table with model, or an array of such tables"));
     if (auto table = root.table("shear_rate", Need::required, "must be a table with model and its entries"))
       shear_rate(*table);
-    optional_model<DepthFunctionList<S>>(root, "packing", spec_.solid_fraction);
+    solid_fraction(root);
     optional_model<DepthFunctionList<S>>(root, "temperature", spec_.temperature);
     optional_model<ClosePackingList<S>>(root, "close_packing", spec_.close_packing);
     if (auto table = root.table("diffusion", Need::optional, "must be a table with D")) diffusion(*table);
@@ -51,9 +54,10 @@ class SceneReader {
     }
     if (auto table = root.table("boundary", Need::optional, "must be a table")) boundary(*table);
     root.finish();
-    check();
+    std::variant<Scene<S>, Complaints> scene = Scene<S>::make(std::move(spec_));
+    if (auto* complaints = std::get_if<Complaints>(&scene)) add(std::move(*complaints));
     report_.throw_if_any();
-    return Scene<S>(std::move(spec_));
+    return std::get<Scene<S>>(std::move(scene));
   }
 
  private:
@@ -67,11 +71,37 @@ class SceneReader {
       if (!is_first) table.number("above", Need::required, spec_.flux_breaks.emplace_back());
       const auto model = table.text("model", Need::optional, what);
       const std::string_view name = model ? std::string_view(*model) : Quadratic<S>::kName;
-      if (model_by_name<List>(table, name, what, spec_.fluxes.emplace_back()))
+      if (name == kOldFlux)
+        old_flux(table);
+      else if (model_by_name<List>(table, name, what, spec_.fluxes.emplace_back()))
         table.finish();
       else
         report_.spoil(table.path("model"));
     }
+  }
+
+  /// "packed" of older files: one flux with two signs.
+  void old_flux(TableReader& table) {
+    const bool is_large = table.choice("grains", Need::optional, {"small", "large"}) == "large";
+    spec_.fluxes.back() = is_large ? Flux<S>(Lwr<S>{}) : Flux<S>(Quadratic<S>{});
+    table.finish();
+    remark(table.path("model"), quoted_text(kOldFlux), quoted_text(is_large ? Lwr<S>::kName : Quadratic<S>::kName));
+  }
+  /// [solid_fraction], which older files call [packing].
+  void solid_fraction(TableReader& root) {
+    optional_model<DepthFunctionList<S>>(root, "solid_fraction", spec_.solid_fraction);
+    const toml::node* old = root.node(kOldSolidFraction);
+    if (!old) return;
+    if (root.node("solid_fraction"))
+      root.add(*old, root.path(kOldSolidFraction), "must not stand beside solid_fraction, whose old name it is");
+    else
+      remark("", "[" + std::string(kOldSolidFraction) + "]", "[solid_fraction]");
+    solid_fraction_table_ = kOldSolidFraction;
+    optional_model<DepthFunctionList<S>>(root, kOldSolidFraction, spec_.solid_fraction);
+  }
+  void remark(const std::string& key, const std::string& old_name, const std::string& name) {
+    spec_.remarks.push_back(printable(source_.name()) + ": " + (key.empty() ? "" : key + " = ") + old_name +
+                            " is the old name of " + name);
   }
 
   void shear_rate(TableReader& table) {
@@ -169,11 +199,12 @@ class SceneReader {
   }
 
   /// Adds what is wrong with the values, unless it only repeats or follows from what is reported already.
-  void check() {
-    for (Complaint& complaint : find_complaints(spec_)) {
+  void add(Complaints complaints) {
+    for (Complaint& complaint : complaints) {
+      if (complaint.key.starts_with("solid_fraction")) complaint.key.replace(0, 14, solid_fraction_table_);
       const std::string table = table_of(complaint.key);
       if (report_.is_spoiled(complaint.key)) continue;
-      if (is_length(complaint) && report_.is_spoiled(TableReader::lengths(table))) continue;
+      if (complaint.kind == Complaint::Kind::wrong_length && report_.is_spoiled(TableReader::lengths(table))) continue;
       const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
       if (is_unknown && complaint.key != "shear_rate.scale") continue;
       const TomlSource::Found found = source_.find(complaint.key);
@@ -187,7 +218,8 @@ class SceneReader {
   const TomlSource& source_;
   ComplaintReport report_;
   SceneSpec<S> spec_;
-  std::vector<std::string> unknown_;  ///< tables whose model is missing or unknown
+  std::string solid_fraction_table_ = "solid_fraction";  ///< as the file calls it
+  std::vector<std::string> unknown_;                     ///< tables whose model is missing or unknown
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; 
 
 void throw_file_error(const std::string& file, const std::string& what) {
   const std::string name = printable(file);
-  throw FileError({{name, "", what}}, name + ": " + what);
+  throw FileError({{name, "", what, Complaint::Kind::unreadable}}, name + ": " + what);
 }
 
 TextSource::TextSource(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
@@ -41,9 +41,9 @@ TextSource::TextSource(std::string name, std::string text) : name_(std::move(nam
   ComplaintReport report(name_);
   const auto byte = static_cast<unsigned char>(text_[where]);
   if (byte == 0)
-    report.add(position(where), {"NUL byte", "", "must not occur in a text file"});
+    report.add(position(where), {"NUL byte", "", "must not occur in a text file", Complaint::Kind::syntax});
   else
-    report.add(position(where), {fmt::format("byte 0x{:02x}", byte), "", "must be UTF-8 text"});
+    report.add(position(where), {fmt::format("byte 0x{:02x}", byte), "", "must be UTF-8 text", Complaint::Kind::syntax});
   report.throw_if_any();
 }
 

@@ -22,7 +22,7 @@ toml::table parse(const TextSource& text) {
         text.text().substr(place, 1).find_first_of("\r\n") == 0)
       what = "in string: must end with a quotation mark on the same line";
     ComplaintReport report(text.name());
-    report.add(TomlSource::position(error.source()), {"syntax error", "", printable(what)});
+    report.add(TomlSource::position(error.source()), {"syntax error", "", printable(what), Complaint::Kind::syntax});
     report.throw_if_any();
     throw;
   }
@@ -111,9 +111,9 @@ std::string TableReader::path(std::string_view key) const {
 }
 
 void TableReader::add(const toml::node& node, const std::string& key, std::string_view constraint,
-                      const toml::node* around) {
+                      const toml::node* around, Complaint::Kind kind) {
   report_->add(TomlSource::position(node), TomlSource::shown_position(node, around),
-               {key, source_->shown(node), std::string(constraint)});
+               {key, source_->shown(node), std::string(constraint), kind});
 }
 
 bool TableReader::is_array_of_tables(const toml::array& array) {
@@ -125,7 +125,7 @@ const toml::node* TableReader::request(std::string_view key, Need need, std::str
   known_.emplace_back(key);
   const toml::node* node = table_->get(key);
   if (!node && need == Need::required) {
-    report_->add(position(), {path(key), "", "missing; " + std::string(what)});
+    report_->add(position(), {path(key), "", "missing; " + std::string(what), Complaint::Kind::missing});
     report_->spoil(path(key));
   }
   return node;
@@ -136,9 +136,9 @@ void TableReader::wrong_type(const toml::node& node, const std::string& key, std
   report_->spoil(key);
   const toml::array* array = node.as_array();
   if (array && is_array_of_tables(*array))
-    report_->add(TomlSource::position(*array->get(0)), {key, "(an array of tables)", std::string(what)});
+    report_->add(TomlSource::position(*array->get(0)), {key, "(an array of tables)", std::string(what), Complaint::Kind::wrong_type});
   else
-    add(node, key, what, around);
+    add(node, key, what, around, Complaint::Kind::wrong_type);
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key, Need need, std::string_view what) {
@@ -234,7 +234,7 @@ void TableReader::finish() {
     std::string what =
         "unknown " + std::string(node.is_table() ? "table" : "key") + "; must be one of: " + listed(known_);
     if (const auto meant = nearest_name(key.str(), known_)) what += " (did you mean " + *meant + "?)";
-    report_->add(TomlSource::position(key.source()), {path(key.str()), "", what});
+    report_->add(TomlSource::position(key.source()), {path(key.str()), "", what, Complaint::Kind::unknown});
   }
 }
 

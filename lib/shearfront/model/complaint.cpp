@@ -22,6 +22,11 @@ std::string Complaint::text() const {
   return value.empty() ? key + ": " + constraint : key + " = " + value + "; " + constraint;
 }
 
+Complaint wrong_length(std::string key, std::size_t n_entries, std::string constraint) {
+  return {std::move(key), "(" + std::to_string(n_entries) + " entries)", std::move(constraint),
+          Complaint::Kind::wrong_length};
+}
+
 InputError::InputError(Complaints complaints)
     : std::runtime_error(join(complaints)), complaints_(std::move(complaints)) {}
 

@@ -80,11 +80,10 @@ template <Real S>
 void check_points(const std::string& prefix, const std::vector<S>& z, std::size_t n_values, const S& bottom,
                   const S& top, Complaints& complaints) {
   if (z.size() < 2)
-    complaints.push_back(
-        {prefix + "z", "(" + std::to_string(z.size()) + " entries)", "must have at least 2 entries"});
+    complaints.push_back(wrong_length(prefix + "z", z.size(), "must have at least 2 entries"));
   if (n_values != z.size())
-    complaints.push_back({prefix + "values", "(" + std::to_string(n_values) + " entries)",
-                        "must have as many entries as z (" + std::to_string(z.size()) + ")"});
+    complaints.push_back(wrong_length(prefix + "values", n_values,
+                                      "must have as many entries as z (" + std::to_string(z.size()) + ")"));
   for (std::size_t i = 1; i < z.size(); ++i)
     if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1]))
       complaints.push_back({prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),

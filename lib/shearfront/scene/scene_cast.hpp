@@ -73,6 +73,7 @@ template <Real To, Real From>
   const SceneSpec<From>& from = scene.spec();
   SceneSpec<To> to;
   to.name = from.name;
+  to.remarks = from.remarks;
   to.fluxes.clear();
   for (const Flux<From>& flux : from.fluxes)
     to.fluxes.push_back(std::visit([](const auto& f) -> Flux<To> { return model_cast<To>(f); }, flux));

@@ -28,11 +28,11 @@ class Checker {
     fluxes();
     profile("shear_rate.", spec_.shear_rate);
     check_number("shear_rate.scale", Range::positive, spec_.scale, complaints_);
-    if (spec_.solid_fraction) profile("packing.", *spec_.solid_fraction);
+    if (spec_.solid_fraction) profile("solid_fraction.", *spec_.solid_fraction);
     if (spec_.temperature) profile("temperature.", *spec_.temperature);
     if (spec_.close_packing) close_packing();
     if (complaints_.empty()) scaled_rate();
-    if (complaints_.empty()) scaled_packing();
+    if (complaints_.empty()) scaled_solid_fraction();
     if (spec_.diffusion) diffusion();
     if (spec_.initial_state) initial_state();
     check_number("initial.breaks", Range::any, spec_.initial_breaks, complaints_);
@@ -163,7 +163,7 @@ class Checker {
     }
   }
   /// c(z) times the height, and times the rate, must stay numbers too.
-  void scaled_packing() {
+  void scaled_solid_fraction() {
     if (!spec_.solid_fraction) return;
     const Scalar height = spec_.top - spec_.bottom;
     for (const Scalar& z : heights()) {
@@ -171,11 +171,16 @@ class Checker {
       const Scalar flux = c * (spec_.scale * value(spec_.shear_rate, z));
       if (is_finite(Scalar(c * height)) && is_finite(flux) && flux > 0) continue;
       return add(
-          "packing", number_text(c),
+          "solid_fraction", number_text(c),
           "must keep c(z) s a(z) a positive finite number on the whole domain (z = " + number_text(z) + ")");
     }
   }
 
+  [[nodiscard]] static Complaint one_more_than_breaks(const std::string& prefix, std::size_t n_values,
+                                                      std::size_t n_breaks) {
+    return wrong_length(prefix + "values", n_values,
+                        "must have one entry more than breaks (" + std::to_string(n_breaks + 1) + ")");
+  }
   [[nodiscard]] bool has_right_lengths() const {
     return spec_.initial_values.size() == spec_.initial_breaks.size() + 1 &&
            std::is_sorted(spec_.initial_breaks.begin(), spec_.initial_breaks.end());
@@ -183,8 +188,7 @@ class Checker {
   void states(const std::string& prefix, const std::vector<Scalar>& values,
               const std::vector<Scalar>& breaks) {
     if (values.size() != breaks.size() + 1)
-      add(prefix + "values", "(" + std::to_string(values.size()) + " entries)",
-          "must have one entry more than breaks (" + std::to_string(breaks.size() + 1) + ")");
+      complaints_.push_back(one_more_than_breaks(prefix, values.size(), breaks.size()));
     if (!flux_ok_ || spec_.fluxes.size() > 1) return;
     for (std::size_t i = 0; i < values.size(); ++i) in_range(prefix, i, values[i], 0);
   }
@@ -217,8 +221,7 @@ class Checker {
         add(prefix + "breaks[" + std::to_string(i) + "]", number_text(state.breaks[i]),
             "must be greater than the break before it (" + number_text(state.breaks[i - 1]) + ")");
     if (state.values.size() != state.breaks.size() + 1)
-      add(prefix + "values", "(" + std::to_string(state.values.size()) + " entries)",
-          "must have one entry more than breaks (" + std::to_string(state.breaks.size() + 1) + ")");
+      complaints_.push_back(one_more_than_breaks(prefix, state.values.size(), state.breaks.size()));
     for (std::size_t i = 0; flux_ok_ && i < state.values.size(); ++i)
       in_range(prefix, i, state.values[i], flux);
     if (spec_.is_periodic) add(prefix + "values", "", "must not be given for a periodic bed");

@@ -10,6 +10,4 @@ namespace shearfront {
 template <Real Scalar>
 [[nodiscard]] Complaints find_complaints(const SceneSpec<Scalar>& spec);
 
-extern template Complaints find_complaints(const SceneSpec<double>&);
-
 }  // namespace shearfront

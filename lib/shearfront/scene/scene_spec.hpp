@@ -15,10 +15,6 @@
 
 namespace shearfront {
 
-/// A positive quantity as a function of height: the models of the shear rate serve for all of them.
-template <Real Scalar>
-using DepthFunction = DepthFunction<Scalar>;
-
 /// What lies beyond an open end of the bed: the state outside, piecewise constant in time.
 template <Real Scalar>
 struct OutsideState {
@@ -39,6 +35,8 @@ struct Diffusion {
 template <Real Scalar>
 struct SceneSpec {
   std::string name;
+  /// What the reader of its file has to say, one line each; for the user, not part of the model.
+  std::vector<std::string> remarks;
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
   std::vector<Scalar> flux_breaks;                        ///< heights between them; one less
   DepthFunction<Scalar> shear_rate;
@@ -97,7 +95,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   const auto profile = [&](auto& optional, const std::string& prefix) {
     if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
   };
-  profile(spec.solid_fraction, "packing.");
+  profile(spec.solid_fraction, "solid_fraction.");
   profile(spec.temperature, "temperature.");
   profile(spec.close_packing, "close_packing.");
   if (spec.diffusion) {

@@ -5,16 +5,6 @@
 #include <variant>
 
 namespace shearfront {
-namespace {
-
-bool counts_large_grains(const Scene<double>& scene) {
-  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<double>& flux) {
-    const auto* packed = std::get_if<Packed<double>>(&flux);
-    return packed && packed->grains == Grains::large;
-  });
-}
-
-}  // namespace
 
 std::string BedHeight::refusal(const Scene<double>& scene) {
   if (scene.spec().outside_bottom || scene.spec().outside_top)
@@ -29,7 +19,7 @@ std::string BedHeight::refusal(const Scene<double>& scene) {
 
 BedHeight::BedHeight(const Scene<double>& scene) {
   const auto law = scene.spec().close_packing.value_or(PackingPolynomial<double>{});
-  const bool is_large = counts_large_grains(scene);
+  const bool is_large = scene.counts_rising_grains();
   const auto close = [law, is_large](double x) {
     const double share = std::clamp(x, 0.0, 1.0);
     return std::visit([&](const auto& model) { return model.value(is_large ? 1 - share : share); }, law);

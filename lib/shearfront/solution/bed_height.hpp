@@ -25,7 +25,7 @@ class BedHeight {
   /// Why the bed has no such height; empty if it has.
   [[nodiscard]] static std::string refusal(const Scene<double>& scene);
 
-  /// 1 / c_rcp of the share phi / c, whichever grains phi counts. Shares beyond [0, 1] count as pure.
+  /// 1 / c_rcp of the share of small grains; where phi counts rising grains, those are the large ones. Shares beyond [0, 1] count as pure.
   [[nodiscard]] const ShareFunction& integrand() const { return integrand_; }
   /// H for the integral G of integrand().
   [[nodiscard]] double height(double integral) const { return integral * scale_; }

@@ -100,7 +100,7 @@ class TableReader {
   [[nodiscard]] Position position() const { return TomlSource::position(*table_); }
   /// `around` is the array if the node is an element of one.
   void add(const toml::node& node, const std::string& key, std::string_view constraint,
-           const toml::node* around = nullptr);
+           const toml::node* around = nullptr, Complaint::Kind kind = Complaint::Kind::out_of_range);
   [[nodiscard]] const toml::node* node(std::string_view key) const { return table_->get(key); }
   /// Whether the entry is there and nothing was wrong with it so far.
   [[nodiscard]] bool is_good(std::string_view key) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/depth/model.hpp"
 #include "shearfront/model/field.hpp"
 
 namespace shearfront {
@@ -14,7 +15,7 @@ namespace shearfront {
 /// the centre.
 ///
 /// Domain: amplitude > 0 (1/time when s = 1), decay > 0 (the unit of z); centre anywhere, its slope jumps
-/// there. In the source the drift changes its sign at the centre: give the layers above it the flux `packed`
+/// there. In the source the drift changes its sign at the centre: give the layers above it the flux `lwr`
 /// with grains = "large", which is - phi (phi - 1). Source: Fan & Hill (2011), New J. Phys. 13, 095009,
 /// kinetic stress of a vertical chute; Christov (2018), Section 5.
 template <Real Scalar>
@@ -51,6 +52,17 @@ struct Chute {
     const Scalar h = (hi - lo) / decay;
     const Scalar& nearest = hi <= centre ? hi : lo;  // a is least there
     return h > 0 ? value(nearest) * h / -expm1(-h) : value(lo);
+  }
+  /// With h = (hi - lo) / decay and the distance r of the nearer end the mean is amplitude e^(r / decay) h / (1 -
+  /// e^-h); its logarithm changes with the decay by -(r + (hi - lo) (1 - g(h))) / decay^2, g as for the exponential.
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& hi, Add&& add) const {
+    const bool is_below = hi <= centre;
+    const Scalar mean = harmonic_mean(lo, hi), h = (hi - lo) / decay;
+    const Scalar r = distance(is_below ? hi : lo) / decay;
+    add(0, mean / amplitude);
+    add(1, -mean * (r + h * (Scalar(1) - exponential_mean_place(h))) / decay);
+    add(2, is_below ? Scalar(mean / decay) : Scalar(-mean / decay));
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return {centre}; }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shearfront/numeric/scalar.hpp"
+#include "shearfront/model/depth/model.hpp"
 #include "shearfront/model/field.hpp"
 
 namespace shearfront {
@@ -49,7 +50,16 @@ struct Exponential {
     const Scalar h = (hi - lo) / decay;
     return h > 0 ? value(lo) * h / expm1(h) : value(lo);
   }
+  /// With h = (hi - lo) / decay the mean is a(lo) h / (e^h - 1); its logarithm changes with the decay by
+  /// lo / decay^2 + (h / decay) g(h), g = e^h / (e^h - 1) - 1 / h.
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& hi, Add&& add) const {
+    const Scalar mean = harmonic_mean(lo, hi), h = (hi - lo) / decay;
+    add(0, mean / amplitude);
+    add(1, mean * (lo / decay + h * exponential_mean_place(h)) / decay);
+  }
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
+  [[nodiscard]] ExponentialPiece<Scalar> exponential() const { return {amplitude, decay}; }
 
   static std::vector<Exponential> samples() {
     return {

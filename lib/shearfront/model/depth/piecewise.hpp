@@ -32,8 +32,8 @@ struct Piecewise {
     check_breaks(prefix + "breaks", breaks, bottom, top, complaints);
     if (values.size() != breaks.size() + 1)
       complaints.push_back(
-          {prefix + "values", "(" + std::to_string(values.size()) + " entries)",
-           "must have one entry more than breaks (" + std::to_string(breaks.size() + 1) + ")"});
+          wrong_length(prefix + "values", values.size(),
+                       "must have one entry more than breaks (" + std::to_string(breaks.size() + 1) + ")"));
   }
 
   /// a(z); at a break the value above it.
@@ -43,6 +43,16 @@ struct Piecewise {
   }
   /// Harmonic mean of a over [lo, hi], which must not contain a knot inside.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& lo, const Scalar& /*hi*/) const { return value(lo); }
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& /*hi*/, Add&& add) const {
+    const auto k = std::upper_bound(breaks.begin(), breaks.end(), lo) - breaks.begin();
+    add(breaks.size() + static_cast<std::size_t>(k), Scalar(1));
+  }
+  [[nodiscard]] std::vector<std::size_t> knot_entries() const {
+    std::vector<std::size_t> entries(breaks.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = i;
+    return entries;
+  }
   /// Heights where a or its slope jumps.
   [[nodiscard]] std::vector<Scalar> knots() const { return breaks; }
 

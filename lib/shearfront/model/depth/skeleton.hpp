@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,20 @@ struct SkeletonDepthFunction {
   [[nodiscard]] Scalar value(const Scalar& /*z*/) const { return rate; }
   /// (hi - lo) / int_lo^hi dz / a(z) for an interval without a knot inside.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& /*lo*/, const Scalar& /*hi*/) const { return rate; }
-  /// Heights where a or its slope jumps.
+  /// Heights where a or its slope jumps; a jumps only if kIsLayered.
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
+
+  // A model may also have the following; what it leaves out is found from the above, more slowly (model.hpp).
+  /// For every entry, in the order of fields(): add(entry, derivative of harmonic_mean with its ends held fixed); no
+  /// call for 0.
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& /*lo*/, const Scalar& /*hi*/, Add&& add) const {
+    add(0, Scalar(1));
+  }
+  /// Which entry each of knots() is, in their order; kNoEntry for none.
+  [[nodiscard]] std::vector<std::size_t> knot_entries() const { return {}; }
+  // std::optional<ExponentialPiece<Scalar>> exponential() const, if all of the model is amplitude exp(-z / decay) and
+  // these are its two entries, in this order: then the exact engine has closed forms.
 
   static std::vector<SkeletonDepthFunction> samples() { return {{Scalar(1)}, {Scalar(3)}}; }
 };

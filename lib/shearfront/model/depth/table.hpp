@@ -49,7 +49,29 @@ struct Table {
     const Scalar a_lo = at(lo), x = (at(hi) - a_lo) / a_lo;  // relative rise over [lo, hi], > -1
     return x == 0 ? a_lo : a_lo * (x / log1p(x));
   }
+  /// By the values of a at both ends, which the two points around the interval determine: with y = log(other end /
+  /// this end) the mean changes with the value at an end by (e^y - 1 - y) / y^2.
+  template <class Add>
+  void harmonic_mean_derivatives(const Scalar& lo, const Scalar& hi, Add&& add) const {
+    using std::log1p;
+    const std::size_t i = segment(lo);
+    const Scalar width = z[i + 1] - z[i], slope = (values[i + 1] - values[i]) / width;
+    const Scalar w_lo = (lo - z[i]) / width, w_hi = (hi - z[i]) / width;
+    const Scalar a_lo = values[i] + w_lo * (values[i + 1] - values[i]);
+    const Scalar y = log1p(Scalar((w_hi - w_lo) * (values[i + 1] - values[i]) / a_lo));
+    const Scalar by_lo = mean_weight(y), by_hi = mean_weight(Scalar(-y));
+    const Scalar right = by_lo * w_lo + by_hi * w_hi, left = by_lo + by_hi - right;
+    add(i, Scalar(-slope * left));
+    add(i + 1, Scalar(-slope * right));
+    add(z.size() + i, left);
+    add(z.size() + i + 1, right);
+  }
   [[nodiscard]] std::vector<Scalar> knots() const { return z; }
+  [[nodiscard]] std::vector<std::size_t> knot_entries() const {
+    std::vector<std::size_t> entries(z.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = i;
+    return entries;
+  }
 
   static std::vector<Table> samples() {
     return {
@@ -61,6 +83,18 @@ struct Table {
   [[nodiscard]] std::size_t segment(const Scalar& height) const {
     const auto it = std::upper_bound(z.begin() + 1, z.end() - 1, height);
     return static_cast<std::size_t>(it - z.begin()) - 1;
+  }
+  /// (e^y - 1 - y) / y^2 = sum y^n / (n + 2)!.
+  [[nodiscard]] static Scalar mean_weight(const Scalar& y) {
+    using std::expm1;
+    if (y > Scalar(1) || y < Scalar(-1)) return (expm1(y) - y) / (y * y);
+    Scalar term(0.5), sum(0);
+    for (int n = 0; n < 200; ++n) {
+      sum += term;
+      term *= y / Scalar(n + 3);
+      if ((term < 0 ? Scalar(-term) : term) <= unit_roundoff<Scalar>() * sum) break;
+    }
+    return sum;
   }
 };
 

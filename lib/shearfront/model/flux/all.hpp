@@ -4,7 +4,6 @@
 #include "shearfront/model/flux/cubic.hpp"
 #include "shearfront/model/flux/lwr.hpp"
 #include "shearfront/model/flux/lwr_cubic.hpp"
-#include "shearfront/model/flux/packed.hpp"
 #include "shearfront/model/flux/quadratic.hpp"
 #include "shearfront/model/flux/richardson_zaki.hpp"
 #include "shearfront/model/flux/table.hpp"
@@ -15,8 +14,8 @@ namespace shearfront {
 
 /// Every flux of the toolkit. To add one: copy skeleton.hpp, include it here, and name it in the list.
 template <Real Scalar>
-using FluxList = TypeList<Quadratic<Scalar>, Packed<Scalar>, Cubic<Scalar>, Lwr<Scalar>, LwrCubic<Scalar>,
-                          Triangular<Scalar>, RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
+using FluxList = TypeList<Quadratic<Scalar>, Cubic<Scalar>, Lwr<Scalar>, LwrCubic<Scalar>, Triangular<Scalar>,
+                          RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
 
 template <Real Scalar>
 using Flux = typename FluxList<Scalar>::Variant;

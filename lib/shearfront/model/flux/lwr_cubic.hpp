@@ -42,6 +42,9 @@ struct LwrCubic {
     const Scalar u = rho / jam;
     return Scalar(1) - u * (Scalar(2) * (Scalar(1) + gamma) - Scalar(3) * gamma * u);
   }
+  [[nodiscard]] Scalar second_derivative(const Scalar& rho) const {
+    return (Scalar(6) * gamma * (rho / jam) - Scalar(2) * (Scalar(1) + gamma)) / jam;
+  }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     const Scalar u = p / jam, v = q / jam;
     return (((jam - p) - q) / jam) - gamma * ((u + v) - (u * u + (u * v + v * v)));

@@ -27,6 +27,7 @@ struct StateRange {
 ///   range, kStates      the states, as numbers and as text for `shearfront list`
 ///   kIsParabola         f = 4 f(m) u (1 - u) with u the place of phi in its range and m the extremum: the
 ///                       engines then use the closed forms of the quadratic flux
+///   second_derivative   f'', only if the model has it: otherwise engines take differences of f'
 ///
 /// A flux that is one polynomial of degree two for all real states without being such a parabola says so by
 /// kIsQuadraticPolynomial = true.
@@ -43,6 +44,16 @@ concept FluxModel = Real<Scalar> && requires(const F& f, const Scalar& phi) {
   { f.derivative(phi) } -> std::convertible_to<Scalar>;
   { f.secant(phi, phi) } -> std::convertible_to<Scalar>;
 };
+
+/// Whether f is a straight line from p to q, as far as its slopes can tell; contacts then travel between the states.
+template <class F, class Scalar>
+[[nodiscard]] bool is_straight(const F& f, const Scalar& p, const Scalar& q) {
+  const Scalar third = p + (q - p) / Scalar(3), middle = p + (q - p) / Scalar(2);
+  const Scalar slope = f.secant(p, q);
+  const Scalar rounding = Scalar(64) * unit_roundoff<Scalar>() * (slope < 0 ? Scalar(-slope) : slope);
+  const auto equal = [&](const Scalar& other) { return other - slope <= rounding && slope - other <= rounding; };
+  return equal(f.secant(p, third)) && equal(f.secant(p, middle)) && equal(f.secant(middle, q));
+}
 
 template <class F>
 [[nodiscard]] constexpr bool is_quadratic_polynomial() {

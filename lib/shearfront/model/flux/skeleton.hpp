@@ -33,6 +33,8 @@ struct SkeletonFlux {
   [[nodiscard]] Scalar derivative(const Scalar& phi) const {
     return Scalar(4) * depth * (phi + (phi - Scalar(1)));
   }
+  /// May be left out: the exact engine then takes differences of derivative().
+  [[nodiscard]] Scalar second_derivative(const Scalar& /*phi*/) const { return Scalar(8) * depth; }
   /// (value(q) - value(p)) / (q - p), derivative(p) where p == q; write it without cancellation if you can.
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     return Scalar(4) * depth * (p + (q - Scalar(1)));

@@ -55,6 +55,10 @@ struct FluxTable {
     const Scalar d = x - piece.begin;
     return piece.slope + d * (Scalar(2) * piece.square + d * (Scalar(3) * piece.cube));
   }
+  [[nodiscard]] Scalar second_derivative(const Scalar& x) const {
+    const Piece piece = piece_at(x);
+    return Scalar(2) * piece.square + Scalar(6) * piece.cube * (x - piece.begin);
+  }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     const Scalar& lo = std::min(p, q);
     const Scalar& hi = std::max(p, q);
@@ -72,11 +76,10 @@ struct FluxTable {
   }
   void check(const std::string& prefix, Complaints& complaints) const {
     if (phi.size() < 2)
-      complaints.push_back(
-          {prefix + "phi", "(" + std::to_string(phi.size()) + " entries)", "must have at least 2 entries"});
+      complaints.push_back(wrong_length(prefix + "phi", phi.size(), "must have at least 2 entries"));
     if (values.size() != phi.size())
-      complaints.push_back({prefix + "values", "(" + std::to_string(values.size()) + " entries)",
-                          "must have as many entries as phi (" + std::to_string(phi.size()) + ")"});
+      complaints.push_back(wrong_length(prefix + "values", values.size(),
+                                        "must have as many entries as phi (" + std::to_string(phi.size()) + ")"));
     for (std::size_t i = 1; i < phi.size(); ++i)
       if (is_finite(phi[i]) && is_finite(phi[i - 1]) && !(phi[i] > phi[i - 1]))
         complaints.push_back({prefix + "phi[" + std::to_string(i) + "]", number_text(phi[i]),

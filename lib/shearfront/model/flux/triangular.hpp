@@ -35,6 +35,7 @@ struct Triangular {
   [[nodiscard]] Scalar derivative(const Scalar& rho) const {
     return rho < critical ? Scalar(1) : Scalar(-backward());
   }
+  [[nodiscard]] static Scalar second_derivative(const Scalar& /*rho*/) { return Scalar(0); }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     const Scalar& lo = std::min(p, q);
     const Scalar& hi = std::max(p, q);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -53,7 +52,8 @@ struct SineInitial {
  private:
   [[nodiscard]] Scalar size() const { return amplitude < 0 ? Scalar(-amplitude) : amplitude; }
   [[nodiscard]] Scalar angle(const Scalar& z) const {
-    return boost::math::constants::two_pi<Scalar>() * ((z - origin) / wavelength);
+    using std::atan;
+    return Scalar(8) * atan(Scalar(1)) * ((z - origin) / wavelength);  // 2 pi: every file sees this header, few need Boost
   }
 };
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "shearfront/solution/timeline_text.hpp"
+
+namespace shearfront {
+
+/// The most digits exact_digits() gives, and how many its numbers have.
+inline constexpr int kMostDigits = 100, kComputedDigits = 110;
+
+/// Event times of a scene file by the exact solver with 1 <= digits <= kMostDigits significant digits, the numbers of
+/// the file read as the decimals they are. `layers`: of the staircase for a scene that varies smoothly.
+/// Precondition: the exact solver takes the scene. Errors: FileError from the file. Cost: milliseconds per event.
+[[nodiscard]] TimelineText exact_digits(const std::string& path, std::size_t layers, int digits);
+
+}  // namespace shearfront

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/exact/derivatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/instantiated.hpp"
+
+namespace shearfront {
+
+namespace {
+
+using exact::Path;
+using exact::PathGradient;
+using exact::PathKind;
+
+template <class AnyDepthFunction>
+auto knots_of(const AnyDepthFunction& a) {
+  return std::visit([](const auto& model) { return model.knots(); }, a);
+}
+template <class AnyDepthFunction>
+bool is_layered(const std::optional<AnyDepthFunction>& c) {
+  return !c || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *c);
+}
+
+/// Whether c, T or the flux jumps at z.
+template <Real Scalar>
+bool material_jumps(const Scene<Scalar>& scene, const Scalar& z) {
+  const auto has = [&](const std::vector<Scalar>& heights) {
+    return std::find(heights.begin(), heights.end(), z) != heights.end();
+  };
+  return has(scene.flux_breaks()) ||
+         (scene.spec().solid_fraction && has(knots_of(*scene.spec().solid_fraction))) ||
+         (scene.spec().temperature && has(knots_of(*scene.spec().temperature)));
+}
+
+/// Where some entries lie among all of them.
+struct EntryPlaces {
+  std::size_t n, first_rate, scale, first_jump, first_state;
+
+  template <Real Scalar>
+  explicit EntryPlaces(const Scene<Scalar>& scene) {
+    SceneSpec<Scalar> spec = scene.spec();
+    const std::vector<Scalar*> places = entry_places(spec);
+    const auto place = [&](const Scalar& number) {
+      return static_cast<std::size_t>(std::find(places.begin(), places.end(), &number) - places.begin());
+    };
+    n = places.size();
+    scale = place(spec.scale);  // follows the entries of the model
+    first_rate = scale - std::visit([](auto& model) { return model_entries(model).size(); }, spec.shear_rate);
+    first_jump = spec.initial_breaks.empty() ? n : place(spec.initial_breaks.front());
+    first_state = place(spec.initial_values.front());
+  }
+};
+
+}  // namespace
+
+template <Real Scalar>
+std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
+  const bool is_rate = entry.field.starts_with("shear_rate."), is_jump = entry.field == "initial.breaks";
+  if (!is_rate && !is_jump && entry.field != "initial.values")
+    return entry.field + " has no exact derivatives";
+  if (!is_layered(scene.spec().solid_fraction)) return "the solid fraction varies smoothly";
+  if (!is_layered(scene.spec().temperature)) return "the temperature varies smoothly";
+  if (is_jump) {
+    // In a staircase with a solid fraction layers end at the initial jumps.
+    const bool moves_layers = scene.spec().solid_fraction && !scene.is_layered();
+    const auto knots = scene.knots();
+    if (moves_layers && std::binary_search(knots.begin(), knots.end(), scene.initial_breaks()[entry.index]))
+      return entry.name() + " lies on a knot of the bed";
+    return {};
+  }
+  if (!is_rate) return {};
+  std::size_t place = 0, found = kNoEntry;
+  const std::vector<Entry> all = entries(scene.spec());
+  for (const Entry& other : all) {
+    if (!other.field.starts_with("shear_rate.")) continue;
+    if (other.field == entry.field && other.index == entry.index) found = place;
+    ++place;
+  }
+  const auto knots = knots_of(scene.shear_rate());
+  const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    if (entry_of[i] == found && material_jumps(scene, knots[i]))
+      return entry.name() + " lies on a jump of solid fraction, temperature or flux";
+  return {};
+}
+
+template <Real Scalar>
+struct Derivatives<Scalar>::Cut {
+  Scalar z;
+  std::vector<std::size_t> entries;  ///< that are this height
+};
+
+template <Real Scalar>
+Derivatives<Scalar>::Derivatives(const ExactSolution<Scalar>& solution)
+    : solution_(solution), form_(solution.form()) {
+  const EntryPlaces places(solution.scene());
+  n_entries_ = places.n;
+  first_rate_ = places.first_rate;
+  scale_ = places.scale;
+  first_jump_ = places.first_jump;
+  first_state_ = places.first_state;
+  add_boundaries();
+  add_pieces();
+  add_initial();
+}
+
+/// The heights between which the layers are equal parts of a piece, and which entries move them.
+template <Real Scalar>
+auto Derivatives<Scalar>::cuts() const -> std::vector<Cut> {
+  const Scene<Scalar>& scene = form_.scene();
+  std::vector<Scalar> heights = scene.knots();
+  const bool is_cut_at_jumps = scene.spec().solid_fraction && !scene.is_layered();
+  if (is_cut_at_jumps) {
+    heights.insert(heights.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
+    std::sort(heights.begin(), heights.end());
+    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  }
+  std::vector<Cut> all{{scene.bottom(), {}}};
+  for (const Scalar& z : heights) all.push_back({z, {}});
+  all.push_back({scene.top(), {}});
+  const auto mark = [&](const Scalar& z, std::size_t entry) {
+    const auto it = std::lower_bound(all.begin() + 1, all.end() - 1, z,
+                                     [](const Cut& cut, const Scalar& height) { return cut.z < height; });
+    if (it != all.end() - 1 && it->z == z) it->entries.push_back(entry);
+  };
+  const auto knots = knots_of(scene.shear_rate());
+  const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    if (entry_of[i] != kNoEntry) mark(knots[i], first_rate_ + entry_of[i]);
+  if (is_cut_at_jumps)
+    for (std::size_t j = 0; j < scene.initial_breaks().size(); ++j)
+      mark(scene.initial_breaks()[j], first_jump_ + j);
+  return all;
+}
+
+/// Boundary k lies in a piece between two cuts, at the part w of it.
+template <Real Scalar>
+void Derivatives<Scalar>::add_boundaries() {
+  const std::vector<Cut> all = cuts();
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < form_.boundaries().size(); ++k) {
+    const Scalar& z = form_.layers().boundary(k);
+    while (i + 1 < all.size() && !(z < all[i + 1].z)) ++i;
+    const Scalar stretch = form_.stretch(std::min(k, form_.layers().n_layers() - 1));
+    const bool is_cut = all[i].z == z;
+    const Scalar w = is_cut ? Scalar(0) : Scalar((z - all[i].z) / (all[i + 1].z - all[i].z));
+    for (const std::size_t entry : all[i].entries)
+      boundaries_.terms.push_back({entry, stretch * (Scalar(1) - w)});
+    if (!is_cut)
+      for (const std::size_t entry : all[i + 1].entries) boundaries_.terms.push_back({entry, stretch * w});
+    boundaries_.close();
+  }
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::add_pieces() {
+  const Scene<Scalar>& scene = form_.scene();
+  if (form_.exponential()) {
+    pieces_.terms.push_back({first_rate_, form_.rate_factor(0)});
+    pieces_.close();
+    pieces_.terms.push_back({first_rate_ + 1, form_.stretch(0)});
+    pieces_.close();
+    return;
+  }
+  const LayerStack<Scalar>& layers = form_.layers();
+  const bool has_temperature = scene.spec().temperature.has_value();
+  if (!is_layered(scene.spec().temperature)) {  // all entries are refused
+    for (std::size_t k = 0; k < layers.n_layers(); ++k) pieces_.close();
+    return;
+  }
+  std::visit(
+      [&](const auto& a) {
+        for (std::size_t k = 0; k < layers.n_layers(); ++k) {
+          const Scalar &lo = layers.boundary(k), &hi = layers.boundary(k + 1);
+          Scalar factor = scene.scale() * form_.rate_factor(k);
+          if (has_temperature) factor *= layers.shear_rate(k) / a.harmonic_mean(lo, hi);
+          harmonic_mean_derivatives(a, lo, hi, [&](std::size_t entry, const Scalar& by) {
+            pieces_.terms.push_back({first_rate_ + entry, factor * by});
+          });
+          if (!a.kIsLayered) {
+            // The mean m changes with its ends by +-m (1 - m / a(end)) / (hi - lo).
+            const Scalar mean = a.harmonic_mean(lo, hi);
+            const auto add_end = [&](std::size_t boundary, const Scalar& z, const Scalar& sign) {
+              const Scalar by = sign * factor * mean * (Scalar(1) - mean / a.value(z)) / (hi - lo);
+              for (std::size_t n = boundaries_.begin[boundary]; n < boundaries_.begin[boundary + 1]; ++n) {
+                const Term& term = boundaries_.terms[n];
+                const Scalar stretch = form_.stretch(std::min(boundary, layers.n_layers() - 1));
+                pieces_.terms.push_back({term.entry, by * (term.factor / stretch)});
+              }
+            };
+            add_end(k, lo, Scalar(-1));
+            add_end(k + 1, hi, Scalar(1));
+          }
+          pieces_.close();
+        }
+      },
+      scene.shear_rate());
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::add_initial() {
+  const Scene<Scalar>& scene = form_.scene();
+  for (std::size_t j = 0; j < form_.initial_breaks().size(); ++j) {
+    const std::size_t i = form_.initial_break(j);
+    if (i != form_.kNone)
+      jumps_.terms.push_back(
+          {first_jump_ + i, form_.stretch(form_.layers().layer_at(scene.initial_breaks()[i]))});
+    jumps_.close();
+  }
+  for (std::size_t j = 0; j < form_.initial_values().size(); ++j) {
+    states_.terms.push_back(
+        {first_state_ + form_.initial_piece(j), Scalar(1) / form_.state_slope(form_.initial_layer(j))});
+    states_.close();
+  }
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const {
+  for (std::size_t i = chain.begin[n]; i < chain.begin[n + 1]; ++i) {
+    const Term& term = chain.terms[i];
+    out.M[term.entry] += by.M * term.factor;
+    out.phi[term.entry] += by.phi * term.factor;
+  }
+}
+
+/// Derivatives of int_bottom^y u(., 0) at fixed y. A jump at y itself counts as lying at y - 0: the caller
+/// adds what its own movement does to the path.
+template <Real Scalar>
+void Derivatives<Scalar>::add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const {
+  const auto& jumps = form_.initial_breaks();
+  const auto& states = form_.initial_values();
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    const Scalar& lo = j == 0 ? form_.boundaries().front() : jumps[j - 1];
+    if (!(lo < y)) break;
+    const bool last = j == jumps.size();
+    const Scalar& hi = last ? form_.boundaries().back() : jumps[j];
+    spread(states_, j, {std::min(y, hi) - lo, Scalar(0)}, out);
+    if (!last && (hi < y || (include_jump_at_y && hi == y)))
+      spread(jumps_, j, {states[j] - states[j + 1], Scalar(0)}, out);
+  }
+}
+
+/// The source of the path moves: an initial jump, or an interface without one.
+template <Real Scalar>
+void Derivatives<Scalar>::add_start(const Path<Scalar>& path, const PathGradient<Scalar>& gradient,
+                                    At& out) const {
+  const auto& jumps = form_.initial_breaks();
+  const auto jump = std::lower_bound(jumps.begin(), jumps.end(), path.foot);
+  const auto j = static_cast<std::size_t>(jump - jumps.begin());
+  const Pair by{gradient.start.against(form_.initial_values()[j]), gradient.phi_start};
+  if (jump != jumps.end() && *jump == path.foot && form_.initial_break(j) != form_.kNone) {
+    spread(jumps_, j, by, out);
+    return;
+  }
+  const auto& boundaries = form_.boundaries();
+  const auto boundary = std::lower_bound(boundaries.begin(), boundaries.end(), path.foot);
+  if (boundary != boundaries.end() && *boundary == path.foot)
+    spread(boundaries_, static_cast<std::size_t>(boundary - boundaries.begin()), by, out);
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::add_path(const Path<Scalar>& path, const Scalar& y, const Scalar& t,
+                                   At& out) const {
+  out.M[scale_] = path.H * t / form_.scene().scale();
+  add_initial_cumulative(path.foot, path.kind == PathKind::constant, out);
+  const PathGradient<Scalar> gradient = solution_.medium().gradient(path, y, t);
+  out.phi[scale_] = gradient.phi_log_scale / form_.scene().scale();
+  const std::size_t per_piece = solution_.medium().numbers_per_piece();
+  for (std::size_t n = 0; n < gradient.pieces.size(); ++n)
+    spread(pieces_, gradient.first * per_piece + n, gradient.pieces[n], out);
+  for (std::size_t n = 1; n < gradient.boundaries.size(); ++n)
+    spread(boundaries_, gradient.first + n, gradient.boundaries[n], out);
+  if (path.kind == PathKind::constant) {
+    const auto& cells = solution_.medium().cells();
+    const auto& jumps = form_.initial_breaks();
+    const auto j = std::upper_bound(jumps.begin(), jumps.end(), cells.x[path.source]) - jumps.begin();
+    spread(states_, static_cast<std::size_t>(j), {Scalar(0), gradient.phi_state}, out);
+  }
+  if (path.kind == PathKind::fan || path.kind == PathKind::waiting) add_start(path, gradient, out);
+}
+
+template <Real Scalar>
+auto Derivatives<Scalar>::at(const Scalar& z, const Scalar& t) const -> At {
+  At out{{}, std::vector<Scalar>(n_entries_, Scalar(0)), std::vector<Scalar>(n_entries_, Scalar(0))};
+  const Scalar y = form_.image_of(z);
+  const bool is_initial = t == Scalar(0);
+  if (is_initial || !is_finite(t)) {
+    out.value = solution_.at(z, t);
+    const auto& jumps = form_.initial_breaks();
+    const auto j = std::upper_bound(jumps.begin(), jumps.end(), y) - jumps.begin();
+    if (is_initial) spread(states_, static_cast<std::size_t>(j), {Scalar(0), Scalar(1)}, out);
+    const bool below = !is_initial && y < solution_.medium().steady_height();
+    if (!below) add_initial_cumulative(is_initial ? y : form_.boundaries().back(), true, out);
+  } else {
+    const Path<Scalar> path = solution_.path(z, t);
+    out.value = solution_.value_of(path, z, t);
+    add_path(path, y, t, out);
+  }
+  if (form_.is_identity()) return out;
+  const std::size_t k = form_.layers().layer_at(z);
+  const Scalar slope = form_.state_slope(k) * form_.layers().solid_fraction(k);
+  for (Scalar& by : out.M) by *= form_.sign();
+  for (Scalar& by : out.phi) by *= slope;
+  return out;
+}
+
+template class Derivatives<Instantiated>;
+template std::string derivative_refusal(const Scene<Instantiated>&, const Entry&);
+
+}  // namespace shearfront

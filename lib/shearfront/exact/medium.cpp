@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/exact/medium.hpp"
+
+#include "shearfront/exact/canonical_form.hpp"
+#include "shearfront/exact/exponential_medium.hpp"
+#include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/numeric/instantiated.hpp"
+
+namespace shearfront::exact {
+
+template <Real Scalar>
+Path<Scalar> Medium<Scalar>::best_path(const Scalar& z, const Scalar& t) const {
+  Path<Scalar> wall;
+  if (pure_travel_time(bottom(), z) <= t) {
+    wall.value = z - bottom();
+    wall.p = Scalar(1);
+    wall.kind = PathKind::bottom_wall;
+    wall.upward = true;
+    wall.foot = bottom();
+  }
+  // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
+  // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
+  // decide.
+  const bool at_top = z == top();
+  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (top() - bottom());
+  const bool full = at_top && wall.value <= mass_ + tie;
+  if (pure_travel_time(top(), z) <= t && !(mass_ > wall.value) && !full) {
+    wall = Path<Scalar>{};
+    wall.value = mass_;
+    wall.kind = PathKind::top_wall;
+    wall.foot = top();
+  }
+  Path<Scalar> free = best_free(z, t, wall.value);
+  if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
+    return free;
+  return free.better_than(wall) ? free : wall;
+}
+
+template <Real Scalar>
+std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form) {
+  if (form.exponential()) return std::make_shared<const ExponentialMedium<Scalar>>(form);
+  const auto& y = form.boundaries();
+  const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
+    Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), y);
+    return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());
+  };
+  if (form.is_parabolic()) return layered(ParabolaLaw<Scalar>(y, form.rates()));
+  return layered(unimodal_law(form));
+}
+
+template class Medium<Instantiated>;
+template std::shared_ptr<const Medium<Instantiated>> make_medium(const CanonicalForm<Instantiated>&);
+
+}  // namespace shearfront::exact

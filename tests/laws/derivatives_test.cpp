@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every shear rate with every flux and several initial states: the derivatives that the exact solver offers against
+// differences in 110 digits, and a fit asks for every entry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <any>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/solver.hpp"
+#include "shearfront/fit/forward.hpp"
+#include "shearfront/scene/entries.hpp"
+#include "shearfront/scene/scene_cast.hpp"
+#include "support/model_types.hpp"
+#include "support/random_scene.hpp"
+
+namespace shearfront {
+namespace {
+
+constexpr std::size_t kLayers = 5;  // of staircases
+
+/// Shares of the range of a flux: a jump, several of them, none.
+struct Start {
+  std::vector<double> breaks, states;
+};
+const std::vector<Start> kStarts{{{0.53125}, {0, 1}}, {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}}, {{}, {0.40625}}};
+
+template <class Model>
+class ExactDerivatives : public testing::Test {
+ protected:
+  /// Calls visit(spec) for every scene with this shear rate that the solver solves.
+  template <class Visit>
+  static void for_each_scene(Visit&& visit) {
+    for (const Model& rate : Model::samples())
+      FluxList<double>::for_each([&]<class F>() {
+        for (const F& flux : F::samples())
+          for (const Start& start : kStarts) {
+            SceneSpec<double> spec;
+            spec.fluxes = {flux};
+            spec.shear_rate = rate;
+            spec.initial_breaks = start.breaks;
+            const auto range = flux.range();
+            for (const double x : start.states)
+              spec.initial_values.push_back(range.lowest + x * (range.highest - range.lowest));
+            if (!find_complaints(spec).empty()) continue;
+            if (!ExactSolver::refusal(Scene<double>(spec), {}).empty()) continue;
+            SCOPED_TRACE(std::string(Model::kName) + " with " + std::string(F::kName) + " and " +
+                         std::to_string(start.breaks.size()) + " jumps");
+            visit(spec);
+          }
+      });
+  }
+};
+
+template <class List>
+struct TestTypes;
+template <class... Model>
+struct TestTypes<TypeList<Model...>> {
+  using Type = testing::Types<Model...>;
+};
+TYPED_TEST_SUITE(ExactDerivatives, TestTypes<DepthFunctionList<double>>::Type, support::ModelName);
+
+struct Difference {
+  double phi = 0, M = 0;
+  bool is_smooth = false;  ///< the same path on both sides
+};
+
+bool is_same_path(const exact::Path<Real110>& a, const exact::Path<Real110>& b) {
+  const Real110 d = a.foot - b.foot;
+  return a.kind == b.kind && a.upward == b.upward && a.source == b.source && a.interface == b.interface &&
+         (d < 0 ? Real110(-d) : d) < Real110(1e-6);
+}
+
+Difference difference(const SceneSpec<Real110>& spec, std::size_t entry, const Real110& z, const Real110& t,
+                      const exact::Path<Real110>& path) {
+  const Real110 h("1e-20");
+  ExactSolution<Real110>::Value values[2];
+  for (const int side : {0, 1}) {
+    SceneSpec<Real110> moved = spec;
+    *entry_places(moved)[entry] += side == 0 ? Real110(-h) : h;
+    if (!find_complaints(moved).empty()) return {};
+    const ExactSolution<Real110> solution(Scene<Real110>(moved), {kLayers});
+    const auto other = solution.path(z, t);
+    if (!is_same_path(path, other)) return {};
+    values[side] = solution.value_of(other, z, t);
+  }
+  return {to_double(Real110((values[1].phi - values[0].phi) / (2 * h))),
+          to_double(Real110((values[1].M - values[0].M) / (2 * h))), true};
+}
+
+TYPED_TEST(ExactDerivatives, AreDifferencesInManyDigits) {
+  int n_scenes = 0, n_compared = 0, n_refused = 0;
+  support::SceneMaker make(support::seed_of(5501));
+  this->for_each_scene([&](const SceneSpec<double>& spec) {
+    ++n_scenes;
+    const Scene<double> scene(spec);
+    const ExactSolver::Options options{.layers = kLayers};
+    const std::vector<Entry> all = entries(spec);
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool is_refused = !ExactSolver::derivative_refusal(scene, options, all[i]).empty();
+      is_refused ? ++n_refused : (wanted.push_back(i), 0);
+    }
+    const Place place{std::exp(make.uniform(-2.5, 0.5)), make.uniform(0.05, 0.95)};
+    std::any memory;
+    const Linearisation exact = ExactSolver::linearise(scene, options, {place}, wanted, memory);
+    ASSERT_EQ(exact.derivatives.size(), wanted.size());
+    const Scene<Real110> precise = scene_cast<Real110>(scene);
+    const ExactSolution<Real110> solution(precise, {kLayers});
+    const Real110 z(place.z), t(place.t);
+    const auto path = solution.path(z, t);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const Difference numeric = difference(precise.spec(), wanted[k], z, t, path);
+      if (!numeric.is_smooth) continue;
+      const Sample& by = exact.derivatives[k];
+      EXPECT_NEAR(by.M, numeric.M, 1e-11 * (1 + std::abs(numeric.M)))
+          << "dM/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t " << place.t;
+      EXPECT_NEAR(by.phi, numeric.phi, 1e-9 * (1 + std::abs(numeric.phi)))
+          << "dphi/d " << all[wanted[k]].name() << " kind " << int(path.kind) << " z " << place.z << " t " << place.t;
+      ++n_compared;
+    }
+  });
+  EXPECT_GT(n_scenes, 0);
+  EXPECT_GT(n_compared, 3 * n_scenes);
+  EXPECT_GE(n_refused, 2 * n_scenes);  // the ends of the domain
+}
+
+TYPED_TEST(ExactDerivatives, AFitCanAskForEveryEntry) {
+  int checked = 0;
+  this->for_each_scene([&](const SceneSpec<double>& spec) {
+    fit::ForwardSpec exact;
+    exact.method = Method::of<ExactSolver>({.layers = kLayers});
+    for (const Entry& entry : entries(spec)) {
+      if (entry.field.starts_with("domain.")) continue;
+      fit::UnknownSpec unknown;
+      unknown.parameters = {entry.name()};
+      const fit::Parameters parameters(Scene<double>(spec), unknown);
+      for (const auto observable : {fit::Observable::phi, fit::Observable::M}) {
+        const fit::Forward forward(parameters, exact, observable, {{0.2, 0.3}, {0.2, 0.7}, {1, 0.5}});
+        const auto at = forward.predict(parameters.start(), forward.has_derivatives());
+        ASSERT_TRUE(at.is_valid()) << entry.name() << ": " << at.failure;
+        if (forward.has_derivatives()) {
+          ASSERT_EQ(at.derivatives.rows(), 3) << entry.name();
+          EXPECT_TRUE(at.derivatives.allFinite()) << entry.name();
+        }
+        ++checked;
+      }
+    }
+  });
+  EXPECT_GT(checked, 0);
+}
+
+/// A model without what it may leave out.
+template <class Model>
+struct Bare : Model {
+  using Model::Model;
+  explicit Bare(const Model& model) : Model(model) {}
+  void harmonic_mean_derivatives() const = delete;
+  void knot_entries() const = delete;
+};
+
+TYPED_TEST(ExactDerivatives, OfMeansAreTheSameForAModelThatLeavesThemOut) {
+  int compared = 0;
+  for (const TypeParam& model : TypeParam::samples()) {
+    const Bare<TypeParam> bare(model);
+    EXPECT_EQ(knot_entries(bare), knot_entries(model));
+    std::vector<double> cuts{0, 1};
+    for (const double z : model.knots())
+      if (z > 0 && z < 1) cuts.push_back(z);
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+      for (const double part : {1.0, 0.5, 0.0625}) {
+        const double lo = cuts[i], hi = part == 1 ? cuts[i + 1] : lo + part * (cuts[i + 1] - lo);
+        std::vector<double> mine(64, 0.0), theirs(64, 0.0);
+        harmonic_mean_derivatives(model, lo, hi, [&](std::size_t e, double by) { mine[e] += by; });
+        harmonic_mean_derivatives(bare, lo, hi, [&](std::size_t e, double by) { theirs[e] += by; });
+        for (std::size_t e = 0; e < mine.size(); ++e)
+          EXPECT_NEAR(mine[e], theirs[e], 1e-9 * (1 + std::abs(mine[e]))) << "entry " << e << " over " << lo << " " << hi;
+        ++compared;
+      }
+  }
+  EXPECT_GT(compared, 0);
+}
+
+}  // namespace
+}  // namespace shearfront
