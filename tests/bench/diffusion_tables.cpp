@@ -92,13 +92,11 @@ Cost cost_of(const Problem& problem, const Options& options, double t, int runs)
 }
 
 std::vector<std::pair<std::string, Options>> kinds(double dt, const Numbers& tolerances) {
-  std::vector<std::pair<std::string, Options>> all(3);
+  std::vector<std::pair<std::string, Options>> all(2);
   for (auto& [name, options] : all) options.dt = dt;
   all[0].first = "newton";
-  all[1].first = "fixed point";
-  all[1].second.iteration = Iteration::fixed_point;
-  all[2].first = "fitted";
-  all[2].second.scheme = Scheme::fitted;
+  all[1].first = "fitted";
+  all[1].second.scheme = Scheme::fitted;
   for (const double tolerance : tolerances) {
     all.emplace_back("tolerance " + std::to_string(tolerance), Options{});
     all.back().second.tolerance = tolerance;

@@ -106,7 +106,8 @@ void print_overshoot() {
 constexpr double kThesisCourant = 0.5;  // with it the errors of example 1 are those of the thesis
 
 template <class Solver>
-Profile<double> solved(Solver, const Scene<double>& scene, double t, const typename Solver::Options& options) {
+Profile<double> solved(Solver, const Scene<double>& scene, double t,
+                       const typename Solver::Options& options) {
   SolverRequest request{{t}, {}};
   request.profiles = true;
   const SolverResult result = solve<Solver>(scene, request, options);

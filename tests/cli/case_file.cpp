@@ -2,7 +2,9 @@
 #include "case_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -34,10 +36,18 @@ std::vector<Case> read_cases(const std::string& path) {
     } else if (line.starts_with("--- ")) {
       std::istringstream words(line.substr(4));
       Section section;
-      words >> section.kind >> section.argument;
+      std::string equals, fixture;
+      words >> section.kind >> section.argument >> equals >> fixture;
+      const auto refuse = [&](const char* why) {
+        throw std::runtime_error(path + ":" + std::to_string(number) + ": " + why + ": " + line);
+      };
       if (cases.empty() || std::find(kKinds.begin(), kKinds.end(), section.kind) == kKinds.end())
-        throw std::runtime_error(path + ":" + std::to_string(number) +
-                                 ": unknown section or no case: " + line);
+        refuse("unknown section or no case");
+      if (section.kind == "file" && equals == "=") {
+        std::ifstream shared(std::filesystem::path(path).parent_path() / "fixtures" / fixture, std::ios::binary);
+        if (fixture.empty() || !shared) refuse("no such fixture");
+        section.text.assign(std::istreambuf_iterator<char>(shared), {});
+      }
       cases.back().sections.push_back(std::move(section));
     } else if (!cases.empty() && !cases.back().sections.empty()) {
       cases.back().sections.back().text += line + "\n";

@@ -9,7 +9,8 @@
 ///
 ///     === name-of-the-case            a file holds any number of cases
 ///     --- file scene.toml             content of an input file, one final newline; {datasets} is replaced
-///     --- raw-file scene.toml         the same with escapes \n \r \xNN and no final newline
+///     --- file scene.toml = NAME      the content of fixtures/NAME, beside the file of cases
+///     --- raw-file scene.toml         as file, with escapes \n \r \xNN and no final newline
 ///     --- directory d                 an empty directory
 ///     --- args                        arguments, separated by blanks; "..." keeps blanks; {datasets} is replaced
 ///     --- env NAME=VALUE              an environment variable
@@ -36,7 +37,7 @@ struct Case {
   [[nodiscard]] std::optional<std::string> text(const std::string& kind) const;
 };
 
-/// Errors: std::runtime_error that names file and line for a section that does not exist.
+/// Errors: std::runtime_error that names file and line for a section or a fixture that does not exist.
 [[nodiscard]] std::vector<Case> read_cases(const std::string& path);
 
 [[nodiscard]] std::vector<std::string> split_arguments(const std::string& text);

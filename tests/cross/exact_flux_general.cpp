@@ -12,6 +12,7 @@
 #include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace shearfront {
@@ -294,12 +295,10 @@ TEST(GeneralErrors, OfGodunovFallWithTheCells) {
     const ExactSolution<double> solution(scene);
     double before = 0;
     for (const std::size_t cells : {200U, 800U}) {
-      SolverOptions options;
-      options.cells = cells;
       SolverRequest request;
       request.times = {0.3};
       request.profiles = true;
-      const auto result = GodunovSolver::solve(scene, request, options);
+      const auto result = solve<GodunovSolver>(scene, request, {.cells = cells});
       ASSERT_EQ(result.profiles.size(), 1u) << result.summary.message;
       const Profile<double>& profile = result.profiles[0];
       const auto errors = errors_against(solution, profile, 0.3);

@@ -10,6 +10,7 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/solver.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -48,9 +49,7 @@ TEST_P(GeneralEvents, AreThoseOfFrontTracking) {
     const Scene<double> scene(support::random_flux_scene(make, GetParam()));
     SolverRequest request;
     request.timeline = true;
-    SolverOptions options;
-    options.resolution = 0.002;
-    const SolverResult tracked = FrontTrackingSolver::solve(scene, request, options);
+    const SolverResult tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.002});
     ASSERT_TRUE(tracked.summary.usable()) << tracked.summary.message;
     const Timeline<double> exact = exact_timeline(scene);
     ASSERT_EQ(exact.interfaces.size(), tracked.timeline->interfaces.size());

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "shearfront/riemann/polygon_stack.hpp"
+#include "oracles/polygon_stack.hpp"
 #include "shearfront/track/tracker.hpp"
 #include "shearfront/track/verify.hpp"
 #include "support/godunov.hpp"

@@ -67,6 +67,7 @@ TEST(AnyScene, StaysInRangeAndKeepsItsMass) {
     if (promised.conservative) checked.expect(std::string(S::kName) + " keeps its mass");
   });
   for_scenes(7601, 60, [&](support::SceneMaker&, const Scene<double>& scene) {
+    checked.count();
     SolverList::for_each([&]<class S>() {
       const Guarantees promised = S::guarantees();
       const auto options = support::options_of<S>(kOptions);

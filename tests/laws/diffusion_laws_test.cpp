@@ -24,7 +24,6 @@ double mass(std::span<const double> states) {
 Options random_options(SceneMaker& maker, Scheme scheme) {
   Options options;
   options.scheme = scheme;
-  options.iteration = maker.integer(0, 2) == 0 ? Iteration::fixed_point : Iteration::newton;
   if (maker.integer(0, 1) == 0) {
     options.dt = std::pow(10, maker.uniform(-4, 0));
   } else {
@@ -42,7 +41,6 @@ TEST_P(ClosedBed, KeepsItsMassAtEveryStep) {
     SceneMaker maker(seed_of(7000 + number));
     const Problem problem = support::random_problem(maker, GetParam());
     Options options = random_options(maker, number % 2 == 0 ? Scheme::central : Scheme::fitted);
-    if (options.scheme == Scheme::central) options.iteration = Iteration::newton;
     const double before = mass(problem.initial);
     CrankNicolson* running = nullptr;
     double largest = 0;

@@ -74,14 +74,15 @@ TEST(Refusals, ASolverRefusesASceneOrSolvesIt) {
   });
 }
 
-/// The names in "why; use a, b".
+/// The names of methods in "why; use a, b".
 std::vector<std::string> recommended(const std::string& refusal) {
   constexpr std::string_view kUse = "; use ";
   std::vector<std::string> names;
   const std::size_t begin = refusal.rfind(kUse);
   if (begin == std::string::npos) return names;
   std::istringstream list(refusal.substr(begin + kUse.size()));
-  for (std::string name; std::getline(list >> std::ws, name, ',');) names.push_back(name);
+  for (std::string name; std::getline(list >> std::ws, name, ',');)
+    if (SolverList::contains(name)) names.push_back(name);
   return names;
 }
 
@@ -110,6 +111,7 @@ TEST(Refusals, OfBurgersFluxInTwoLayersGoInNoCircle) {
   spec.shear_rate = Piecewise<double>{{0.5}, {1, 2}};
   spec.initial_breaks = {0.5};
   spec.initial_values = {0, 1};
+  spec.is_periodic = true;
   support::Checked checked({"no method"}, SolverList::kSize);
   expect_honest_refusals(Scene<double>(spec), checked);
 }

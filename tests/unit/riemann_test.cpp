@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/polygon_stack.hpp"
 #include "shearfront/riemann/interface.hpp"
-#include "shearfront/riemann/polygon_stack.hpp"
 #include "shearfront/track/level_grid.hpp"
 #include "support/random_scene.hpp"
 

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -54,9 +56,13 @@ Method MethodArguments::method() const {
 
 double number_of(const Method& method, std::string_view option) {
   double number = 0;
-  method.visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
-    if (info.name == option) number = static_cast<double>(member);
-  });
+  for (const Option& o : method.options())
+    if (o.info.name == option)
+      std::visit(
+          [&]<class Value>(const Value& value) {
+            if constexpr (std::is_arithmetic_v<Value>) number = static_cast<double>(value);
+          },
+          o.value);
   return number;
 }
 

@@ -120,18 +120,13 @@ void CrankNicolson::place_inner(double tau) {
 bool CrankNicolson::iterate(double tau, double theta) {
   // A fitted step must end in its bounds and tangents need a root: to rounding, which is reached when the
   // next change, this one times the rate of convergence, would be rounding.
-  const bool is_newton = options_.iteration == Iteration::newton;
   const bool to_rounding = options_.scheme == Scheme::fitted || !parameters_.empty();
   const double wanted = options_.iteration_tolerance * scale_ * theta;
   double last_change = 0;
   for (int k = 0; k < kMaxIterations; ++k) {
-    if (is_newton) {
-      rule_->evaluate(inner_.data(), fluxes_);
-    } else {
-      rule_->evaluate_lagged(inner_.data(), phi_.data(), fluxes_);
-    }
+    rule_->evaluate(inner_.data(), fluxes_);
     // After a small change the matrix of the iteration before is as good, and needs no divisions.
-    const bool same_matrix = is_newton && !to_rounding && k > 0 && last_change < kSmallChange * scale_;
+    const bool same_matrix = !to_rounding && k > 0 && last_change < kSmallChange * scale_;
     const double change = correct(tau, same_matrix);
     if (!std::isfinite(change)) return false;
     const double rate = k > 0 ? std::min(1.0, change / last_change) : 1;

@@ -18,13 +18,10 @@
 
 namespace shearfront::diffusion {
 
-enum class Iteration { newton, fixed_point };
-
 struct Options {
   double dt = 0;         ///< largest time step; 0: steps are chosen for `tolerance`
   double tolerance = 0;  ///< adaptive steps: aim for the error of time stepping, in units of max |phi|
   Scheme scheme = Scheme::central;
-  Iteration iteration = Iteration::newton;
   double iteration_tolerance = 1e-8;  ///< largest change of a state in the last iteration, over max |phi|
   /// Fixed steps: so many first steps are two halves of backward Euler each. Unset: two if the step is long
   /// for the grid (D dt > dz^2) and the rate of change at t = 0 is rough (its second difference exceeds half

@@ -28,10 +28,6 @@ class ExtendedFlux {
     if constexpr (kIsEntire) return flux_.derivative(phi);
     return flux_.derivative(clamp(phi));
   }
-  [[nodiscard]] double secant(double p, double q) const {
-    if (kIsEntire || (p == clamp(p) && q == clamp(q))) return flux_.secant(p, q);
-    return p == q ? derivative(p) : (value(q) - value(p)) / (q - p);
-  }
   /// max |f'| over the range: at an end if f' is monotone, from samples otherwise.
   [[nodiscard]] double fastest() const {
     const int n_samples = flux_.curvature() == Curvature::mixed ? 4097 : 2;

@@ -70,14 +70,12 @@ class MeanRule final : public FaceRule {
       values_[j] = flux_.value(v[j]);
       slopes_[j] = flux_.derivative(v[j]);
     }
-    fill(v, out);
-  }
-  void evaluate_lagged(const double* v, const double* w, FaceFluxes& out) override {
-    for (std::size_t j = 0; j < n_ + 2; ++j) {
-      values_[j] = flux_.value(v[j]);
-      slopes_[j] = flux_.secant(w[j], v[j]);
+    if (per_below_.empty()) {
+      fill_equal(v, out);
+    } else {
+      fill_unequal(v, out);
     }
-    fill(v, out);
+    set_ends(out);
   }
   void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) override {
     SHEARFRONT_EXPECTS(per_below_.empty(), "equal cells");
@@ -119,15 +117,7 @@ class MeanRule final : public FaceRule {
                                                  diffusions_[i] + diffusions_[i + 1]) *
                                                     per_above_[i]);
   }
-  /// From the fluxes and slopes of the cells.
-  void fill(const double* __restrict v, FaceFluxes& out) const {
-    if (per_below_.empty()) {
-      fill_equal(v, out);
-    } else {
-      fill_unequal(v, out);
-    }
-    set_ends(out);
-  }
+  // From the fluxes and slopes of the cells:
   void fill_equal(const double* __restrict v, FaceFluxes& out) const {
     double* __restrict const value = out.value.data();
     double* __restrict const by_below = out.by_below.data();

@@ -51,10 +51,8 @@ class FaceRule {
   static std::unique_ptr<FaceRule> make(const Problem& problem, Scheme scheme);
   virtual ~FaceRule() = default;
 
-  /// Newton: derivatives at the states v.
+  /// At the states v.
   virtual void evaluate(const double* v, FaceFluxes& out) = 0;
-  /// Fixed point: derivatives of the line from the states w to v, so that the nonlinear factor lags behind.
-  virtual void evaluate_lagged(const double* v, const double* w, FaceFluxes& out) = 0;
   /// Derivative of `value` with respect to a parameter of the problem, the states unchanged. Precondition:
   /// equal cells.
   virtual void evaluate_tangent(const double* v, const Tangent& tangent, std::span<double> out) = 0;

@@ -202,7 +202,8 @@ class Events {
 template <Real Scalar>
 Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
   const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::default_layers(scene);
-  const CanonicalForm<Scalar> form(std::make_shared<const Scene<Scalar>>(scene), n);
+  const std::shared_ptr<const Scene<Scalar>> not_owned(std::shared_ptr<void>(), &scene);
+  const CanonicalForm<Scalar> form(not_owned, n);
   const auto medium = exact::make_medium(form);
   Timeline<Scalar> events = Events<Scalar>(form, *medium).all();
   events.mass = scene.mass();

@@ -35,13 +35,13 @@ enum class Bend { convex, concave, mixed };
 ///   bend(k, lo, hi)  how the polygon bends between the states lo < hi, in the orientation of the indices
 ///   run_end(k, i, b) the last state up to which the polygon bends like b (convex or concave) from i on; at
 ///                    least the next vertex
-///   kUnimodal        every layer flux has one minimum (in that orientation); then also
+/// The flux of every layer has one minimum (in that orientation):
 ///   bottom_state(k)  the state of least flux: fluxes fall up to it and rise after it
 ///   falling_state(k, rank), rising_state(k, rank)  the state with this flux below and above it
+/// A grid of other fluxes has none of the last three, and brings the functions of interface.hpp for itself.
 template <class G>
 concept StateGrid = requires(const G& g, std::size_t k, State i) {
   typename G::Scalar;
-  { G::kUnimodal } -> std::convertible_to<bool>;
   { g.is_reversed() } -> std::convertible_to<bool>;
   { g.bend(k, i, i) } -> std::same_as<Bend>;
   { g.run_end(k, i, Bend::convex) } -> std::convertible_to<State>;

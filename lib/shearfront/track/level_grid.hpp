@@ -51,7 +51,6 @@ template <Real S>
 class LevelGrid {
  public:
   using Scalar = S;
-  static constexpr bool kUnimodal = true;
   static constexpr std::size_t kMaxExactStates = 64;
 
   struct Built;  // grid + indices of the wanted states

@@ -12,10 +12,10 @@
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/timeline.hpp"
-#include "shearfront/track/solver.hpp"
 #include "shearfront/track/ends.hpp"
 #include "shearfront/track/initial_pieces.hpp"
 #include "shearfront/track/level_grid.hpp"
+#include "shearfront/track/track.hpp"
 #include "shearfront/track/tracker.hpp"
 
 namespace shearfront {

@@ -130,16 +130,16 @@ class Tracker {
   /// Mass at the current time from the unrounded positions.
   [[nodiscard]] Scalar mass() const { return mass_of(grid(), system_.fronts(), time()); }
 
-  /// Ends the record of an observer at the current time: fronts still alive are handed to observer.end_of().
-  void close_record() {
-    if constexpr (Observer::kActive) {
-      const FrontList<Scalar>& fronts = system_.fronts();
-      fronts.for_each([&](FrontIndex i, const auto& node) {
-        if (!fronts.is_boundary(i))
-          system_.observer().end_of(grid(), fronts.view_of(i), time(), node.position(time()));
-      });
-      system_.observer().close();
-    }
+  /// What the observer has seen, fronts still alive ended at the current time. Cost: a copy of the record,
+  /// sorted.
+  [[nodiscard]] Observer record() const requires(Observer::kActive) {
+    Observer observer = system_.observer();
+    const FrontList<Scalar>& fronts = system_.fronts();
+    fronts.for_each([&](FrontIndex i, const auto& node) {
+      if (!fronts.is_boundary(i)) observer.end_of(grid(), fronts.view_of(i), time(), node.position(time()));
+    });
+    observer.close();
+    return observer;
   }
 
  private:

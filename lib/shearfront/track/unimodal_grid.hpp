@@ -35,7 +35,6 @@ template <Real S>
 class UnimodalGrid {
  public:
   using Scalar = S;
-  static constexpr bool kUnimodal = true;
 
   struct Built;  // grid + indices of the wanted states
   static Built exact_levels(const LayerStack<S>& stack, const S& resolution,

@@ -7,6 +7,7 @@
 
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/scalar.hpp"
+#include "shearfront/riemann/interface.hpp"
 #include "shearfront/riemann/state.hpp"
 
 namespace shearfront {
@@ -17,7 +18,9 @@ struct Polygon {
   std::vector<Scalar> phi, flux;
 };
 
-/// A stack of layers with an arbitrary polygon as flux in each: the general StateGrid, no convexity assumed.
+/// A stack of layers with an arbitrary polygon as flux in each: the general StateGrid, no convexity assumed, and
+/// interfaces solved by walking along both envelopes. A second road to everything that the grids of fluxes with one
+/// extremum find by supply and demand.
 ///
 /// The constructor closes the grid under interface Riemann problems: every flux value of a vertex of any
 /// layer, and flux 0, becomes a level, and every edge of every polygon gets a state at each level it passes.
@@ -29,7 +32,6 @@ template <Real S>
 class PolygonStack {
  public:
   using Scalar = S;
-  static constexpr bool kUnimodal = false;
 
   PolygonStack(std::vector<S> boundaries, const std::vector<Polygon<S>>& polygons)
       : boundaries_(std::move(boundaries)) {
@@ -134,5 +136,83 @@ class PolygonStack {
   std::vector<Layer> layers_;
   State zero_ = 0;
 };
+
+/// The state nearest to `from` with the given flux rank, walking up if `up`. Precondition: it exists.
+template <Real S>
+State nearest_with_rank(const PolygonStack<S>& grid, std::size_t layer, State from, State rank, bool up) {
+  State i = from;
+  while (grid.flux_rank(layer, i) != rank) i += up ? 1 : -1;
+  return i;
+}
+
+/// Ranks of h_L(.; l): running minimum above l, running maximum below l.
+template <Real S>
+std::vector<State> falling_envelope(const PolygonStack<S>& grid, std::size_t layer, State l) {
+  std::vector<State> h(static_cast<std::size_t>(grid.n_states(layer)));
+  const auto at = [&](State i) -> State& { return h[static_cast<std::size_t>(i)]; };
+  at(l) = grid.flux_rank(layer, l);
+  for (State i = l + 1; i < grid.n_states(layer); ++i)
+    at(i) = std::min(at(i - 1), State(grid.flux_rank(layer, i)));
+  for (State i = l - 1; i >= 0; --i) at(i) = std::max(at(i + 1), State(grid.flux_rank(layer, i)));
+  return h;
+}
+
+/// Ranks of h_R(.; r): running maximum above r, running minimum below r.
+template <Real S>
+std::vector<State> rising_envelope(const PolygonStack<S>& grid, std::size_t layer, State r) {
+  std::vector<State> h(static_cast<std::size_t>(grid.n_states(layer)));
+  const auto at = [&](State i) -> State& { return h[static_cast<std::size_t>(i)]; };
+  at(r) = grid.flux_rank(layer, r);
+  for (State i = r + 1; i < grid.n_states(layer); ++i)
+    at(i) = std::max(at(i - 1), State(grid.flux_rank(layer, i)));
+  for (State i = r - 1; i >= 0; --i) at(i) = std::min(at(i + 1), State(grid.flux_rank(layer, i)));
+  return h;
+}
+
+/// Rank of the flux where the two envelopes cross, walking both up the common axis of phi.
+template <Real S>
+State crossing_rank(const PolygonStack<S>& grid, std::size_t below, std::size_t above, State l, State r) {
+  const std::vector<State> h_l = falling_envelope(grid, below, l);
+  const std::vector<State> h_r = rising_envelope(grid, above, r);
+  // First phi at which h_R has reached h_L. There one of the two is flat (a state flux or an extremum, hence
+  // a level of the grid), because two scaled copies of one flux never move in opposite directions at the same
+  // phi.
+  std::size_t i = 0, j = 0;
+  while (h_r[j] < h_l[i]) {
+    const bool left_ends = i + 1 == h_l.size(), right_ends = j + 1 == h_r.size();
+    if (left_ends && right_ends) break;
+    const bool step_left = right_ends || (!left_ends && grid.phi(below, static_cast<State>(i) + 1) <=
+                                                            grid.phi(above, static_cast<State>(j) + 1));
+    const State h_l_old = h_l[i], h_r_old = h_r[j];
+    if (step_left) {
+      ++i;
+      if (h_l[i] <= h_r_old && h_l_old > h_r_old) return h_r_old;
+    } else {
+      ++j;
+      if (h_r[j] >= h_l_old && h_r_old < h_l_old) return h_l_old;
+    }
+  }
+  return std::max(h_l[i], std::min(h_r[j], h_l[i]));
+}
+
+template <Real S>
+StatePair solve_between(const PolygonStack<S>& grid, std::size_t below, std::size_t above, State l, State r) {
+  const State rank_l = grid.flux_rank(below, l), rank_r = grid.flux_rank(above, r);
+  const State rank = crossing_rank(grid, below, above, l, r);
+  // h_L falls, so a smaller flux lies above l; h_R rises, so a greater flux lies above r.
+  return {nearest_with_rank(grid, below, l, rank, rank < rank_l),
+          nearest_with_rank(grid, above, r, rank, rank > rank_r)};
+}
+template <Real S>
+State solve_bottom_wall(const PolygonStack<S>& grid, State r) {
+  const State zero = grid.zero_flux_rank(), rank_r = grid.flux_rank(0, r);
+  return rank_r == zero ? r : nearest_with_rank(grid, 0, r, zero, zero > rank_r);
+}
+template <Real S>
+State solve_top_wall(const PolygonStack<S>& grid, State l) {
+  const std::size_t layer = grid.n_layers() - 1;
+  const State zero = grid.zero_flux_rank(), rank_l = grid.flux_rank(layer, l);
+  return rank_l == zero ? l : nearest_with_rank(grid, layer, l, zero, zero < rank_l);
+}
 
 }  // namespace shearfront

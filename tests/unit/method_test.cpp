@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solvers chosen by name, with options by name: what the command line, fit files, `compare` and `list` derive from.
+#include "shearfront/solver/method.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <any>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "shearfront/io/method_text.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/solver/solve.hpp"
+#include "support/checked.hpp"
+
+namespace shearfront {
+namespace {
+
+SceneSpec<double> two_layers() {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{0.2913}, {2.4, 0.31}};
+  spec.initial_breaks = {0.4968};
+  spec.initial_values = {0.1, 0.9};
+  return spec;
+}
+
+std::string message_of(const auto& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Methods, HaveTheNamesOfTheSolvers) {
+  std::vector<std::string> names;
+  SolverList::for_each([&]<class S>() {
+    names.emplace_back(S::kName);
+    const Method method(S::kName);
+    EXPECT_EQ(method.name(), S::kName);
+    EXPECT_EQ(method.description(), S::kDescription);
+    EXPECT_EQ(method.scenes(), S::kScenes);
+    EXPECT_EQ(settings(method), settings(Method::of<S>()));
+    EXPECT_EQ(method.guarantees().exact, S::guarantees().exact);
+  });
+  EXPECT_EQ(Method::names(), names);
+  EXPECT_EQ(Method().name(), names.front());
+}
+
+TEST(Methods, AreListedByWhatTheyPromise) {
+  for (const auto property : {&Guarantees::exact, &Guarantees::has_timeline, &Guarantees::has_fronts,
+                              &Guarantees::has_profiles, &Guarantees::diffusion}) {
+    std::vector<std::string> names;
+    for (const std::string& name : Method::names())
+      if (Method(name).guarantees().*property) names.push_back(name);
+    EXPECT_EQ(Method::names(property), names);
+    EXPECT_FALSE(names.empty());
+  }
+}
+
+TEST(Methods, AnUnknownNameListsThoseThatThereAre) {
+  EXPECT_EQ(message_of([] { Method("hopf-lax"); }),
+            "method = \"hopf-lax\"; must be one of: " + SolverList::names());
+}
+
+// Options of the same name mean the same: they are one on the command line and in fit files.
+TEST(OptionsOfSolvers, AreListedOnceWithTheirSolvers) {
+  std::set<std::string> names;
+  for (const OptionText& option : all_options()) {
+    SCOPED_TRACE(option.name);
+    EXPECT_TRUE(names.insert(option.name).second);
+    EXPECT_FALSE(option.sentence.empty());
+    EXPECT_FALSE(option.sentence.ends_with('.'));
+    EXPECT_FALSE(option.initial.empty());
+    std::vector<std::string> solvers;
+    for (const std::string& name : Method::names())
+      if (Method(name).has_option(option.name)) solvers.push_back(name);
+    EXPECT_EQ(option.solvers, solvers);
+    EXPECT_TRUE(std::all_of(option.name.begin(), option.name.end(),
+                            [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; }));
+  }
+  for (const std::string& name : Method::names())
+    Method(name).visit_options([&](const OptionInfo& info, const auto&) {
+      EXPECT_TRUE(names.contains(std::string(info.name))) << name << " " << info.name;
+    });
+}
+
+// The default is allowed, or it says what it stands for.
+TEST(OptionsOfSolvers, StartFromADefaultInTheirRange) {
+  support::Checked checked({"number", "name", "unset"});
+  for (const std::string& name : Method::names())
+    Method(name).visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
+      SCOPED_TRACE(name + " " + std::string(info.name));
+      if constexpr (std::is_enum_v<Member>) {
+        EXPECT_LT(static_cast<std::size_t>(member), info.names.size());
+        checked.count("name");
+      } else if constexpr (!std::is_same_v<Member, bool>) {
+        EXPECT_LT(info.range.low, info.range.high);
+        EXPECT_EQ(info.range.contains(static_cast<double>(member)), info.unset.empty());
+        checked.count(info.unset.empty() ? "number" : "unset");
+      }
+    });
+}
+
+/// A text that sets an option to something other than its default.
+struct OtherValue {
+  template <class Member>
+  static std::string of(const OptionInfo& info, const Member& member) {
+    if constexpr (std::is_same_v<Member, bool>) {
+      return member ? "false" : "true";
+    } else if constexpr (std::is_enum_v<Member>) {
+      return std::string(info.names[(static_cast<std::size_t>(member) + 1) % info.names.size()]);
+    } else {
+      const double low = std::max(info.range.low, 1e-3), high = std::min(info.range.high, 1e4);
+      return number_text(std::is_integral_v<Member> ? std::floor((low + high) / 2) : std::sqrt(low * high));
+    }
+  }
+};
+
+Method with_other_values(const std::string& name) {
+  Method method(name);
+  std::vector<std::pair<std::string, std::string>> texts;
+  method.visit_options([&](const OptionInfo& info, const auto& member) {
+    texts.emplace_back(info.name, OtherValue::of(info, member));
+  });
+  for (const auto& [option, text] : texts) set_option(method, option, text, option);
+  return method;
+}
+
+/// The method that "--method exact --layers 8" asks for.
+Method from_settings(const std::string& text) {
+  std::istringstream words(text);
+  std::string word, name;
+  words >> word >> name;
+  EXPECT_EQ(word, "--method");
+  Method method(name);
+  std::vector<std::string> rest;
+  while (words >> word) rest.push_back(word);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const bool is_flag = i + 1 == rest.size() || rest[i + 1].starts_with("--");
+    const std::string option = rest[i].substr(2);
+    EXPECT_TRUE(method.has_option(option)) << rest[i];
+    set_option(method, option, is_flag ? "true" : rest[++i], option);
+  }
+  return method;
+}
+
+TEST(OptionsOfSolvers, SettingsGiveTheSameMethodAgain) {
+  for (const std::string& name : Method::names()) {
+    EXPECT_EQ(settings(from_settings(settings(Method(name)))), settings(Method(name)));
+    const Method other = with_other_values(name);
+    EXPECT_EQ(settings(from_settings(settings(other))), settings(other));
+    other.visit_options([&](const OptionInfo& info, const auto&) {
+      EXPECT_NE(settings(other).find("--" + std::string(info.name)), std::string::npos) << name << info.name;
+    });
+  }
+}
+
+TEST(OptionsOfSolvers, RefuseWhatIsNotAllowedByTheirKey) {
+  Method method("front-tracking");
+  const auto refusal = [&](const char* option, const char* text) {
+    return message_of([&] { set_option(method, option, text, "--" + std::string(option)); });
+  };
+  EXPECT_EQ(refusal("resolution", "0"), "--resolution = 0; must be > 0 and <= 1");
+  EXPECT_EQ(refusal("resolution", "nan"), "--resolution = nan; must be > 0 and <= 1");
+  EXPECT_EQ(refusal("resolution", "fine"), "--resolution = \"fine\"; must be a number > 0 and <= 1");
+  EXPECT_EQ(refusal("layers", "0"), "--layers = 0; must be a whole number from 1 to 1000000");
+  EXPECT_EQ(refusal("layers", "2.5"), "--layers = 2.5; must be a whole number from 1 to 1000000");
+  EXPECT_EQ(refusal("grid", "fine"), "--grid = \"fine\"; must be one of: levels, singular-mapping");
+  method = Method("crank-nicolson");
+  EXPECT_EQ(refusal("monotone", "yes"), "--monotone = \"yes\"; must be true or false");
+  EXPECT_EQ(refusal("time-step", "0"), "--time-step = 0; must be > 0");
+}
+
+/// Derivatives of what a method computes, against differences of it: two layers, all entries that have some.
+void check_linearisation(const Method& method, const SceneSpec<double>& spec, double step, double bound,
+                         support::Checked& checked) {
+  const Scene<double> scene(spec);
+  ASSERT_EQ(method.refusal(scene), "");
+  const std::vector<Place> places{{0.07, 0.45}, {0.1, 0.52}, {0.2, 0.31}, {0.2, 0.6}};
+  const std::vector<Entry> all = entries(spec);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (method.has_derivative(scene, all[i])) wanted.push_back(i);
+  std::any memory;
+  const Linearisation at = method.linearise(scene, places, wanted, memory);
+  ASSERT_TRUE(at.summary.usable()) << at.summary.message;
+  ASSERT_EQ(at.samples.size(), places.size());
+  ASSERT_EQ(at.derivatives.size(), places.size() * wanted.size());
+  // The same steps in time, if the method has any: differences of two choices of them are noise.
+  const auto samples = [&](std::size_t entry, double by) {
+    SceneSpec<double> moved = spec;
+    *entry_places(moved)[entry] += by;
+    return method.linearise(Scene<double>(moved), places, {}, memory).samples;
+  };
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const auto above = samples(wanted[k], step), below = samples(wanted[k], -step);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Sample& d = at.derivatives[i * wanted.size() + k];
+      const double phi = (above[i].phi - below[i].phi) / (2 * step), M = (above[i].M - below[i].M) / (2 * step);
+      EXPECT_NEAR(d.phi, phi, bound * std::max(1.0, std::abs(phi))) << all[wanted[k]].name() << " place " << i;
+      EXPECT_NEAR(d.M, M, bound * std::max(1.0, std::abs(M))) << all[wanted[k]].name() << " place " << i;
+    }
+    checked.count(all[wanted[k]].name());
+  }
+  // Samples alone are those of a run.
+  const auto sampled = sample(scene, method, places).samples;
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(at.samples[i].M, sampled[i].M, 1e-9);
+}
+
+const std::initializer_list<std::string_view> kEntries{"shear_rate.values[0]", "shear_rate.values[1]",
+                                                       "shear_rate.breaks[0]", "shear_rate.scale",
+                                                       "initial.values[0]",    "initial.values[1]",
+                                                       "initial.breaks[0]"};
+
+TEST(Linearisation, OfTheExactSolutionIsItsDerivative) {
+  support::Checked checked(kEntries);
+  check_linearisation(Method::of<ExactSolver>(), two_layers(), 1e-6, 1e-7, checked);
+}
+
+TEST(Linearisation, OfCrankNicolsonIsTheDerivativeOfTheScheme) {
+  support::Checked checked(kEntries);
+  checked.expect("diffusion.D");
+  SceneSpec<double> spec = two_layers();
+  spec.diffusion = Diffusion<double>{0.02, {}, false};
+  check_linearisation(Method::of<CrankNicolsonSolver>({.cells = 60, .time_step = 0.01}), spec, 1e-5, 1e-4, checked);
+}
+
+TEST(Linearisation, MethodsWithoutDerivativesSaySo) {
+  const Scene<double> scene(two_layers());
+  for (const char* name : {"front-tracking", "godunov"})
+    for (const Entry& entry : entries(scene.spec())) EXPECT_FALSE(Method(name).has_derivative(scene, entry)) << name;
+  for (const Entry& entry : entries(scene.spec()))
+    EXPECT_EQ(Method("exact").has_derivative(scene, entry),
+              entry.field.starts_with("shear_rate.") || entry.field.starts_with("initial."))
+        << entry.name();
+}
+
+}  // namespace
+}  // namespace shearfront
