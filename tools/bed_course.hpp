@@ -2,14 +2,12 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "shearfront/io/results.hpp"
-#include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
-#include "cli/method.hpp"
+#include "shearfront/solver/solve.hpp"
 
 /// Numbers that belong to a whole bed, as functions of time.
 namespace shearfront::tools {
@@ -26,13 +24,12 @@ struct BedCourse {
   Summary summary;
 };
 
-/// Why a scene has no such numbers; empty if it has.
-[[nodiscard]] std::string refusal_of_course(const Scene<double>& scene);
-
 /// The course of mixing or bed height. The lowest bed is looked for up to the last finite time. If the
-/// summary is not usable() there are no rows.
-[[nodiscard]] BedCourse bed_course(SolvedQuantity quantity, std::string_view method,
-                                   const Scene<double>& scene, const std::vector<double>& times,
-                                   const SolverOptions& options);
+/// summary is not usable() there are no rows. Precondition: BedHeight::refusal(scene) is empty.
+[[nodiscard]] BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
+                                   const std::vector<double>& times, const Progress& progress = {});
+
+/// The last of the finite times, 0 if there is none.
+[[nodiscard]] double last_time(const std::vector<double>& times);
 
 }  // namespace shearfront::tools

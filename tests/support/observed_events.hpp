@@ -1,45 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/solution/observed_events.hpp"
-
+#pragma once
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
+#include <vector>
 
 #include "shearfront/numeric/contract.hpp"
+#include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/profile.hpp"
+#include "shearfront/solution/timeline.hpp"
 
-namespace shearfront {
-namespace {
+namespace shearfront::support {
+
+/// Profiles of one solution at ascending times, for example of a grid method that knows no events.
+struct ProfileSeries {
+  std::vector<double> times;
+  std::vector<Profile<double>> profiles;
+};
+
+namespace observed_detail {
 
 using Quantity = std::vector<double>;  // one number per time
 
 /// Where the line between two times passes the threshold.
-double crossing(const ProfileSeries& series, const Quantity& q, std::size_t before, double threshold) {
+inline double crossing(const ProfileSeries& series, const Quantity& q, std::size_t before, double threshold) {
   const double a = q[before], b = q[before + 1];
   const double part = a == b ? 0 : (threshold - a) / (b - a);
   return series.times[before] + part * (series.times[before + 1] - series.times[before]);
 }
 
 /// First time at which the quantity exceeds the threshold.
-std::optional<double> first_above(const ProfileSeries& series, const Quantity& q, double threshold) {
+inline std::optional<double> first_above(const ProfileSeries& series, const Quantity& q, double threshold) {
   for (std::size_t i = 0; i < q.size(); ++i)
     if (q[i] > threshold) return i == 0 ? series.times[0] : crossing(series, q, i - 1, threshold);
   return std::nullopt;
 }
 
 /// Last time at which it does; nothing if it does at the end of the series, or never.
-std::optional<double> last_above(const ProfileSeries& series, const Quantity& q, double threshold) {
+inline std::optional<double> last_above(const ProfileSeries& series, const Quantity& q, double threshold) {
   for (std::size_t i = q.size(); i-- > 0;)
     if (q[i] > threshold)
       return i + 1 == q.size() ? std::nullopt : std::optional(crossing(series, q, i, threshold));
   return std::nullopt;
 }
 
-double mean(const Profile<double>& profile, double low, double high) {
+inline double mean(const Profile<double>& profile, double low, double high) {
   return (profile.at(high).M - profile.at(low).M) / (high - low);
 }
 
-std::optional<double> earlier(const std::optional<double>& a, const std::optional<double>& b) {
+inline std::optional<double> earlier(const std::optional<double>& a, const std::optional<double>& b) {
   if (a && b) return std::min(*a, *b);
   return a ? a : b;
 }
@@ -100,12 +109,32 @@ class Observer {
   double steady_, height_ = 0, width_ = 0, threshold_ = 0;
 };
 
-}  // namespace
+}  // namespace observed_detail
 
-Timeline<double> observed_events(const Scene<double>& scene, const ProfileSeries& series) {
+/// The event times of a scene as they can be seen in profiles (meaning of each: solution/timeline.hpp).
+///
+/// With h = (top - bottom) / cells of the profile, the width of a mean cell, and the mean of phi over the
+/// width h next to a wall, or on either side of an interface, called the state there:
+///
+///   t0, t1, first  the state (of either side) has left its initial value by more than the threshold
+///                  theta = sqrt(h / (top - bottom)) for the first time;
+///   last           the state (of either side) differs from its final value by more than theta for the last
+///                  time;
+///   t_star         int |phi - steady phi| dz exceeds the content h of one cell for the last time.
+///
+/// Why this converges: behind the edge of a fan phi changes at a finite rate, so theta costs a delay of order
+/// theta; a monotone scheme sends a foot ahead of the edge whose height is of order sqrt(h) as well (the
+/// smoothed kink); a shock is a few h wide and passes theta within O(h) of time. Times of fans are thus of
+/// order 1/2 in h, those of shocks and t_star of order 1 (up to a logarithm). 0 if the initial state at a
+/// wall or interface is not at rest there (the state leaves at once), up to the same error. Between two times
+/// of the series the quantity is interpolated linearly; what comes and goes between two is not seen. Empty: a
+/// first that does not happen in the series; a last, or t_star, that may lie behind its end or does not
+/// happen. Cost: O(times * cells).
+[[nodiscard]] inline Timeline<double> observed_events(const Scene<double>& scene,
+                                                      const ProfileSeries& series) {
   SHEARFRONT_EXPECTS(!series.times.empty() && series.times.size() == series.profiles.size(),
                      "one profile per time");
-  const Observer observer(scene, series);
+  const observed_detail::Observer observer(scene, series);
   const double h = observer.width();
   Timeline<double> timeline;
   timeline.mass = scene.mass();
@@ -122,9 +151,10 @@ Timeline<double> observed_events(const Scene<double>& scene, const ProfileSeries
     std::optional<double> last;
     if (last_below || last_above) last = std::max(last_below.value_or(0.0), last_above.value_or(0.0));
     if (is_open) last.reset();
-    timeline.interfaces.push_back({z, earlier(observer.first(low, z), observer.first(z, high)), last});
+    timeline.interfaces.push_back(
+        {z, observed_detail::earlier(observer.first(low, z), observer.first(z, high)), last});
   }
   return timeline;
 }
 
-}  // namespace shearfront
+}  // namespace shearfront::support
