@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
+#include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
