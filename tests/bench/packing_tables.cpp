@@ -10,6 +10,7 @@
 
 #include "shearfront/fv/march.hpp"
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/solid_scene.hpp"
 

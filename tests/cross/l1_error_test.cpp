@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exactly integrated L1 error: closed forms, plain quadrature, and 50 digits.
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/solve.hpp"
 
@@ -141,8 +141,8 @@ struct Resolution {
   std::uint64_t cells;
 };
 
-Profile<double> solved(const Scene<double>& scene, double t, const Resolution& resolution, Reconstruction lines,
-                       bool tracked) {
+Profile<double> solved(const Scene<double>& scene, double t, const Resolution& resolution,
+                       Reconstruction lines, bool tracked) {
   SolverRequest request;
   request.times = {t};
   request.profiles = true;

@@ -8,6 +8,7 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront {

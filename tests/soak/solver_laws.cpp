@@ -4,6 +4,7 @@
 #include <limits>
 #include <string_view>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "soak/laws.hpp"
 

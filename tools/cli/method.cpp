@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <type_traits>
-#include <variant>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -56,13 +55,10 @@ Method MethodArguments::method() const {
 
 double number_of(const Method& method, std::string_view option) {
   double number = 0;
-  for (const Option& o : method.options())
-    if (o.info.name == option)
-      std::visit(
-          [&]<class Value>(const Value& value) {
-            if constexpr (std::is_arithmetic_v<Value>) number = static_cast<double>(value);
-          },
-          o.value);
+  method.visit_options([&]<class Value>(const OptionInfo& info, const Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>)
+      if (info.name == option) number = static_cast<double>(value);
+  });
   return number;
 }
 

@@ -75,12 +75,18 @@ class CanonicalForm {
   [[nodiscard]] Scalar state_of(const Scalar& share, std::size_t k) const;
   [[nodiscard]] Scalar share_of(const Scalar& u, std::size_t k) const;
   /// Piece of the scene's initial data to which piece j of the image's belongs.
-  [[nodiscard]] std::size_t initial_piece(std::size_t j) const { return is_identity_ ? j : initial_piece_[j]; }
+  [[nodiscard]] std::size_t initial_piece(std::size_t j) const {
+    return is_identity_ ? j : initial_piece_[j];
+  }
   /// Lowest layer of piece j of the image's initial data; all of its layers have the same flux.
-  [[nodiscard]] std::size_t initial_layer(std::size_t j) const { return is_identity_ ? 0 : initial_layer_[j]; }
+  [[nodiscard]] std::size_t initial_layer(std::size_t j) const {
+    return is_identity_ ? 0 : initial_layer_[j];
+  }
   /// Initial jump of the scene that jump j of the image's data is; kNone where only the range of states
   /// jumps.
-  [[nodiscard]] std::size_t initial_break(std::size_t j) const { return is_identity_ ? j : initial_break_[j]; }
+  [[nodiscard]] std::size_t initial_break(std::size_t j) const {
+    return is_identity_ ? j : initial_break_[j];
+  }
 
   [[nodiscard]] Scalar image_of(const Scalar& z) const;
   [[nodiscard]] Scalar height_of(const Scalar& y) const;

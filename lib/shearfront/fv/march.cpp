@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <variant>
 
 #include "shearfront/fv/vectorised.hpp"
 #include "shearfront/numeric/sum.hpp"

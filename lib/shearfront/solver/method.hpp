@@ -135,6 +135,12 @@ class Method {
 
   /// In the order in which the solver lists them.
   [[nodiscard]] std::vector<Option> options() const { return solver_->options(); }
+  /// Calls visit(OptionInfo, value) with the alternative of every option's value.
+  template <class Visit>
+  void visit_options(Visit&& visit) const {
+    for (const Option& option : options())
+      std::visit([&](const auto& value) { visit(option.info, value); }, option.value);
+  }
   [[nodiscard]] bool has_option(std::string_view option) const;
   /// Sets an option. Preconditions: has_option(option); the value is of the option's kind and in its range.
   void set(std::string_view option, const OptionValue& value) { solver_ = solver_->with(option, value); }

@@ -8,7 +8,24 @@
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/riemann/state.hpp"
 
+/// What a tracker starts from: states wanted of a grid, pieces of the bed, and what lies beyond its ends.
 namespace shearfront {
+
+/// A state wanted in a grid: share phi / c, a state of the layer's flux, in one layer.
+template <Real Scalar>
+struct LayerState {
+  std::size_t layer;
+  Scalar phi;
+};
+
+/// One piece of a piecewise constant state of the bed: from the top of the piece before it up to `top`,
+/// inside `layer`.
+template <Real Scalar>
+struct Piece {
+  std::size_t layer;
+  Scalar top;
+  State state;
+};
 
 /// What lies beyond the bottom (0) and the top (1) of the bed: a wall, a state, or the other end.
 template <Real Scalar>
