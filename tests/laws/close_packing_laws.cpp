@@ -95,7 +95,7 @@ TEST(ClosePacking, WrongLawsAreRefusedWithTheirKeys) {
   const auto first = [&](ClosePacking<double> law) {
     spec.close_packing = std::move(law);
     const Complaints complaints = find_complaints(spec);
-    return problems.empty() ? std::string() : complaints.front().text();
+    return complaints.empty() ? std::string() : complaints.front().text();
   };
   EXPECT_EQ(first(PackingPolynomial<double>{0.633}), "");
   EXPECT_EQ(first(PackingPolynomial<double>{0.99}), "close_packing.pure = 0.99; must be < 0.95");

@@ -65,7 +65,7 @@ SceneSpec<double> spec_with(InitialState<double> profile, double D) {
 TEST(DiffusiveScenes, SmoothDataNeedDiffusionAndStatesOfTheFlux) {
   const auto first = [](const SceneSpec<double>& spec) {
     const Complaints complaints = find_complaints(spec);
-    return problems.empty() ? std::string() : complaints.front().text();
+    return complaints.empty() ? std::string() : complaints.front().text();
   };
   EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0.01)), "");
   EXPECT_EQ(first(spec_with(KinkInitial<double>{0.75, 0, 0.5, 0.1}, 0)),
