@@ -72,8 +72,10 @@ bool is_csv(const std::string& file) {
 std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
   if (!is_csv(file)) {
     const auto content = fit::read_scene_or_fit(file);
-    if (const auto* fit_file = std::get_if<fit::FitFile>(&content)) print_remarks(fit_file->remarks);
-    else print_remarks(std::get<Scene<double>>(content).spec().remarks);
+    if (const auto* fit_file = std::get_if<fit::FitFile>(&content))
+      print_remarks(fit_file->remarks);
+    else
+      print_remarks(std::get<Scene<double>>(content).spec().remarks);
     return std::visit([](const auto& good) { return summary_text(good); }, content);
   }
   const Observations data =

@@ -9,15 +9,12 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
-#include "compare/observed.hpp"
-#include "compare/paper.hpp"
-#include "compare/race.hpp"
-#include "compare/report.hpp"
-#include "plot/error_time.hpp"
-#include "plot/pictures.hpp"
+#include "cli/table.hpp"
+#include "compare/comparison.hpp"
+#include "plot/picture.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/io/detail/json.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -26,88 +23,58 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr double kDefaultBudget = 5;
-constexpr std::size_t kMostTimes = 9;  // panels that can be read
-constexpr double kMostCells = 1e8, kMostPoints = 1e7;
+constexpr Bounds kPositive{0, HUGE_VAL, true};
 
 struct CompareArguments {
   std::string scene, output, plot;
-  std::optional<std::string> times, methods, cells, resolutions, points, budget, repeat;
-  bool json = false, events = false, paper = false;
+  std::optional<std::string> times, methods, cells, resolutions, budget, repeat;
+  bool json = false;
 };
 
+/// Ascending, each once.
+std::vector<double> ascending_option(std::string_view option, const std::string& value, Bounds bounds,
+                                     const std::string& constraint) {
+  auto numbers = list_option(option, value, bounds, constraint, Steady::refused);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
 std::vector<double> times_of(const CompareArguments& arguments) {
+  constexpr std::size_t kMostTimes = 9;  // panels that can be read
   if (!arguments.times) throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 1:5:3");
-  Bounds positive;
-  positive.low = 0, positive.low_excluded = true;
-  auto times = list_option("--times", *arguments.times, positive, "> 0", Steady::refused);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const auto times = ascending_option("--times", *arguments.times, kPositive, "> 0");
   if (times.size() > kMostTimes)
     refuse("--times", *arguments.times, fmt::format("must give at most {} times", kMostTimes));
   return times;
 }
 
-/// A ladder of whole numbers, ascending.
-std::vector<double> counts_option(std::string_view option, const std::string& value, double most) {
-  const std::string constraint = fmt::format(">= 1 and <= {}", number_text(most));
-  auto counts = list_option(option, value, {1, most}, constraint, Steady::refused);
-  for (const double n : counts)
-    if (n != std::floor(n)) refuse(option, value, "must hold whole numbers only");
-  std::sort(counts.begin(), counts.end());
-  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
-  return counts;
-}
-
-Ladders ladders_of(const CompareArguments& arguments) {
-  Ladders ladders = default_ladders(arguments.budget.has_value());
-  if (arguments.cells) ladders.cells = counts_option("--cells", *arguments.cells, kMostCells);
-  if (arguments.points) ladders.points = counts_option("--points", *arguments.points, kMostPoints);
-  if (arguments.resolutions) {
-    auto& r = ladders.resolutions;
-    r = list_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1", Steady::refused);
-    std::sort(r.rbegin(), r.rend());
-    r.erase(std::unique(r.begin(), r.end()), r.end());
+/// Coarse to fine. Those who give a budget get longer lists by default.
+std::vector<double> resolutions_of(const CompareArguments& arguments, std::string_view refinement) {
+  constexpr double kMostCells = 1e8;
+  const bool is_long = arguments.budget.has_value();
+  if (refinement == "cells") {
+    std::vector<double> cells;
+    for (double n = 100; n <= (is_long ? 2e6 : 3200); n *= 2) cells.push_back(n);
+    if (arguments.cells)
+      cells = ascending_option("--cells", *arguments.cells, {1, kMostCells}, ">= 1 and <= 1e+08");
+    for (const double n : cells)
+      if (n != std::floor(n)) refuse("--cells", *arguments.cells, "must hold whole numbers only");
+    return cells;
   }
-  return ladders;
+  std::vector<double> steps{1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 0.003, 0.01, 0.03, 0.1};
+  if (!is_long) steps.erase(steps.begin(), steps.begin() + 2);
+  if (arguments.resolutions)
+    steps = ascending_option("--resolutions", *arguments.resolutions, {0, 1, true}, "> 0 and <= 1");
+  return {steps.rbegin(), steps.rend()};
 }
 
-RaceLimits limits_of(const CompareArguments& arguments, ProgressLine& line) {
-  RaceLimits limits;
-  limits.budget_s = kDefaultBudget;
+ComparisonLimits limits_of(const CompareArguments& arguments) {
   constexpr unsigned long long kMostRepeats = 10'000;
-  Bounds positive;
-  positive.low = 0, positive.low_excluded = true;
-  if (arguments.budget) limits.budget_s = number_option("--budget", *arguments.budget, positive, "> 0");
-  if (arguments.repeat)
-    limits.repeats = static_cast<std::size_t>(count_option("--repeat", *arguments.repeat, 1, kMostRepeats));
-  limits.is_stopped = InterruptGuard::is_interrupted;
-  limits.progress = [show = line.callback()](double t, std::uint64_t work) {
-    if (show) show(t, work);
-    return !InterruptGuard::is_interrupted();
-  };
+  ComparisonLimits limits;
+  if (arguments.budget) limits.budget_s = number_option("--budget", *arguments.budget, kPositive, "> 0");
+  if (arguments.repeat) limits.repeats = count_option("--repeat", *arguments.repeat, 1, kMostRepeats);
   return limits;
-}
-
-int compare_with_paper(const CompareArguments& arguments) {
-  if (!arguments.scene.empty() || arguments.times || arguments.methods || arguments.cells ||
-      arguments.resolutions || arguments.points || arguments.budget || !arguments.output.empty() ||
-      !arguments.plot.empty() || arguments.json || arguments.events)
-    throw InputError("--paper", "",
-                     "prints a comparison of its own; takes no SCENE and no option other than --repeat");
-  ProgressLine line;
-  const RaceLimits limits = limits_of(arguments, line);
-  const InterruptGuard guard;
-  OutputFile out("-");
-  out.write(paper_text(limits));
-  out.commit();
-  if (InterruptGuard::is_interrupted()) note("interrupted: rows without numbers were not computed");
-  return kDone;
-}
-
-void check_scene(const Scene<double>& scene, const std::string& path) {
-  if (const std::string reason = exact::refusal(scene); !reason.empty())
-    throw InputError(printable(path), "", "has no exact solution to compare with: " + reason);
 }
 
 /// For tabulated a(z), and smooth beds of other fluxes, the exact engine solves a staircase.
@@ -127,46 +94,98 @@ void note_staircase(const Scene<double>& scene, const ExactSolution<double>& exa
                   scene.is_plain() ? "a(z) is a table" : "the bed varies smoothly", exact.n_layers(), worst));
 }
 
-/// Says which ladders ended early and why. Returns whether there is any result.
-bool report_ends(const std::vector<Panel>& panels, bool has_budget) {
-  bool has_rungs = false;
-  for (const Panel& panel : panels)
-    for (const Course& course : panel.courses) {
-      has_rungs = has_rungs || !course.rungs.empty();
-      const bool is_asked = course.ended == kBudgetSpent && has_budget;
-      if (course.ended.empty() || is_asked) continue;
-      const std::string last =
-          course.rungs.empty() ? "its start" : "resolution " + number_text(course.rungs.back().resolution);
-      note(fmt::format("t = {}, {}: ended at {}: {}", number_text(panel.t), course.contestant.name, last,
-                       printable(course.ended)));
-    }
-  return has_rungs;
+/// Says which methods ended early and why. Returns whether there is any result.
+bool report_ends(const std::vector<Course>& courses, bool has_budget) {
+  bool has_runs = false;
+  for (const Course& course : courses) {
+    has_runs = has_runs || !course.runs.empty();
+    if (course.ended.empty() || (course.ended == kBudgetSpent && has_budget)) continue;
+    const std::string last =
+        course.runs.empty() ? "its start" : "resolution " + number_text(course.runs.back().resolution);
+    note(fmt::format("t = {}, {}: ended at {}: {}", number_text(course.t), course.method.name, last,
+                     printable(course.ended)));
+  }
+  return has_runs;
 }
 
-void print(const CompareArguments& arguments, const Scene<double>& scene, const std::vector<Panel>& panels,
-           const ObservedEvents* events) {
-  OutputFile out("-");
-  if (arguments.json)
-    out.write(race_json(scene.name(), panels, events));
-  else
-    out.write(fmt::format("{}\n{}{}", printable(scene.name(), 100), race_text(panels),
-                          events ? events_text(*events) : ""));
-  out.commit();
+/// A table per time; courses come by time.
+std::string text_of(const std::vector<Course>& courses) {
+  std::string all;
+  for (auto course = courses.begin(); course != courses.end();) {
+    const double t = course->t;
+    TextTable table({"method", "resolution", "L1 error", "order", "work", "per unit", "time"});
+    for (; course != courses.end() && course->t == t; ++course)
+      for (const ComparedRun& run : course->runs)
+        table.add(
+            {course->method.name, number_text(run.resolution),
+             run.l1_error == 0 ? "0" : fmt::format("{:.2e}", run.l1_error),
+             run.order ? fmt::format("{:.2f}", *run.order) : "", std::to_string(run.work),
+             run.work > 0 ? fmt::format("{:.3g} ns", 1e9 * run.wall_s / static_cast<double>(run.work)) : "",
+             fmt::format("{:.3g} s", run.wall_s)});
+    all += fmt::format("\nt = {}\n\n{}", number_text(t), table.text());
+  }
+  return all;
+}
+
+std::string csv_of(const std::vector<Course>& courses) {
+  std::string rows = "method,resolution,t,l1_error,wall_s,work\n";
+  for (const Course& course : courses)
+    for (const ComparedRun& run : course.runs)
+      rows +=
+          fmt::format("{},{},{},{},{},{}\n", course.method.name, number_text(run.resolution),
+                      number_text(course.t), number_text(run.l1_error), number_text(run.wall_s), run.work);
+  return rows;
+}
+
+/// {"scene","times":[{"t","methods":[{"method","ended","runs":[{"resolution","l1_error","order","wall_s",
+/// "work"}]}]}]}
+std::string json_of(const std::string& scene, const std::vector<Course>& courses) {
+  using detail::Json;
+  Json all{{"scene", scene}, {"times", Json::array()}};
+  for (const Course& course : courses) {
+    Json& times = all["times"];
+    if (times.empty() || times.back()["t"] != course.t)
+      times.push_back({{"t", course.t}, {"methods", Json::array()}});
+    Json runs = Json::array();
+    for (const ComparedRun& run : course.runs)
+      runs.push_back({{"resolution", run.resolution},
+                      {"l1_error", run.l1_error},
+                      {"order", detail::json_or_null(run.order)},
+                      {"wall_s", run.wall_s},
+                      {"work", run.work}});
+    times.back()["methods"].push_back(
+        {{"method", course.method.name}, {"ended", course.ended}, {"runs", runs}});
+  }
+  return detail::json_document(all);
+}
+
+int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses) {
+  std::vector<double> times;
+  std::vector<std::string> methods;  // those with any run
+  for (const Course& course : courses) {
+    if (times.empty() || times.back() != course.t) times.push_back(course.t);
+    if (!course.runs.empty() &&
+        std::find(methods.begin(), methods.end(), course.method.name) == methods.end())
+      methods.push_back(course.method.name);
+  }
+  Picture picture(path, "comparison");
+  picture.set("title", scene);
+  picture.set("times", times);
+  picture.set("methods", fmt::format("{}", fmt::join(methods, " ")));
+  picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses)); });
+  return picture.draw();
 }
 
 int compare(const CompareArguments& arguments) {
-  if (arguments.paper) return compare_with_paper(arguments);
-  if (arguments.scene.empty())
-    throw InputError("SCENE", "", "missing; usage: shearfront compare SCENE --times LIST [options]");
   const std::vector<double> times = times_of(arguments);
-  const auto contestants = contestants_of("--methods", arguments.methods ? &*arguments.methods : nullptr);
-  const Ladders ladders = ladders_of(arguments);
-  ProgressLine line;
-  const RaceLimits limits = limits_of(arguments, line);
+  const auto methods = compared_methods("--methods", arguments.methods);
+  const auto cells = resolutions_of(arguments, "cells"), steps = resolutions_of(arguments, "resolution");
+  ComparisonLimits limits = limits_of(arguments);
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
   const auto scene = with_remarks(read_scene<double>(arguments.scene));
-  check_scene(scene, arguments.scene);
+  if (const std::string reason = exact::refusal(scene); !reason.empty())
+    throw InputError(printable(arguments.scene), "", "has no exact solution to compare with: " + reason);
   std::optional<OutputFile> output;
   if (!arguments.output.empty()) output.emplace(arguments.output);
   check_picture_target(arguments.plot);
@@ -174,19 +193,24 @@ int compare(const CompareArguments& arguments) {
   const InterruptGuard guard;
   const ExactSolution<double> exact(scene);
   note_staircase(scene, exact, times);
-  std::vector<Panel> panels;
+  ProgressLine line;
+  limits.progress = line.callback();
+  std::vector<Course> courses;
   for (const double t : times)
-    if (!InterruptGuard::is_interrupted())
-      panels.push_back(race(scene, exact, t, contestants, ladders, limits));
-  std::optional<ObservedEvents> events;
-  if (arguments.events) events = observe_events(scene, contestants, ladders, limits);
-  if (!report_ends(panels, arguments.budget.has_value())) return kNoResult;
+    for (const ComparedMethod& method : methods) {
+      const bool has_cells = method.method.has_option("cells");
+      courses.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
+    }
+  if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
-    output->write(race_csv(panels));
+    output->write(csv_of(courses));
     output->commit();
   }
-  print(arguments, scene, panels, events ? &*events : nullptr);
-  return arguments.plot.empty() ? kDone : draw_error_time(arguments.plot, scene.name(), panels);
+  OutputFile out("-");
+  out.write(arguments.json ? json_of(scene.name(), courses)
+                           : printable(scene.name(), 100) + "\n" + text_of(courses));
+  out.commit();
+  return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses);
 }
 
 }  // namespace
@@ -195,8 +219,8 @@ Command add_compare(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* app = program.add_subcommand("compare", "Speed against error: every method, from coarse to fine");
   std::vector<std::string> names;
-  for (const Contestant& c : all_contestants()) names.push_back(c.name);
-  app->add_option("SCENE", arguments->scene, "scene file")->type_name("");
+  for (const ComparedMethod& method : compared_methods()) names.push_back(method.name);
+  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
   app->add_option("--times", arguments->times, "times > 0: 0.5,6 or start:stop:count")->type_name("LIST");
   app->add_option("--methods", arguments->methods, fmt::format("of {}", fmt::join(names, ", ")))
       ->type_name("LIST");
@@ -206,17 +230,12 @@ Command add_compare(CLI::App& program) {
   app->add_option("--resolutions", arguments->resolutions,
                   "front tracking: steps of phi, default 0.1 to 1e-5 in half decades")
       ->type_name("LIST");
-  app->add_option("--points", arguments->points, "exact: numbers of heights, default 1000")
-      ->type_name("LIST");
   app->add_option("--budget", arguments->budget,
-                  "seconds per method and time, default 5; ladders by default go on as long as it lasts")
+                  "seconds per method and time, default 5; resolutions by default go on as long as it lasts")
       ->type_name("S");
   app->add_option("--repeat", arguments->repeat,
-                  "runs per rung, of which the median time counts; default at least 3 and 20 ms in all")
+                  "runs per resolution, of which the median time counts; default at least 3 and 20 ms in all")
       ->type_name("N");
-  app->add_flag("--events", arguments->events, "also the errors of the event times");
-  app->add_flag("--paper", arguments->paper,
-                "Tables 1 and 2 of Buerger, Martinez & Villada (2023) beside ours");
   app->add_option("-o", arguments->output, "all rows as CSV")->type_name("FILE");
   app->add_option("--plot", arguments->plot, "picture of error against time: FILE.svg, .png or .pdf")
       ->type_name("FILE");

@@ -10,13 +10,12 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/comparison.hpp"
 #include "cli/fit_text.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
+#include "shearfront/io/file_error.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::tools {
@@ -43,6 +42,21 @@ std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
   }
   if (!complaints.empty()) throw FileError(std::move(complaints), std::move(report));
   return files;
+}
+
+/// Refuses fits of other data, quantities or losses than the first. Errors: FileError that names both files.
+void check_comparable(const std::vector<std::string>& files, const std::vector<fit::FitSpec>& specs) {
+  Complaints complaints;
+  std::string report;
+  for (std::size_t i = 1; i < specs.size(); ++i) {
+    const std::string why = fit::incomparable(specs.front(), specs[i]);
+    if (why.empty()) continue;
+    complaints.push_back(
+        {printable(files[i]), "", fmt::format("cannot be compared with {}: {}", printable(files[0]), why)});
+    report += fmt::format("{}{}: {}", report.empty() ? "" : "\n", complaints.back().key,
+                          complaints.back().constraint);
+  }
+  if (!complaints.empty()) throw FileError(std::move(complaints), std::move(report));
 }
 
 fit::Estimate run(const fit::FitSpec& spec, const std::string& path) {
@@ -94,7 +108,7 @@ int print_one(const fit::Estimate& estimate, bool json) {
 int print_several(const std::vector<std::string>& names, const std::vector<fit::Estimate>& estimates,
                   bool json) {
   OutputFile out("-");
-  const auto models = compare_models(names, estimates);
+  const auto models = fit::compare_models(names, estimates);
   if (json) {
     detail::Json all{{"fits", detail::Json::array()}, {"comparison", comparison_json(models)}};
     for (const fit::Estimate& estimate : estimates) all["fits"].push_back(to_json(estimate));

@@ -137,13 +137,14 @@ int list() {
   all += indented(packings.text()) + "\nSolvers (--method)\n";
   TextTable solvers({"name", "what it is", "guarantees"});
   SolverList::for_each([&]<class S>() {
-    solvers.add({std::string(S::kName), std::string(S::kDescription), described(S::guarantees(), S::kScenes)});
+    solvers.add(
+        {std::string(S::kName), std::string(S::kDescription), described(S::guarantees(), S::kScenes)});
   });
   all += indented(solvers.text());
   TextTable options({"name", "what it is", "values", "default", "solvers"});
   for (const OptionText& o : all_options())
-    options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : o.allowed, o.initial,
-                 fmt::format("{}", fmt::join(o.solvers, ", "))});
+    options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : o.allowed,
+                 o.initial, fmt::format("{}", fmt::join(o.solvers, ", "))});
   all += "\nOptions of solvers (in fit files with _ for -)\n" + indented(options.text());
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();

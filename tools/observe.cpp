@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
+#include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -116,13 +117,14 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
-std::string command_line(const ObserveArguments& arguments, const Experiment& experiment) {
+std::string command_line(const ObserveArguments& arguments, const Method& method,
+                         const Experiment& experiment) {
   std::string line = fmt::format("shearfront observe {} --times {}{} --quantity {}",
                                  shell_word(arguments.scene), shell_word(arguments.times),
                                  arguments.depths.empty() ? "" : " --depths " + shell_word(arguments.depths),
                                  arguments.quantity);
   if (experiment.plan.width > 0) line += " --width " + number_text(experiment.plan.width);
-  line += " " + settings(arguments.method.method());
+  line += " " + settings(method);
   if (experiment.sigma > 0)
     line += fmt::format(" --noise {} --seed {}{}", number_text(experiment.sigma), experiment.seed,
                         arguments.truncate ? " --truncate" : "");
@@ -130,11 +132,11 @@ std::string command_line(const ObserveArguments& arguments, const Experiment& ex
 }
 
 /// All that is needed to make the file again, without what does not change it (the name of the file).
-std::vector<std::string> recipe(const ObserveArguments& arguments, const Experiment& experiment,
-                                const std::string& scene_text) {
+std::vector<std::string> recipe(const ObserveArguments& arguments, const Method& method,
+                                const Experiment& experiment, const std::string& scene_text) {
   std::vector<std::string> lines{
       "Synthetic observations, no measurements; made with shearfront " SHEARFRONT_VERSION " by",
-      "  " + command_line(arguments, experiment)};
+      "  " + command_line(arguments, method, experiment)};
   if (experiment.sigma > 0)
     lines.push_back(fmt::format("Normal noise of standard deviation {} (Boost " BOOST_LIB_VERSION
                                 ": mt19937_64, normal_distribution){}",
@@ -151,7 +153,7 @@ std::vector<std::string> recipe(const ObserveArguments& arguments, const Experim
 
 int observe_scene(const ObserveArguments& arguments) {
   check_arguments(arguments);
-  SolverOptions options{arguments.method.method(), {}};
+  const Method method = arguments.method.method();
   const auto source = detail::TextSource::read(arguments.scene);
   const auto scene = with_remarks(parse_scene<double>(source.text(), arguments.scene));
   const Experiment experiment = experiment_of(arguments, scene);
@@ -160,14 +162,13 @@ int observe_scene(const ObserveArguments& arguments) {
   note_unused_layers(arguments.method, scene);
 
   ProgressLine progress;
-  options.progress = progress.callback();
-  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
+  const SolverResult result = solve(scene, method, request, progress.callback());
   if (!result.summary.usable()) return report_unusable(result.summary);
 
   Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);
   if (arguments.truncate) clip(observations, scene);
-  observations.comments = recipe(arguments, experiment, source.text());
+  observations.comments = recipe(arguments, method, experiment, source.text());
   write_observations(output, observations);
   output.commit();
   return kDone;

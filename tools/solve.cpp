@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "bed_course.hpp"
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/method.hpp"
@@ -15,7 +16,7 @@
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "solve/bed_course.hpp"
+#include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -29,34 +30,26 @@ struct SolveArguments {
   MethodArguments method;
 };
 
-std::vector<double> depths_of(const SolveArguments& arguments, const Scene<double>& scene) {
-  if (arguments.depths.empty()) return equally_spaced(scene.bottom(), scene.top(), kDefaultDepths);
-  const std::string inside =
-      fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()), number_text(scene.top()));
-  return list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+/// What is solved, by what.
+struct Task {
+  Scene<double> scene;
+  Method method;
+  std::vector<double> times;
+};
+
+SolvedQuantity quantity_of(const SolveArguments& arguments) {
+  if (arguments.quantity.empty()) return SolvedQuantity::concentration;
+  const std::vector<std::string> names(kSolvedQuantityNames.begin(), kSolvedQuantityNames.end());
+  return static_cast<SolvedQuantity>(choice_option("--quantity", arguments.quantity, names));
 }
 
-SolverRequest request_of(const SolveArguments& arguments, const Scene<double>& scene) {
-  SolverRequest request;
-  request.times = list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed);
-  request.heights = depths_of(arguments, scene);
-  const double n = static_cast<double>(request.times.size()) * static_cast<double>(request.heights.size());
-  if (n > kMostSamples) refuse("--times", arguments.times, "must give at most 1e8 pairs of time and depth");
-  request.fronts = !arguments.fronts.empty();
-  // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
-  request.timeline =
-      arguments.method.method().guarantees().has_timeline && scene.has_walls() &&
-      (request.fronts || !std::isfinite(*std::max_element(request.times.begin(), request.times.end())));
-  return request;
-}
-
-void check_arguments(const SolveArguments& arguments) {
+void check_arguments(const SolveArguments& arguments, const Method& method) {
   if (arguments.times.empty())
     throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 0:10:21 or steady");
-  const std::string_view method = arguments.method.method().name();
-  if (!arguments.fronts.empty() && !Method(method).guarantees().has_fronts)
+  if (!arguments.fronts.empty() && !method.guarantees().has_fronts)
     refuse("--fronts", arguments.fronts,
-           fmt::format("needs --method {}; {} has no fronts", fmt::join(Method::names(&Guarantees::has_fronts), "|"), method));
+           fmt::format("needs --method {}; {} has no fronts",
+                       fmt::join(Method::names(&Guarantees::has_fronts), "|"), method.name()));
   check_picture_name("--plot", arguments.plot);
   check_picture_name("--map", arguments.map);
   // Without -o the samples go to standard output.
@@ -66,104 +59,106 @@ void check_arguments(const SolveArguments& arguments) {
                  {"--fronts", arguments.fronts},
                  {"--plot", arguments.plot},
                  {"--map", arguments.map}});
-}
-
-/// The last of the times that are printed.
-double last_time(const std::vector<double>& times) {
-  double last = 0;
-  for (const double t : times)
-    if (std::isfinite(t)) last = std::max(last, t);
-  return last;
-}
-
-int draw(const SolveArguments& arguments, const Scene<double>& scene, const SolverRequest& request,
-         const SolverResult& result, const std::vector<double>& times, const SolverOptions& options) {
-  if (arguments.plot.empty()) return kDone;
-  if (request.fronts)
-    return draw_fronts(arguments.plot, scene, result.fronts, result.timeline.value_or(Timeline<double>{}),
-                       number_of(options.method, "resolution"));
-  return draw_profiles(arguments.plot, scene, arguments.method.method().name(), times, options);
-}
-
-SolvedQuantity quantity_of(const SolveArguments& arguments) {
-  if (arguments.quantity.empty()) return SolvedQuantity::concentration;
-  const std::vector<std::string> names(kSolvedQuantityNames.begin(), kSolvedQuantityNames.end());
-  return static_cast<SolvedQuantity>(choice_option("--quantity", arguments.quantity, names));
-}
-
-/// Numbers of the whole bed instead of concentrations.
-int solve_bed(const SolveArguments& arguments, SolvedQuantity quantity) {
+  if (quantity_of(arguments) == SolvedQuantity::concentration) return;
   if (!arguments.depths.empty())
     refuse("--depths", arguments.depths, "must not be given: " + arguments.quantity + " has no depth");
   if (!arguments.map.empty())
     refuse("--map", arguments.map, "must not be given with --quantity " + arguments.quantity);
   if (!arguments.fronts.empty())
     refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
-  SolverOptions options{arguments.method.method(), {}};
-  const auto scene = with_remarks(read_scene<double>(arguments.scene));
-  if (const std::string reason = refusal_of_course(scene); !reason.empty())
+}
+
+std::vector<double> depths_of(const SolveArguments& arguments, const Scene<double>& scene) {
+  if (arguments.depths.empty()) return equally_spaced(scene.bottom(), scene.top(), kDefaultDepths);
+  const std::string inside =
+      fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()), number_text(scene.top()));
+  return list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+}
+
+SolverRequest request_of(const SolveArguments& arguments, const Task& task) {
+  SolverRequest request;
+  request.times = task.times;
+  request.heights = depths_of(arguments, task.scene);
+  const double n = static_cast<double>(request.times.size()) * static_cast<double>(request.heights.size());
+  if (n > kMostSamples) refuse("--times", arguments.times, "must give at most 1e8 pairs of time and depth");
+  if (!arguments.map.empty() && !(last_time(request.times) > 0))
+    refuse("--map", arguments.map, "needs a time > 0 to draw up to among --times");
+  request.fronts = !arguments.fronts.empty();
+  // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
+  request.timeline =
+      task.method.guarantees().has_timeline && task.scene.has_walls() &&
+      (request.fronts || !std::isfinite(*std::max_element(request.times.begin(), request.times.end())));
+  return request;
+}
+
+/// Numbers of the whole bed instead of concentrations.
+int solve_bed(const SolveArguments& arguments, const Task& task) {
+  if (const std::string reason = BedHeight::refusal(task.scene); !reason.empty())
     refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
-  const std::vector<double> times = list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed);
-  if (static_cast<double>(times.size()) > kMostSamples)
+  if (static_cast<double>(task.times.size()) > kMostSamples)
     refuse("--times", arguments.times, "must give at most 1e8 times");
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
-  note_unused_layers(arguments.method, scene);
-
+  note_unused_layers(arguments.method, task.scene);
   ProgressLine progress;
-  options.progress = progress.callback();
-  const BedCourse course = bed_course(quantity, arguments.method.method().name(), scene, times, options);
+  const BedCourse course =
+      bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress.callback());
   if (!course.summary.usable()) return report_unusable(course.summary);
-  NamedNumbers lowest{"lowest", {}};
-  if (course.lowest) lowest.numbers = {{"t", course.lowest->t}, {"H", course.lowest->height}};
+  const auto& lowest = course.lowest;
+  NamedNumbers lowest_numbers{"lowest", {}};
+  if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
   if (arguments.json)
-    write_time_table_json(output, scene.name(), arguments.method.method().name(), course.table, lowest,
+    write_time_table_json(output, task.scene.name(), task.method.name(), course.table, lowest_numbers,
                           course.summary);
   else
     write_time_table_csv(output, course.table);
   output.commit();
-  if (course.lowest && !arguments.json)
-    note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(course.lowest->t, 7),
-                     number_text(course.lowest->height, 10)));
-  if (arguments.plot.empty()) return kDone;
-  return draw_bed_course(arguments.plot, scene, arguments.method.method().name(), course, options);
+  if (lowest && !arguments.json)
+    note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(lowest->t, 7),
+                     number_text(lowest->height, 10)));
+  return arguments.plot.empty() ? kDone : draw_bed_course(arguments.plot, task.scene, task.method, course);
 }
 
-int solve(const SolveArguments& arguments) {
-  check_arguments(arguments);
-  if (const SolvedQuantity quantity = quantity_of(arguments); quantity != SolvedQuantity::concentration)
-    return solve_bed(arguments, quantity);
-  SolverOptions options{arguments.method.method(), {}};
-  const auto scene = with_remarks(read_scene<double>(arguments.scene));
-  const SolverRequest request = request_of(arguments, scene);
-  if (!arguments.map.empty() && !(last_time(request.times) > 0))
-    refuse("--map", arguments.map, "needs a time > 0 to draw up to among --times");
+int solve_concentration(const SolveArguments& arguments, const Task& task) {
+  const SolverRequest request = request_of(arguments, task);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   std::optional<OutputFile> fronts;
   if (request.fronts) fronts.emplace(arguments.fronts);
   check_picture_target(arguments.plot);
   check_picture_target(arguments.map);
-  note_unused_layers(arguments.method, scene);
-
+  note_unused_layers(arguments.method, task.scene);
   ProgressLine progress;
-  options.progress = progress.callback();
-  const SolverResult result = shearfront::solve(scene, options.method, request, options.progress);
+  const SolverResult result = shearfront::solve(task.scene, task.method, request, progress.callback());
   if (!result.summary.usable()) return report_unusable(result.summary);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
   if (arguments.json)
-    write_samples_json(output, scene.name(), arguments.method.method().name(), times, request.heights, result.samples,
+    write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary);
   else
     write_samples_csv(output, times, request.heights, result.samples);
   if (fronts) write_fronts_csv(*fronts, result.fronts);
   if (fronts) fronts->commit();
   output.commit();
-  const int drawn = draw(arguments, scene, request, result, times, options);
-  if (arguments.map.empty() || drawn != kDone) return drawn;
-  return draw_map(arguments.map, scene, arguments.method.method().name(), last_time(times), options);
+  int code = kDone;
+  if (!arguments.plot.empty())
+    code = request.fronts ? draw_fronts(arguments.plot, task.scene, result.fronts,
+                                        result.timeline.value_or(Timeline<double>{}),
+                                        number_of(task.method, "resolution"))
+                          : draw_profiles(arguments.plot, task.scene, task.method, times);
+  if (arguments.map.empty() || code != kDone) return code;
+  return draw_map(arguments.map, task.scene, task.method, last_time(times));
+}
+
+int solve_scene(const SolveArguments& arguments) {
+  const Method method = arguments.method.method();
+  check_arguments(arguments, method);
+  const auto scene = with_remarks(read_scene<double>(arguments.scene));
+  const Task task{scene, method, list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed)};
+  const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
+  return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);
 }
 
 }  // namespace
@@ -192,7 +187,7 @@ Command add_solve(CLI::App& program) {
                   "picture of phi over time and height, up to the last time: FILE.svg, .png or .pdf")
       ->type_name("FILE");
   app->add_flag("--json", arguments->json, "write JSON instead of CSV");
-  return {app, "SCENE", [arguments] { return solve(*arguments); }};
+  return {app, "SCENE", [arguments] { return solve_scene(*arguments); }};
 }
 
 }  // namespace shearfront::tools

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront {

@@ -4,9 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
 

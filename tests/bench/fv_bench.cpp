@@ -12,7 +12,8 @@ namespace shearfront {
 namespace {
 
 /// Steps of the whole grid in batches of about 2^22 cell updates, so that the bed is in motion throughout.
-void march(benchmark::State& state, const fv::Scheme& scheme, const Flux<double>& flux = Quadratic<double>{}) {
+void march(benchmark::State& state, const fv::Scheme& scheme,
+           const Flux<double>& flux = Quadratic<double>{}) {
   SceneSpec<double> spec;
   spec.fluxes = {flux};
   spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};

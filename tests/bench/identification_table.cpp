@@ -11,6 +11,7 @@
 
 #include "shearfront/io/method_text.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/identification.hpp"
 

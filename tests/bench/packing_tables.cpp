@@ -10,6 +10,7 @@
 
 #include "shearfront/fv/march.hpp"
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/solid_scene.hpp"
 
@@ -106,7 +107,8 @@ void print_overshoot() {
 constexpr double kThesisCourant = 0.5;  // with it the errors of example 1 are those of the thesis
 
 template <class Solver>
-Profile<double> solved(Solver, const Scene<double>& scene, double t, const typename Solver::Options& options) {
+Profile<double> solved(Solver, const Scene<double>& scene, double t,
+                       const typename Solver::Options& options) {
   SolverRequest request{{t}, {}};
   request.profiles = true;
   const SolverResult result = solve<Solver>(scene, request, options);

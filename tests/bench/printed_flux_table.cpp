@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/cell_states.hpp"
 #include "support/printed_engquist_osher.hpp"

@@ -53,7 +53,7 @@ void run(benchmark::State& state, const Scene<double>& scene, double resolution,
     const std::clock_t begin = std::clock();
     const TrackingSetup<double, Grid> setup(scene, resolution);
     building += std::clock() - begin;
-    Tracker<Grid> tracker(setup.grid, setup.pieces);
+    Tracker<Grid> tracker(setup);
     tracker.advance_to(t);
     benchmark::DoNotOptimize(tracker.last_collision());
     collisions = static_cast<double>(tracker.n_collisions());

@@ -8,11 +8,11 @@
 #include <functional>
 #include <memory>
 
+#include "oracles/verify.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -45,7 +45,7 @@ Outcome run(const SceneSpec<double>& spec, double resolution, const std::vector<
             Limits limits = {}) {
   const Scene<double> scene(spec);
   const TrackingSetup<double> setup(scene, resolution);
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   const double mass = scene.mass(), height = scene.top() - scene.bottom();
   const auto exact = limits.against_exact ? std::make_unique<ExactSolution<double>>(scene) : nullptr;
   const auto check = [&](double t) {
@@ -114,7 +114,7 @@ TEST(HardCases, EqualNeighbouringRatesChangeNothing) {
   EXPECT_NEAR(*a.tracked.t_star, *b.tracked.t_star, 1e-13 * *a.tracked.t_star);
   const Scene<double> scene_a(one), scene_b(three);
   const TrackingSetup<double> sa(scene_a, 0.01), sb(scene_b, 0.01);
-  Tracked ta(sa.grid, sa.pieces), tb(sb.grid, sb.pieces);
+  Tracked ta(sa), tb(sb);
   for (const double t : {0.2, 0.7, 1.5, 3.0}) {
     ta.advance_to(t), tb.advance_to(t);
     EXPECT_LE(l1_distance(ta.profile(), tb.profile()), 1e-12);
@@ -182,7 +182,7 @@ TEST(HardCases, TenThousandLayersOfAFallingRate) {
   const double resolution = 0.02, t = 0.02;
   const Scene<double> scene(spec);
   const TrackingSetup<double> setup(scene, resolution);
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   const ExactSolution<double> exact(scene);
   tracker.advance_to(t);
   EXPECT_NEAR(tracker.mass(), scene.mass(), 1e-13);
@@ -226,7 +226,7 @@ TEST(HardCases, AllCollisionsSimultaneous) {
   EXPECT_NEAR(*o.tracked.t_star, *o.exact.t_star, 0.05 * *o.exact.t_star);
   const Scene<double> scene(spec);
   const TrackingSetup<double> setup(scene, 0.05);
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   tracker.advance_to(0.3);
   const Profile<double> p = tracker.profile();
   for (double z = 0.005; z < 1; z += 0.01) EXPECT_NEAR(p.at(z).M - (z - 0.5) - p.at(1 - z).M, 0.0, 1e-12);

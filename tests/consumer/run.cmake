@@ -14,7 +14,18 @@ set(configure ${CMAKE_COMMAND} -G ${generator} -B ${work}/build -D CMAKE_CXX_COM
               -D CMAKE_CXX_COMPILER_LAUNCHER=${launcher} -D "CMAKE_CXX_FLAGS=-O0 ${flags}")
 if(way STREQUAL "find_package")
   run(${CMAKE_COMMAND} --install ${build} --prefix ${work}/prefix)
-  run(${configure} -S ${source}/tests/consumer -D CMAKE_PREFIX_PATH=${work}/prefix)
+  # Whatever is installed can be included, and is little enough to be read.
+  file(GLOB_RECURSE headers RELATIVE ${work}/prefix/include ${work}/prefix/include/*.hpp)
+  list(LENGTH headers n_headers)
+  if(n_headers GREATER 60)
+    message(FATAL_ERROR "${n_headers} headers are installed, at most 60 are public")
+  endif()
+  list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"\n")
+  file(WRITE ${work}/installed_headers.cpp ${headers})
+  run(${configure} -S ${source}/tests/consumer/installed -D CMAKE_PREFIX_PATH=${work}/prefix
+                   -D installed_headers=${work}/installed_headers.cpp)
+  run(${CMAKE_COMMAND} --build ${work}/build --target installed_headers)
+  set(where timeline/)
 else()
   run(${configure} -S ${source}/tests/consumer/subdirectory -D shearfront_source=${source})
 endif()
@@ -23,7 +34,7 @@ if(way STREQUAL "add_subdirectory")
   return()
 endif()
 run(${CMAKE_COMMAND} --build ${work}/build --target timeline)
-execute_process(COMMAND ${work}/build/timeline ${source}/datasets/may-2010-piecewise/scene.toml
+execute_process(COMMAND ${work}/build/${where}timeline ${source}/datasets/may-2010-piecewise/scene.toml
                 RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE errors)
 file(READ ${source}/tests/consumer/expected.txt expected)
 if(NOT code EQUAL 0 OR NOT output STREQUAL expected)

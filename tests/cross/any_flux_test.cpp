@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "oracles/verify.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/any_flux.hpp"
 #include "support/checked.hpp"
 
@@ -24,7 +25,7 @@ using support::unimodal_fluxes;
 template <class Grid>
 void check_laws(const Scene<double>& scene, double resolution, const std::vector<double>& times) {
   const TrackingSetup<double, Grid> setup(scene, resolution);
-  Tracker<Grid, NoObserver> tracker(setup.grid, setup.pieces);
+  Tracker<Grid, NoObserver> tracker(setup);
   const double mass = scene.mass();
   for (const double t : times) {
     const Status status = tracker.advance_to(t);

@@ -14,6 +14,7 @@
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/any_flux.hpp"
 #include "support/fit_scenes.hpp"

@@ -13,6 +13,7 @@
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront::fit {

@@ -12,6 +12,7 @@
 #include "shearfront/diffusion/crank_nicolson.hpp"
 #include "shearfront/diffusion/refinement.hpp"
 #include "shearfront/numeric/sum.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/diffusion_problems.hpp"
 #include "support/random_scene.hpp"

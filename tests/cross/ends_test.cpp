@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"
 #include "support/any_flux.hpp"
@@ -135,7 +136,7 @@ TEST(Ends, TheLastStateComesAfterTheLastChange) {
   spec.outside_bottom = OutsideState<double>{{3}, {0, 0.25}};
   spec.outside_top = OutsideState<double>{{}, {0}};
   const TrackingSetup<double> setup(Scene<double>(spec), 0.1);
-  Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+  Tracker<LevelGrid<double>> tracker(setup);
   ASSERT_EQ(tracker.advance_to(3.5), Status::ok);
   EXPECT_GT(tracker.mass(), 0.05);
   ASSERT_EQ(tracker.run_to_steady(), Status::steady);
@@ -144,7 +145,7 @@ TEST(Ends, TheLastStateComesAfterTheLastChange) {
   // A change that sets nothing off: time does not run back.
   spec.outside_bottom = OutsideState<double>{{3}, {0, 0}};
   const TrackingSetup<double> quiet(Scene<double>(spec), 0.1);
-  Tracker<LevelGrid<double>> still(quiet.grid, quiet.pieces, quiet.ends);
+  Tracker<LevelGrid<double>> still(quiet);
   ASSERT_EQ(still.run_to_steady(), Status::steady);
   EXPECT_EQ(still.time(), 3);
 }

@@ -59,7 +59,8 @@ void expect_derivatives(const SceneSpec<double>& in_double, const Real110& z, co
     const Entry& parameter = all[i];
     if (!derivative_refusal(scene, parameter).empty()) continue;
     // The ends of a table may not leave the ends of the bed.
-    if (parameter.field == "shear_rate.z" && (parameter.index == 0 || !(*entry_places(copy)[i] < spec.top))) continue;
+    if (parameter.field == "shear_rate.z" && (parameter.index == 0 || !(*entry_places(copy)[i] < spec.top)))
+      continue;
     const PhiM numeric = difference(spec, i, parameter.field == "initial.values", layers, z, t);
     const Real110 &dM = exact.M[i], &dphi = exact.phi[i];
     const double size_M = 1 + std::abs(to_double(dM)), size_phi = 1 + std::abs(to_double(dphi));

@@ -49,8 +49,8 @@ int compare(const Scene<Real110>& scene, SceneMaker& make) {
       const Real110 M = (high.M(z, t) - low.M(z, t)) / two_h, phi = (high.phi(z, t) - low.phi(z, t)) / two_h;
       const Real110 &dM = exact.M[e], &dphi = exact.phi[e];
       EXPECT_LT(size(dM - M), Real110(1e-20) * (1 + size(M)))
-          << all[e].name() << " M at " << z << ", " << t << " kind " << int(path.kind) << ": " << dM << " against "
-          << M;
+          << all[e].name() << " M at " << z << ", " << t << " kind " << int(path.kind) << ": " << dM
+          << " against " << M;
       EXPECT_LT(size(dphi - phi), Real110(1e-20) * (1 + size(phi)))
           << all[e].name() << " phi at " << z << ", " << t << " kind " << int(path.kind) << ": " << dphi
           << " against " << phi;

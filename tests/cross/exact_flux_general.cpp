@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "shearfront/digits/real110.hpp"
-#include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace shearfront {
@@ -55,8 +57,8 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
     const Scene<double> scene(make.data(make.integer(1, 8), make.order(), 8));
     const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
     const auto special = exact::make_medium(form);
-    const exact::LayeredMedium<double, exact::UnimodalLaw<double>> general(
-        exact::unimodal_law(form), special->cells(), special->mass());
+    const exact::LayeredMedium<double, exact::UnimodalLaw<double>> general(exact::unimodal_law(form),
+                                                                           special->cells(), special->mass());
     for (int i = 0; i < 40; ++i) {
       const double z = make.uniform(0, 1), t = std::exp(make.uniform(-4, 3));
       const auto a = special->best_free(z, t, 1e300), b = general.best_free(z, t, 1e300);
@@ -294,12 +296,10 @@ TEST(GeneralErrors, OfGodunovFallWithTheCells) {
     const ExactSolution<double> solution(scene);
     double before = 0;
     for (const std::size_t cells : {200U, 800U}) {
-      SolverOptions options;
-      options.cells = cells;
       SolverRequest request;
       request.times = {0.3};
       request.profiles = true;
-      const auto result = GodunovSolver::solve(scene, request, options);
+      const auto result = solve<GodunovSolver>(scene, request, {.cells = cells});
       ASSERT_EQ(result.profiles.size(), 1u) << result.summary.message;
       const Profile<double>& profile = result.profiles[0];
       const auto errors = errors_against(solution, profile, 0.3);

@@ -8,9 +8,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "shearfront/fv/march.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/fv/march.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/cell_states.hpp"
 #include "support/conservative_scheme.hpp"
@@ -42,7 +43,8 @@ Scene<double> example_2() {
 
 /// L1 error of the solver's profile.
 template <class Solver>
-double l1_error(const Scene<double>& scene, double t, std::size_t n_cells, typename Solver::Options options = {}) {
+double l1_error(const Scene<double>& scene, double t, std::size_t n_cells,
+                typename Solver::Options options = {}) {
   options.cells = n_cells;
   SolverRequest request{{t}, {}};
   request.profiles = true;
@@ -196,9 +198,9 @@ TEST(FvAnyFlux, AgreesWithANaiveSchemeWithoutFormula) {
   options.cells = 100;
   options.cfl = 0.9;
   const auto states = cell_states<GodunovSolver>(scene, {0.3}, options);
-  const auto naive = support::godunov_any_flux(
-      [&](double phi) { return skewed.value(phi); }, 1, [&](double z) { return scene.initial_phi(z); }, 0.3,
-      100);  // 34 steps; f sampled, error 1e-5
+  const auto naive = support::godunov_any_flux([&](double phi) { return skewed.value(phi); }, 1,
+                                               [&](double z) { return scene.initial_phi(z); }, 0.3,
+                                               100);  // 34 steps; f sampled, error 1e-5
   for (std::size_t j = 0; j < naive.size(); ++j) EXPECT_NEAR(states[0][j], naive[j], 1e-2) << j;
 }
 
@@ -235,7 +237,8 @@ TEST(FvOutcomes, SayWhyThereIsNoResult) {
   }
   GodunovSolver::Options options;
   options.cells = 4000;
-  const SolverResult result = solve<GodunovSolver>(scene, request, options, [](double t, std::uint64_t) { return t < 3; });
+  const SolverResult result =
+      solve<GodunovSolver>(scene, request, options, [](double t, std::uint64_t) { return t < 3; });
   EXPECT_EQ(result.summary.status, Status::interrupted);
   EXPECT_TRUE(result.samples.empty());
   EXPECT_GT(result.summary.cell_updates, 0u);
@@ -250,8 +253,10 @@ TEST(FvOutcomes, RefuseLayersThatRoundingStops) {
   const Scene<double> scene(spec);
   GodunovSolver::Options options;
   options.cells = 20;
-  const auto status = [&](double t) { return solve<GodunovSolver>(scene, {{t}, {0.8}}, options).summary.status; };
-  EXPECT_EQ(status(10), Status::steady);
+  const auto status = [&](double t) {
+    return solve<GodunovSolver>(scene, {{t}, {0.8}}, options).summary.status;
+  };
+  EXPECT_EQ(status(10), Status::ok);
   EXPECT_EQ(status(1e11), Status::not_converged);
   EXPECT_EQ(status(1e17), Status::budget_reached);
 }
@@ -279,7 +284,8 @@ TEST(FvOutcomes, RefuseWorkThatWouldTakeYears) {
         const SolverResult result = solve<EngquistOsherSolver>(scene, {{t}, {0.5}}, {});
         EXPECT_EQ(result.summary.status, Status::budget_reached);
         EXPECT_EQ(result.summary.cell_updates, 0u);
-        EXPECT_NE(result.summary.message.find("1e+15 cell updates"), std::string::npos) << result.summary.message;
+        EXPECT_NE(result.summary.message.find("1e+15 cell updates"), std::string::npos)
+            << result.summary.message;
       }
     }
   }

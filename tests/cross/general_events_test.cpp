@@ -10,6 +10,8 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/solver.hpp"
 #include "support/flux_scenes.hpp"
 
@@ -27,8 +29,8 @@ TEST(GeneralEvents, FirstWavesOfParabolasAreThoseOfTheClosedForms) {
     const Timeline<double> times = exact_timeline(scene);
     const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
     const exact::LayeredMedium<double, exact::UnimodalLaw<double>> medium(
-        exact::unimodal_law(form),
-        {form.initial_breaks(), form.initial_values(), form.boundaries()}, form.mass());
+        exact::unimodal_law(form), {form.initial_breaks(), form.initial_values(), form.boundaries()},
+        form.mass());
     for (std::size_t i = 0; i < times.interfaces.size(); ++i) {
       const auto first = medium.first_wave(i + 1);
       ASSERT_EQ(first.has_value(), times.interfaces[i].first.has_value()) << "interface " << i;
@@ -48,9 +50,7 @@ TEST_P(GeneralEvents, AreThoseOfFrontTracking) {
     const Scene<double> scene(support::random_flux_scene(make, GetParam()));
     SolverRequest request;
     request.timeline = true;
-    SolverOptions options;
-    options.resolution = 0.002;
-    const SolverResult tracked = FrontTrackingSolver::solve(scene, request, options);
+    const SolverResult tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.002});
     ASSERT_TRUE(tracked.summary.usable()) << tracked.summary.message;
     const Timeline<double> exact = exact_timeline(scene);
     ASSERT_EQ(exact.interfaces.size(), tracked.timeline->interfaces.size());

@@ -13,6 +13,7 @@
 
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/fv/engquist_osher_solver.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/identification.hpp"
 

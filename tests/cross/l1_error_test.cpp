@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exactly integrated L1 error: closed forms, plain quadrature, and 50 digits.
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/solve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -106,13 +107,12 @@ TEST(L1Error, AMovingShockInsideACell) {
 }
 
 TEST(L1Error, AnExactFanIsWithoutError) {
-  SolverOptions options;
-  options.resolution = 1e-4;
+  FrontTrackingSolver::Options options{.resolution = 1e-4};
   options.reconstruct = Reconstruction::linear;
   SolverRequest request;
   request.times = {0.5};
   request.profiles = true;
-  const auto result = FrontTrackingSolver::solve(example_1(), request, options);
+  const auto result = solve<FrontTrackingSolver>(example_1(), request, options);
   EXPECT_LT(l1(example_1(), result.profiles.at(0), 0.5), 2e-15);
 }
 
@@ -136,23 +136,27 @@ double by_quadrature(const ExactSolution<double>& exact, const Profile<double>& 
   return sum.value();
 }
 
-Profile<double> solved(const Scene<double>& scene, double t, const SolverOptions& options, bool tracked) {
+struct Resolution {
+  double track;
+  std::uint64_t cells;
+};
+
+Profile<double> solved(const Scene<double>& scene, double t, const Resolution& resolution,
+                       Reconstruction lines, bool tracked) {
   SolverRequest request;
   request.times = {t};
   request.profiles = true;
-  return tracked ? FrontTrackingSolver::solve(scene, request, options).profiles.at(0)
-                 : GodunovSolver::solve(scene, request, options).profiles.at(0);
+  if (!tracked) return solve<GodunovSolver>(scene, request, {.cells = resolution.cells}).profiles.at(0);
+  FrontTrackingSolver::Options options{.resolution = resolution.track};
+  options.reconstruct = lines;
+  return solve<FrontTrackingSolver>(scene, request, options).profiles.at(0);
 }
 
 void expect_quadrature(const Scene<double>& scene, double t, int n) {
   const ExactSolution<double> exact(scene);
-  SolverOptions options;
-  options.cells = 61;
-  options.resolution = 0.07;
   for (const bool tracked : {false, true}) {
     for (const Reconstruction lines : {Reconstruction::constant, Reconstruction::linear}) {
-      options.reconstruct = lines;
-      const Profile<double> profile = solved(scene, t, options, tracked);
+      const Profile<double> profile = solved(scene, t, {0.07, 61}, lines, tracked);
       const auto errors = errors_against(exact, profile, t);
       // The midpoint rule misses up to half a step times the variation of the difference.
       const double variation = 2.0 * (1.0 + 2.0 * static_cast<double>(scene.initial_breaks().size()));
@@ -202,10 +206,6 @@ Profile<To> cast(const Profile<double>& p) {
 }
 
 TEST(L1Error, KeepsItsBoundAgainstFiftyDigits) {
-  SolverOptions options;
-  options.cells = 40;
-  options.resolution = 0.1;
-  options.reconstruct = Reconstruction::linear;
   for (std::uint64_t number = 0; number < 6; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     support::SceneMaker maker(support::seed_of(9300 + number));
@@ -213,7 +213,7 @@ TEST(L1Error, KeepsItsBoundAgainstFiftyDigits) {
                                           : maker.data(maker.integer(1, 4), maker.order(), 3));
     const double t = maker.uniform(0.1, 2);
     for (const bool tracked : {false, true}) {
-      const Profile<double> profile = solved(scene, t, options, tracked);
+      const Profile<double> profile = solved(scene, t, {0.1, 40}, Reconstruction::linear, tracked);
       const auto errors = errors_against(ExactSolution<double>(scene), profile, t);
       const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
       const auto truth = errors_against(precise, cast<Real110>(profile), Real110(t));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront {

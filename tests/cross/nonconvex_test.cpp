@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "oracles/polygon_stack.hpp"
+#include "oracles/verify.hpp"
 #include "shearfront/track/tracker.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/checked.hpp"
 #include "support/godunov.hpp"
 
@@ -36,7 +36,7 @@ double l1_to_cells(const Profile<double>& profile, const std::vector<double>& u)
 
 TEST(NonConvex, OneLayerAgainstGodunov) {
   const PolygonStack<double> grid({0, 1}, {polygon_of(1, 200)});
-  Tracker<PolygonStack<double>> tracker(grid, {{0, 0.5, 0}, {0, 1, grid.nearest(0, 1)}});
+  Tracker<PolygonStack<double>> tracker(grid, {{0, 0.5, 0}, {0, 1, grid.nearest(0, 1)}}, Ends<double>{});
   const double mass = tracker.mass();
   for (const double t : {0.2, 0.6}) {
     tracker.advance_to(t);
@@ -65,7 +65,7 @@ TEST(NonConvex, CompoundWaveOfARiemannProblem) {
   }
   const int n = 400;
   const PolygonStack<double> grid({0, 1}, {polygon_of(1, n)});
-  Tracker<PolygonStack<double>> tracker(grid, {{0, 0.6, 0}, {0, 1, grid.nearest(0, 1)}});
+  Tracker<PolygonStack<double>> tracker(grid, {{0, 0.6, 0}, {0, 1, grid.nearest(0, 1)}}, Ends<double>{});
   tracker.advance_to(0.1);
   double largest_jump = 0, at = 0, below = 0;
   const Profile<double> profile = tracker.profile();
@@ -79,7 +79,7 @@ TEST(NonConvex, CompoundWaveOfARiemannProblem) {
 TEST(NonConvex, TwoLayersKeepEveryGuarantee) {
   const PolygonStack<double> grid({0, 0.4, 1}, {polygon_of(2.4, 60), polygon_of(0.31, 60)});
   Tracker<PolygonStack<double>> tracker(
-      grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}});
+      grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}}, Ends<double>{});
   const double mass = tracker.mass();
   support::Checked checked({""}, 10);
   while (tracker.step()) {

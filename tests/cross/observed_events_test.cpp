@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Event times seen in profiles converge to the exact ones.
-#include "shearfront/solution/observed_events.hpp"
+#include "support/observed_events.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,14 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront {
 namespace {
+
+using support::observed_events;
+using support::ProfileSeries;
 
 Scene<double> example_1() {
   SceneSpec<double> spec;

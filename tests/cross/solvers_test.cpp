@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/options.hpp"
 #include "support/random_scene.hpp"

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "oracles/verify.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/flux_scenes.hpp"
 
 namespace {
@@ -30,7 +30,7 @@ SceneSpec<double> road(const F& flux) {
 double distance(const Scene<double>& scene, std::size_t n) {
   constexpr double t = 0.3;
   const TrackingSetup<double, UnimodalGrid<double>> setup(scene, 1e-3);
-  Tracker<UnimodalGrid<double>> tracker(setup.grid, setup.pieces);
+  Tracker<UnimodalGrid<double>> tracker(setup);
   tracker.advance_to(t);
   if (!verify(tracker, 1e-12, 1e-9).empty() || std::abs(tracker.mass() - scene.mass()) > 1e-12) return -1;
   const std::vector<double> cells = support::godunov_any_scene(scene, t, n);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/any_scene.hpp"
 #include "support/checked.hpp"

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fv/run.hpp"
 #include "shearfront/fv/cell_profile.hpp"
+#include "shearfront/fv/run.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/solid_scene.hpp"
 

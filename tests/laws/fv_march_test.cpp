@@ -30,10 +30,9 @@ using support::options_of;
 using support::SceneMaker;
 
 constexpr int kScenes = 25;
-const std::array<Scheme, 5> kSchemes{Scheme{Rule::engquist_osher}, Scheme{Rule::godunov},
-                                     Scheme{Rule::godunov, {}, Limiter::minmod},
-                                     Scheme{Rule::godunov, {}, Limiter::mc},
-                                     Scheme{Rule::godunov, {}, Limiter::van_leer}};
+const std::array<Scheme, 5> kSchemes{
+    Scheme{Rule::engquist_osher}, Scheme{Rule::godunov}, Scheme{Rule::godunov, {}, Limiter::minmod},
+    Scheme{Rule::godunov, {}, Limiter::mc}, Scheme{Rule::godunov, {}, Limiter::van_leer}};
 
 /// Amounts are multiples of a quantum, so there is no rounding.
 std::int64_t mass_in_quanta(const March& march) {
@@ -97,22 +96,25 @@ TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
   }
 }
 
-// Twenty thousand crossings of the fast layer while the slow one goes on, on unequal cells with solid fraction.
-TEST(FvMarch, KeepsMassInLongRuns) {
+/// Many crossings of the fast layer while the slow one goes on, on unequal cells with solid fraction.
+void expect_mass_after(int n_steps) {
   SceneMaker maker = maker_of(3);
-  SceneSpec<double> spec = support::solid_data(maker, Grains::large);
+  SceneSpec<double> spec = support::solid_data(maker, support::Grains::large);
   spec.shear_rate = Piecewise<double>{{0.31, 0.6}, {1e-4, 2, 0.3}};
   const Scene<double> scene(spec);
   for (const Scheme& scheme : kSchemes) {
     const fv::Grid grid = fv::aligned_cells(scene, 12);
     March march(scheme, scene, grid);
     const std::int64_t quanta = mass_in_quanta(march);
-    for (int i = 0; i < 400'000; ++i) march.step(march.largest_step());
+    for (int i = 0; i < n_steps; ++i) march.step(march.largest_step());
     EXPECT_EQ(mass_in_quanta(march), quanta);
     EXPECT_NEAR(mass(scene, grid, march), scene.mass(), 1e-13 * scene.mass());
     expect_in_range(march.shares());
   }
 }
+
+TEST(FvMarch, KeepsMassInLongRuns) { expect_mass_after(20'000); }
+TEST(SlowFvMarch, KeepsMassInLongerRuns) { expect_mass_after(400'000); }
 
 TEST(FvMarch, KeepsMassNextToAThinPureCell) {
   SceneSpec<double> spec;
@@ -126,7 +128,7 @@ TEST(FvMarch, KeepsMassNextToAThinPureCell) {
   for (const Scheme& scheme : kSchemes) {
     const auto run = fv::start(scheme, scene, options, {});
     for (const double t : {0.5, 1.0, 2.0, 4.0}) {
-      ASSERT_EQ(run->advance(t), Status::ok);
+      ASSERT_LE(int(run->advance(t)), int(Status::steady));
       EXPECT_NEAR(run->field().at(1).M, scene.mass(), 1e-15);
     }
   }
@@ -192,8 +194,9 @@ TEST(FvMarch, AgreesWithAPlainLoopOverFaceFluxes) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
     const bool is_plain = number % 4 == 0;
-    const Scene<double> scene(is_plain ? maker.data(3, maker.order(), 5)
-                                       : support::solid_data(maker, number % 2 ? Grains::large : Grains::small));
+    const Scene<double> scene(is_plain
+                                  ? maker.data(3, maker.order(), 5)
+                                  : support::solid_data(maker, number % 2 ? support::Grains::large : support::Grains::small));
     const std::size_t n_cells = number % 5 == 0 ? 700 : std::size_t(maker.integer(1, 90));
     const fv::Grid grid =
         number % 3 == 0 ? fv::aligned_cells(scene, n_cells) : fv::equal_cells(scene, n_cells);

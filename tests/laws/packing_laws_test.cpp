@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "oracles/verify.hpp"
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/tracker.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
 
@@ -63,7 +64,7 @@ TEST(PackingLaws, NoOvershootAndNoLossOver1000Profiles) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw_scene(maker);
     const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
-    Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+    Tracker<LevelGrid<double>> tracker(setup);
     const double mass = tracker.mass();
     EXPECT_NEAR(mass, scene.mass(), 1e-14);
     for (const double t : {0.05, 0.5, 3.0}) {
@@ -116,7 +117,7 @@ TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
     spec.solid_fraction = Table<double>{{0, 1}, {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7)}};
     const Scene<double> scene(spec);
     const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
-    Tracker<LevelGrid<double>> tracker(setup.grid, setup.pieces, setup.ends);
+    Tracker<LevelGrid<double>> tracker(setup);
     tracker.advance_to(0.3);
     const Profile<double> layers = tracker.profile(), smooth = packed_profile(tracker, scene, setup.stack);
     ASSERT_EQ(layers.n_cells(), smooth.n_cells());
@@ -143,7 +144,7 @@ TEST(PackingLaws, ConstantPackingAndTemperatureAreTheQuadraticFlux) {
     plain.solid_fraction.reset(), plain.temperature.reset();
     if (grains == Grains::large) plain.initial_values = {1, 0};  // of the small grains between the large ones
     const TrackingSetup<double> setup(Scene<double>(spec), 0.01), other(Scene<double>(plain), 0.01);
-    Tracker<LevelGrid<double>> packed(setup.grid, setup.pieces), quadratic(other.grid, other.pieces);
+    Tracker<LevelGrid<double>> packed(setup), quadratic(other);
     for (const double t : {0.1, 0.7, 2.0}) {
       packed.advance_to(t), quadratic.advance_to(2 * t);
       const Profile<double> a = packed.profile(), b = quadratic.profile();

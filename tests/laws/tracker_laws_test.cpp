@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -38,7 +38,7 @@ TEST(TrackerLaws, EveryEventKeepsMassRangeOrderJumpConditionsAndEntropy) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked tracker(setup.grid, setup.pieces);
+    Tracked tracker(setup);
     const double mass = scene.mass();
     double last = 0;
     while (tracker.step()) {
@@ -61,7 +61,7 @@ TEST(TrackerLaws, TwoRunsAreEqualToTheBit) {
   for (int number = 0; number < 20; ++number) {
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution), again(scene, kResolution);
-    Tracked a(setup.grid, setup.pieces), b(again.grid, again.pieces);
+    Tracked a(setup), b(again);
     a.advance_to(0.7), b.advance_to(0.7);
     EXPECT_TRUE(same(a.profile(), b.profile()));
     a.run_to_steady(), b.run_to_steady();
@@ -74,7 +74,7 @@ TEST(TrackerLaws, StoppingOnTheWayAndCopyingChangeNothing) {
   for (int number = 0; number < 20; ++number) {
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked direct(setup.grid, setup.pieces), stopped(setup.grid, setup.pieces);
+    Tracked direct(setup), stopped(setup);
     direct.advance_to(1.3);
     for (const double t : {0.0, 0.1, 0.37, 0.9}) stopped.advance_to(t);
     Tracked copy = stopped;
@@ -93,7 +93,7 @@ TEST(TrackerLaws, StepsInTimeEqualTheSweep) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked sweep(setup.grid, setup.pieces), steps(setup.grid, setup.pieces), both(setup.grid, setup.pieces);
+    Tracked sweep(setup), steps(setup), both(setup);
     sweep.run_to_steady();
     while (steps.step()) {
     }
@@ -114,8 +114,8 @@ TEST(TrackerLaws, StepsInTimeEqualTheSweep) {
 TEST(TrackerLaws, LimitsStopARunAndSayWhy) {
   const Scene<double> scene = draw(3);
   const TrackingSetup<double> setup(scene, 1e-4);
-  Tracked limited(setup.grid, setup.pieces), interrupted(setup.grid, setup.pieces),
-      direct(setup.grid, setup.pieces);
+  Tracked limited(setup), interrupted(setup),
+      direct(setup);
   EXPECT_EQ(limited.run_to_steady({100, {}}), Status::budget_reached);
   EXPECT_EQ(limited.n_collisions(), 100u);
   EXPECT_EQ(interrupted.run_to_steady({UINT64_MAX, [](double, std::uint64_t) { return false; }}),
@@ -133,13 +133,13 @@ TEST(TrackerLaws, RestartFromAStateEqualsTheDirectRun) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked direct(setup.grid, setup.pieces);
+    Tracked direct(setup);
     direct.advance_to(0.4);
     const auto state = direct.snapshot();
     std::vector<Piece<double>> pieces;
     for (std::size_t i = 0; i < state.state.size(); ++i)
       if (state.z[i + 1] > state.z[i]) pieces.push_back({state.layer[i], state.z[i + 1], state.state[i]});
-    Tracked restarted(setup.grid, pieces);
+    Tracked restarted(setup.grid, pieces, setup.ends);
     direct.advance_to(1.4);
     restarted.advance_to(1.0);
     EXPECT_LE(l1_distance(direct.profile(), restarted.profile()), 1e-12);
@@ -151,16 +151,16 @@ TEST(TrackerLaws, ObserversSeeAllAndDoNotSteer) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked silent(setup.grid, setup.pieces);
-    Recorded watched(setup.grid, setup.pieces);
+    Tracked silent(setup);
+    Recorded watched(setup);
     silent.run_to_steady(), watched.run_to_steady();
     EXPECT_EQ(silent.last_collision(), watched.last_collision());
     EXPECT_TRUE(same(silent.profile(), watched.profile()));
-    watched.close_record();
+    const History<double> history = watched.record();
     std::uint64_t after_start = 0;
     std::size_t born = 0;
     double last = 0;
-    for (const auto& c : watched.observer().collisions()) {
+    for (const auto& c : history.collisions()) {
       EXPECT_GE(c.t, last);
       last = c.t;
       after_start += c.incoming.empty() ? 0 : 1;
@@ -172,8 +172,8 @@ TEST(TrackerLaws, ObserversSeeAllAndDoNotSteer) {
       }
     }
     EXPECT_EQ(after_start, watched.n_collisions());
-    EXPECT_EQ(watched.observer().segments().size(), born);
-    for (const auto& s : watched.observer().segments()) {
+    EXPECT_EQ(history.segments().size(), born);
+    for (const auto& s : history.segments()) {
       EXPECT_GE(s.t_end, s.t_begin);
       const double speed = setup.grid.rate(s.layer) * (s.phi_below + s.phi_above - 1);
       EXPECT_NEAR(s.z_end - s.z_begin, speed * (s.t_end - s.t_begin), 1e-11 * (1 + s.t_end));
@@ -185,7 +185,7 @@ TEST(TrackerLaws, TwiceTheScaleHalvesEveryTimeExactly) {
   for (int number = 0; number < 20; ++number) {
     const Scene<double> scene = draw(number), fast(scaled(scene.spec(), 2.0));
     const TrackingSetup<double> setup(scene, kResolution), fast_setup(fast, kResolution);
-    Recorded a(setup.grid, setup.pieces), b(fast_setup.grid, fast_setup.pieces);
+    Recorded a(setup), b(fast_setup);
     a.run_to_steady(), b.run_to_steady();
     const auto &slow_events = a.observer().collisions(), &fast_events = b.observer().collisions();
     ASSERT_EQ(slow_events.size(), fast_events.size());
@@ -210,7 +210,7 @@ TEST(TrackerLaws, UpsideDownIsTheSameProblem) {
     std::reverse(rate.values.begin(), rate.values.end());
     const Scene<double> mirror(spec);
     const TrackingSetup<double> setup(scene, kResolution), mirror_setup(mirror, kResolution);
-    Tracked a(setup.grid, setup.pieces), b(mirror_setup.grid, mirror_setup.pieces);
+    Tracked a(setup), b(mirror_setup);
     for (const double t : {0.2, 1.0, 4.0}) {
       a.advance_to(t), b.advance_to(t);
       const Profile<double> p = a.profile(), q = b.profile();
@@ -246,8 +246,8 @@ TEST(TrackerLaws, DataNeverMoveApartAndKeepTheirOrder) {
       const auto begin = built.states.begin() + static_cast<std::ptrdiff_t>(i * n);
       return std::vector<State>(begin, begin + static_cast<std::ptrdiff_t>(n));
     };
-    Tracked a(built.grid, on_grid(pieces_u, part(0))), b(built.grid, on_grid(pieces_v, part(1))),
-        c(built.grid, on_grid(pieces_w, part(2)));
+    Tracked a(built.grid, on_grid(pieces_u, part(0)), Ends<double>{}), b(built.grid, on_grid(pieces_v, part(1)), Ends<double>{}),
+        c(built.grid, on_grid(pieces_w, part(2)), Ends<double>{});
     double last = l1_distance(a.profile(), b.profile());
     for (double t = 0.01; t < 100; t *= 1.5) {
       a.advance_to(t), b.advance_to(t), c.advance_to(t);
@@ -265,7 +265,7 @@ TEST(TrackerLaws, LinesConserveMassAndStayBetweenTheirNeighbours) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked tracker(setup.grid, setup.pieces);
+    Tracked tracker(setup);
     for (const double t : {0.0, 0.05, 0.3, 1.0, 3.0, 50.0}) {
       tracker.advance_to(t);
       const Profile<double> lines = linear_profile(tracker);
@@ -285,7 +285,7 @@ TEST(TrackerLaws, LinesAreExactForAFanInItsFirstLayer) {
   spec.initial_values = {0.1, 0.9};
   const Scene<double> scene(spec);
   const TrackingSetup<double> setup(scene, 0.1);
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   const double t = 0.2;
   tracker.advance_to(t);
   const Profile<double> lines = linear_profile(tracker);
@@ -302,13 +302,12 @@ TEST(TrackerLaws, DoubleAgreesWithFiftyDigits) {
     const Scene<Real110> fine = scene_cast<Real110>(scene);
     const TrackingSetup<double> setup(scene, 0.1);
     const TrackingSetup<Real110> fine_setup(fine, Real110(0.1));
-    Recorded a(setup.grid, setup.pieces);
-    Tracker<LevelGrid<Real110>, History<Real110>> b(fine_setup.grid, fine_setup.pieces);
+    Recorded a(setup);
+    Tracker<LevelGrid<Real110>, History<Real110>> b(fine_setup);
     a.run_to_steady(), b.run_to_steady();
     EXPECT_EQ(a.n_collisions(), b.n_collisions());
     EXPECT_NEAR(a.last_collision(), to_double(b.last_collision()), 1e-13 * a.last_collision());
-    a.close_record(), b.close_record();
-    EXPECT_EQ(a.observer().segments().size(), b.observer().segments().size());
+    EXPECT_EQ(a.record().segments().size(), b.record().segments().size());
   }
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "shearfront/digits/real110.hpp"
-#include "shearfront/exact/events.hpp"
 #include "shearfront/exact/derivatives.hpp"
+#include "shearfront/exact/events.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "soak/laws.hpp"
@@ -26,7 +26,7 @@ void check_slopes(const ExactSolution<Real110>& solution, const Real110& z, cons
   const Real110 height = scene.top() - scene.bottom(), h = kStep * height, dt = kStep * t;
   const auto value = solution.at(z, t);
   const Real110 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h),
-               growth = (solution.M(z, t + dt) - solution.M(z, t - dt)) / (2 * dt);
+                growth = (solution.M(z, t + dt) - solution.M(z, t - dt)) / (2 * dt);
   findings.expect_near(to_double(value.phi), to_double(slope), 1e-8, "exact: phi = dM/dz",
                        [&] { return at(z, t); });
   findings.expect_near(to_double(Real110(value.H * t / height)), to_double(Real110(growth * t / height)),
@@ -60,7 +60,7 @@ PhiM quotient(const ExactSolution<Real110>& solution, std::size_t entry, const R
 }
 
 void check_derivatives(const ExactSolution<Real110>& solution, support::SceneMaker& make, const Real110& z,
-                         const Real110& t, Findings& findings) {
+                       const Real110& t, Findings& findings) {
   constexpr int kParameters = 3;
   const auto exact = Derivatives<Real110>(solution).at(z, t);
   const SceneSpec<Real110>& spec = solution.scene().spec();
@@ -93,7 +93,7 @@ void check_steady_time(const Bed& bed, const ExactSolution<Real110>& solution, F
   if (!t_star || !oracle || *oracle == 0) return;
   const double slack = bed.M_rounding() + 64 * unit_roundoff<double>() * bed.trial.height();
   const Real110 final_M = solution.mass(), after = *t_star * (1 + bed.t_rounding()),
-               missing = final_M - solution.M(solution.steady_height(), after);
+                missing = final_M - solution.M(solution.steady_height(), after);
   findings.expect_between(to_double(missing), 0, 0, slack, "exact: M is final at t*",
                           [&] { return number_text(*t_star); });
   const Real110 before = *oracle * Real110("0.999999999999");

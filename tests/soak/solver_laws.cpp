@@ -4,6 +4,7 @@
 #include <limits>
 #include <string_view>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "soak/laws.hpp"
 
@@ -11,7 +12,7 @@ namespace shearfront::soak {
 namespace {
 
 constexpr double kMassSlack = 1e-13;
-// Rates further apart than this may stop the slow cells by rounding (fv/solve.hpp: not_converged).
+// Rates further apart than this may stop the slow cells by rounding (fv/run.hpp: not_converged).
 constexpr double kLeastUnconverged = 1e3;
 constexpr double kMostUpdates = 4e5;  ///< of one run, so that no scene takes long
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <optional>
 
+#include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
-#include "shearfront/track/verify.hpp"
 #include "soak/laws.hpp"
 
 namespace shearfront::soak {
@@ -163,7 +163,7 @@ void check_timeline(const Bed& bed, const Bracket& bracket, const Timeline<doubl
 /// To the steady state, checked; the number of collisions, or nothing if there are too many.
 bool check_run(const Bed& bed, const TrackingSetup<double>& setup, double resolution, const RunLimits& limits,
                Findings& findings) {
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   const Bracket bracket(bed, resolution);
   const double mass = bed.scene.mass();
   bool done = true;
@@ -184,7 +184,7 @@ bool check_run(const Bed& bed, const TrackingSetup<double>& setup, double resolu
 
 void check_every_event(const Bed& bed, const TrackingSetup<double>& setup, Findings& findings) {
   constexpr int kMostEvents = 60;
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   double last = 0;
   for (int i = 0; i < kMostEvents && tracker.step(); ++i) {
     findings.expect(tracker.time() >= last, "tracker: events in the order of time", [&] { return at(last); });
@@ -194,7 +194,7 @@ void check_every_event(const Bed& bed, const TrackingSetup<double>& setup, Findi
 }
 
 void check_stops(const Bed& bed, const TrackingSetup<double>& setup, Findings& findings) {
-  Tracked direct(setup.grid, setup.pieces), stopped(setup.grid, setup.pieces);
+  Tracked direct(setup), stopped(setup);
   direct.advance_to(bed.trial.late);
   for (const double part : {0.0, 0.1, 0.37, 0.9}) stopped.advance_to(part * bed.trial.late);
   Tracked copy = stopped;
@@ -210,13 +210,13 @@ void check_stops(const Bed& bed, const TrackingSetup<double>& setup, Findings& f
 
 /// A new tracker that starts from the state at `early`. M of both: the polygon's problem, started anew.
 void check_restart(const Bed& bed, const TrackingSetup<double>& setup, Findings& findings) {
-  Tracked direct(setup.grid, setup.pieces);
+  Tracked direct(setup);
   direct.advance_to(bed.trial.early);
   const auto state = direct.snapshot();
   std::vector<Piece<double>> pieces;
   for (std::size_t i = 0; i < state.state.size(); ++i)
     if (state.z[i + 1] > state.z[i]) pieces.push_back({state.layer[i], state.z[i + 1], state.state[i]});
-  Tracked restarted(setup.grid, pieces);
+  Tracked restarted(setup.grid, pieces, setup.ends);
   const double rounding = bed.t_rounding() * bed.trial.late;
   restarted.advance_to(bed.trial.late - bed.trial.early);
   const Profile<double> after = restarted.profile();
@@ -233,7 +233,7 @@ void check_restart(const Bed& bed, const TrackingSetup<double>& setup, Findings&
 void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double resolution,
                       Findings& findings) {
   const double t = bed.trial.late;
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   tracker.advance_to(t);
   const Profile<double> profile = tracker.profile();
   SceneSpec<double> spec = bed.layered.spec();
@@ -241,7 +241,7 @@ void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double
   spec.scale *= factor;
   const Scene<double> fast(spec);
   const TrackingSetup<double> fast_setup(fast, resolution);
-  Tracked scaled(fast_setup.grid, fast_setup.pieces);
+  Tracked scaled(fast_setup);
   scaled.advance_to(t / factor);
   findings.expect(
       same(scaled.profile(), profile) && scaled.last_collision() * factor == tracker.last_collision(),
@@ -253,7 +253,7 @@ void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double
   const TrackingSetup<double> mirror_setup(mirror, resolution);
   if (mirror_setup.grid.n_levels() != setup.grid.n_levels())
     return;  // a piece of an ulp has gone: another grid
-  Tracked mirrored(mirror_setup.grid, mirror_setup.pieces);
+  Tracked mirrored(mirror_setup);
   const double rounding = polygon_rounding(bed, resolution) * t;
   mirrored.advance_to(t - rounding);
   const Profile<double> sooner = mirrored.profile();
@@ -271,18 +271,18 @@ void check_symmetries(const Bed& bed, const TrackingSetup<double>& setup, double
 }
 
 void check_observer(const Bed& bed, const TrackingSetup<double>& setup, Findings& findings) {
-  Tracked silent(setup.grid, setup.pieces);
-  Tracker<LevelGrid<double>, History<double>> watched(setup.grid, setup.pieces);
+  Tracked silent(setup);
+  Tracker<LevelGrid<double>, History<double>> watched(setup);
   silent.advance_to(bed.trial.late), watched.advance_to(bed.trial.late);
   findings.expect(same(silent.profile(), watched.profile()), "tracker: observers do not steer",
                   [&] { return at(bed.trial.late); });
-  watched.close_record();
+  const History<double> history = watched.record();
   std::uint64_t n_collisions = 0, n_born = 0;
-  for (const auto& c : watched.observer().collisions()) {
+  for (const auto& c : history.collisions()) {
     n_collisions += c.incoming.empty() ? 0 : 1;
     n_born += c.outgoing.size();
   }
-  findings.expect(n_collisions == watched.n_collisions() && n_born == watched.observer().segments().size(),
+  findings.expect(n_collisions == watched.n_collisions() && n_born == history.segments().size(),
                   "tracker: observers see every collision and every front",
                   [&] { return at(bed.trial.late); });
 }
@@ -291,12 +291,12 @@ void check_observer(const Bed& bed, const TrackingSetup<double>& setup, Findings
 void check_50_digits(const Bed& bed, const TrackingSetup<double>& setup, double resolution,
                      Findings& findings) {
   const double t = bed.trial.late;
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   tracker.advance_to(t);
   if (may_use_chords(bed) || tracker.n_collisions() > 300 || tracker.n_fronts_max() > 3000) return;
   const Scene<Real110> fine = scene_cast<Real110>(bed.layered);
   const TrackingSetup<Real110> fine_setup(fine, Real110(resolution));
-  Tracker<LevelGrid<Real110>> oracle(fine_setup.grid, fine_setup.pieces);
+  Tracker<LevelGrid<Real110>> oracle(fine_setup);
   const Real110 rounding = polygon_rounding(bed, resolution) * t;
   oracle.advance_to(t - rounding);
   const Profile<Real110> sooner = oracle.profile();
@@ -320,7 +320,7 @@ void check_singular_mapping(const Bed& bed, double resolution, const RunLimits& 
   if (largest / delta * static_cast<double>(bed.stack.n_layers() + bed.scene.initial_values().size()) > 2e4)
     return;
   const TrackingSetup<double> setup(bed.layered, delta, GridKind::singular_mapping);
-  Tracked tracker(setup.grid, setup.pieces);
+  Tracked tracker(setup);
   const double mass = tracker.mass();
   for (const double t : {bed.trial.early, bed.trial.late}) {
     const Status status = tracker.advance_to(t, limits);
@@ -367,7 +367,7 @@ void check_tracker_pair(const Bed& bed, Findings& findings) {
   auto begin = built.states.begin();
   for (const auto& p : pieces) {
     const auto end = begin + static_cast<std::ptrdiff_t>(p.states.size());
-    trackers.emplace_back(built.grid, on_grid(p, std::vector<State>(begin, end)));
+    trackers.emplace_back(built.grid, on_grid(p, std::vector<State>(begin, end)), Ends<double>{});
     begin = end;
   }
   const RunLimits limits{bed.trial.count("max-collisions"), {}};

@@ -183,7 +183,6 @@ class Draw {
     options["cfl"] = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
     options["max-collisions"] = 20'000;
     options["limiter"] = make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1);
-    options["local-steps"] = chance(0.3) ? 1 : 0;
     options["align-cells"] = chance(0.3) && aligned_updates(trial) < kMostUpdates ? 1 : 0;
   }
 

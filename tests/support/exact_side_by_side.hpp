@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/exact/events.hpp"
 #include "shearfront/exact/derivatives.hpp"
+#include "shearfront/exact/events.hpp"
 #include "support/closeness.hpp"
 
 /// The exact engine in double and in 50 digits, compared point by point.

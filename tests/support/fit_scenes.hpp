@@ -9,6 +9,7 @@
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront::testing {

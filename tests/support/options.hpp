@@ -2,6 +2,8 @@
 #pragma once
 #include <map>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "shearfront/solver/method.hpp"
 
@@ -30,7 +32,19 @@ template <class Solver>
 
 [[nodiscard]] inline Method method_of(std::string_view name, const OptionNumbers& numbers) {
   Method method(name);
-  method.visit_options(SetOption{numbers});
+  for (Option option : method.options()) {
+    const auto number = numbers.find(option.info.name);
+    if (number == numbers.end()) continue;
+    std::visit(
+        [&]<class Value>(Value& value) {
+          if constexpr (std::is_same_v<Value, OptionChoice>)
+            value.index = static_cast<std::size_t>(number->second);
+          else
+            value = static_cast<Value>(number->second);
+        },
+        option.value);
+    method.set(option.info.name, option.value);
+  }
   return method;
 }
 

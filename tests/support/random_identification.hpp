@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/shock_rows.hpp"
-#include "shearfront/exact/events.hpp"
 #include "shearfront/exact/derivatives.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/fit/shock_rows.hpp"
 #include "support/identification.hpp"
 #include "support/random_scene.hpp"
 
@@ -24,9 +24,9 @@ inline double worst_error(const Identification& problem) {
   const auto n = static_cast<Eigen::Index>(values.size());
   const Derivatives<double> derivatives(solution);
   const auto all = entries(problem.truth);
-  const auto first = std::find_if(all.begin(), all.end(), [](const Entry& entry) {
-                       return entry.field == "shear_rate.values";
-                     }) - all.begin();
+  const auto first = std::find_if(all.begin(), all.end(),
+                                  [](const Entry& entry) { return entry.field == "shear_rate.values"; }) -
+                     all.begin();
   const auto add = [&](Eigen::MatrixXd& normal, const std::vector<double>& gradient) {
     Eigen::VectorXd row(n);
     for (Eigen::Index k = 0; k < n; ++k) {

@@ -79,7 +79,7 @@ template <Real Scalar>
 [[nodiscard]] Run<Scalar> run(const Scene<Scalar>& scene, double resolution, const std::vector<double>& times,
                               int n_heights = 32) {
   const TrackingSetup<Scalar> setup(scene, Scalar(resolution));
-  Tracker<LevelGrid<Scalar>, EventLog<Scalar>> tracker(setup.grid, setup.pieces);
+  Tracker<LevelGrid<Scalar>, EventLog<Scalar>> tracker(setup);
   Run<Scalar> result;
   result.height = scene.top() - scene.bottom();
   for (const double t : times) {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/solver.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"

@@ -95,7 +95,8 @@ TEST(ExactReference, Example2PrintedDigits) {
 /// The characteristic that returns to z0 = 1/2 with p = 1 - P: lambda ((1 - 2 P) + log(P / (1 - P))) = 1 - z0.
 TEST(ExactReference, Example2SteadyTimeSolvesItsOwnEquation) {
   const Real110 t = *exact_timeline(example_2<Real110>()).t_star;
-  const Real110 lambda("0.205"), s("13.60"), R = s * Real110("0.87") / lambda * exp(Real110(-1 / (2 * lambda)));
+  const Real110 lambda("0.205"), s("13.60"),
+      R = s * Real110("0.87") / lambda * exp(Real110(-1 / (2 * lambda)));
   // t = lambda (2 P - 1) / (R P (1 - P)) is increasing in P: bisect for P, then check the equation of P.
   Real110 lo("0.5"), hi("0.9999999");
   for (int i = 0; i < 200; ++i) {

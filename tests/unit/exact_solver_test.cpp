@@ -5,6 +5,8 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/solver.hpp"
+#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "support/layered_spec.hpp"
 
 namespace shearfront {
@@ -18,7 +20,7 @@ TEST(ExactSolverApi, SamplesTimelineAndSummary) {
   request.times = {0.0, 3.0, infinity<double>()};
   request.heights = {0.1, 0.9};
   request.timeline = true;
-  const auto result = ExactSolver::solve(scene, request, {});
+  const auto result = solve<ExactSolver>(scene, request);
   ASSERT_EQ(result.samples.size(), 6u);
   const ExactSolution<double> solution(scene);
   for (std::size_t i = 0; i < 3; ++i)
@@ -39,19 +41,18 @@ TEST(ExactSolverApi, BadRequestsAreNamed) {
   request.times = {0.0, -1.0};
   request.heights = {0.1, 1.5};
   try {
-    (void)ExactSolver::solve(scene, request, {});
+    (void)solve<ExactSolver>(scene, request);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "times[1] = -1; must be >= 0\ndepths[1] = 1.5; must be inside the domain [0, 1]");
+                 "times[1] = -1; must be >= 0\nheights[1] = 1.5; must be inside the domain [0, 1]");
   }
 }
 
 TEST(ExactSolverApi, StopsWhenAsked) {
   const Scene<double> scene(layered({}, {1}, {0.5}, {0, 1}));
-  SolverOptions options;
-  options.progress = [](double t, std::uint64_t) { return t < 1; };
-  const auto result = ExactSolver::solve(scene, {{0.5, 2.0}, {0.5}, true, false}, options);
+  const auto result = solve<ExactSolver>(scene, {{0.5, 2.0}, {0.5}, true, false}, {},
+                                         [](double t, std::uint64_t) { return t < 1; });
   EXPECT_EQ(result.summary.status, Status::interrupted);
   EXPECT_FALSE(result.summary.usable());
 }

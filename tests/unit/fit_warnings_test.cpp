@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/warnings.hpp"
+#include "shearfront/fit/report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 
+#include "shearfront/io/output_file.hpp"
+
 namespace shearfront {
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solvers chosen by name, with options by name: what the command line, fit files, `compare` and `list` derive from.
 #include "shearfront/solver/method.hpp"
+#include "shearfront/solver/all.hpp"
 
 #include <gtest/gtest.h>
 
@@ -97,8 +98,8 @@ TEST(OptionsOfSolvers, StartFromADefaultInTheirRange) {
   for (const std::string& name : Method::names())
     Method(name).visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
       SCOPED_TRACE(name + " " + std::string(info.name));
-      if constexpr (std::is_enum_v<Member>) {
-        EXPECT_LT(static_cast<std::size_t>(member), info.names.size());
+      if constexpr (std::is_same_v<Member, OptionChoice>) {
+        EXPECT_LT(member.index, info.names.size());
         checked.count("name");
       } else if constexpr (!std::is_same_v<Member, bool>) {
         EXPECT_LT(info.range.low, info.range.high);
@@ -114,8 +115,8 @@ struct OtherValue {
   static std::string of(const OptionInfo& info, const Member& member) {
     if constexpr (std::is_same_v<Member, bool>) {
       return member ? "false" : "true";
-    } else if constexpr (std::is_enum_v<Member>) {
-      return std::string(info.names[(static_cast<std::size_t>(member) + 1) % info.names.size()]);
+    } else if constexpr (std::is_same_v<Member, OptionChoice>) {
+      return std::string(info.names[(member.index + 1) % info.names.size()]);
     } else {
       const double low = std::max(info.range.low, 1e-3), high = std::min(info.range.high, 1e4);
       return number_text(std::is_integral_v<Member> ? std::floor((low + high) / 2) : std::sqrt(low * high));
@@ -203,8 +204,10 @@ void check_linearisation(const Method& method, const SceneSpec<double>& spec, do
     const auto above = samples(wanted[k], step), below = samples(wanted[k], -step);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Sample& d = at.derivatives[i * wanted.size() + k];
-      const double phi = (above[i].phi - below[i].phi) / (2 * step), M = (above[i].M - below[i].M) / (2 * step);
-      EXPECT_NEAR(d.phi, phi, bound * std::max(1.0, std::abs(phi))) << all[wanted[k]].name() << " place " << i;
+      const double phi = (above[i].phi - below[i].phi) / (2 * step),
+                   M = (above[i].M - below[i].M) / (2 * step);
+      EXPECT_NEAR(d.phi, phi, bound * std::max(1.0, std::abs(phi)))
+          << all[wanted[k]].name() << " place " << i;
       EXPECT_NEAR(d.M, M, bound * std::max(1.0, std::abs(M))) << all[wanted[k]].name() << " place " << i;
     }
     checked.count(all[wanted[k]].name());
@@ -214,10 +217,9 @@ void check_linearisation(const Method& method, const SceneSpec<double>& spec, do
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(at.samples[i].M, sampled[i].M, 1e-9);
 }
 
-const std::initializer_list<std::string_view> kEntries{"shear_rate.values[0]", "shear_rate.values[1]",
-                                                       "shear_rate.breaks[0]", "shear_rate.scale",
-                                                       "initial.values[0]",    "initial.values[1]",
-                                                       "initial.breaks[0]"};
+const std::initializer_list<std::string_view> kEntries{
+    "shear_rate.values[0]", "shear_rate.values[1]", "shear_rate.breaks[0]", "shear_rate.scale",
+    "initial.values[0]",    "initial.values[1]",    "initial.breaks[0]"};
 
 TEST(Linearisation, OfTheExactSolutionIsItsDerivative) {
   support::Checked checked(kEntries);
@@ -229,13 +231,15 @@ TEST(Linearisation, OfCrankNicolsonIsTheDerivativeOfTheScheme) {
   checked.expect("diffusion.D");
   SceneSpec<double> spec = two_layers();
   spec.diffusion = Diffusion<double>{0.02, {}, false};
-  check_linearisation(Method::of<CrankNicolsonSolver>({.cells = 60, .time_step = 0.01}), spec, 1e-5, 1e-4, checked);
+  check_linearisation(Method::of<CrankNicolsonSolver>({.cells = 60, .time_step = 0.01}), spec, 1e-5, 1e-4,
+                      checked);
 }
 
 TEST(Linearisation, MethodsWithoutDerivativesSaySo) {
   const Scene<double> scene(two_layers());
   for (const char* name : {"front-tracking", "godunov"})
-    for (const Entry& entry : entries(scene.spec())) EXPECT_FALSE(Method(name).has_derivative(scene, entry)) << name;
+    for (const Entry& entry : entries(scene.spec()))
+      EXPECT_FALSE(Method(name).has_derivative(scene, entry)) << name;
   for (const Entry& entry : entries(scene.spec()))
     EXPECT_EQ(Method("exact").has_derivative(scene, entry),
               entry.field.starts_with("shear_rate.") || entry.field.starts_with("initial."))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront {

@@ -15,6 +15,16 @@ namespace {
 
 constexpr unsigned long long kLongestList = 10'000'000;
 
+/// The decimal number of 15 digits that x differs from by rounding only, otherwise x: 0.01:0.99:99 contains
+/// 0.6, not 0.6000000000000001, which would lie on the other side of an interface at 0.6.
+double without_rounding(double x, double scale) {
+  constexpr double kUlps = 4;
+  const double decimal = parse_number(fmt::format("{:.15g}", x)).value_or(x);
+  return std::abs(decimal - x) <= kUlps * std::numeric_limits<double>::epsilon() * scale ? decimal : x;
+}
+
+}  // namespace
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -24,8 +34,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     text.remove_prefix(cut + 1);
   }
 }
-
-}  // namespace
 
 void refuse(std::string_view option, std::string_view value, std::string_view constraint) {
   throw InputError(std::string(option), parse_number(value) ? std::string(value) : quoted_text(value),
@@ -54,18 +62,6 @@ std::size_t choice_option(std::string_view option, std::string_view value,
   if (it == names.end()) refuse(option, value, fmt::format("must be one of: {}", fmt::join(names, ", ")));
   return static_cast<std::size_t>(it - names.begin());
 }
-
-namespace {
-
-/// The decimal number of 15 digits that x differs from by rounding only, otherwise x: 0.01:0.99:99 contains
-/// 0.6, not 0.6000000000000001, which would lie on the other side of an interface at 0.6.
-double without_rounding(double x, double scale) {
-  constexpr double kUlps = 4;
-  const double decimal = parse_number(fmt::format("{:.15g}", x)).value_or(x);
-  return std::abs(decimal - x) <= kUlps * std::numeric_limits<double>::epsilon() * scale ? decimal : x;
-}
-
-}  // namespace
 
 std::vector<double> equally_spaced(double start, double stop, std::size_t n) {
   std::vector<double> xs(n, start);

@@ -15,6 +15,9 @@ namespace shearfront::tools {
 /// Errors: InputError in that form; the value is quoted unless it is a number.
 [[noreturn]] void refuse(std::string_view option, std::string_view value, std::string_view constraint);
 
+/// The parts between separators; one more than there are separators.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
 /// An interval of numbers; an end may be excluded.
 struct Bounds {
   double low = -std::numeric_limits<double>::infinity();

@@ -13,7 +13,8 @@ ClosedForms closed_forms(const Scene<double>& scene) {
   if (scene.initial_values() != std::vector<double>{0, 1}) return forms;
   const double h = scene.top() - scene.bottom();
   const double zc = breaks[0] - scene.bottom(), z0 = scene.initial_breaks()[0] - scene.bottom();
-  const double k0 = scene.scale() * scene.shear_rate_at(scene.bottom()), k1 = scene.scale() * scene.shear_rate_at(breaks[0]);
+  const double k0 = scene.scale() * scene.shear_rate_at(scene.bottom()),
+               k1 = scene.scale() * scene.shear_rate_at(breaks[0]);
   if (z0 == zc) return forms;
   if (z0 > zc) {
     forms.first_interface = {"(z0 - zc)/k1", (z0 - zc) / k1};

@@ -30,7 +30,9 @@ std::string interval_text(const std::optional<fit::Interval>& i, int digits) {
   return fmt::format("{:.{}g} to {:.{}g}", i->low, digits, i->high, digits);
 }
 
-std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::string(); }
+std::string shown(const std::optional<double>& x, const char* format) {
+  return x ? fmt::format(fmt::runtime(format), *x) : "none";
+}
 
 }  // namespace
 
@@ -61,23 +63,46 @@ std::string estimate_text(const fit::Estimate& estimate) {
                             estimate.iterations, estimate.wall_s);
 }
 
+std::string csv_row(std::initializer_list<double> numbers) {
+  std::string row;
+  for (const double x : numbers) row += (std::isfinite(x) ? number_text(x) : "") + ",";
+  row.back() = '\n';
+  return row;
+}
+
 void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate) {
-  constexpr std::size_t kBlock = 1 << 16;
   const bool has_sigma = observations.has_sigma();
-  std::string rows =
-      has_sigma ? "t,z,observed,predicted,residual,sigma\n" : "t,z,observed,predicted,residual\n";
+  file.write(has_sigma ? "t,z,observed,predicted,residual,sigma\n" : "t,z,observed,predicted,residual\n");
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
     const Observation& o = observations.rows[i];
-    const double predicted = estimate.predicted[i];
-    rows += field(o.t);
-    for (const double x : {o.z, o.value, predicted, o.value - predicted}) (rows += ',') += field(x);
-    if (has_sigma) (rows += ',') += field(o.sigma);
-    rows += '\n';
-    if (rows.size() < kBlock) continue;
-    file.write(rows);
-    rows.clear();
+    const double predicted = estimate.predicted[i], residual = o.value - predicted;
+    file.write(has_sigma ? csv_row({o.t, o.z, o.value, predicted, residual, o.sigma})
+                         : csv_row({o.t, o.z, o.value, predicted, residual}));
   }
-  file.write(rows);
+}
+
+std::string comparison_text(const std::vector<fit::ComparedModel>& models) {
+  TextTable table({"model", "parameters", "misfit", "AIC", "dAIC", "weight", "BIC", "dBIC"});
+  for (const fit::ComparedModel& m : models)
+    table.add({printable(m.model, 100), std::to_string(m.parameters), shown(m.misfit, "{:.6g}"),
+               shown(m.aic, "{:.2f}"), shown(m.daic, "{:.2f}"), shown(m.aic_weight, "{:.3g}"),
+               shown(m.bic, "{:.2f}"), shown(m.dbic, "{:.2f}")});
+  return table.text();
+}
+
+detail::Json comparison_json(const std::vector<fit::ComparedModel>& models) {
+  using detail::json_or_null;
+  detail::Json rows = detail::Json::array();
+  for (const fit::ComparedModel& m : models)
+    rows.push_back({{"model", m.model},
+                    {"parameters", m.parameters},
+                    {"misfit", json_or_null(m.misfit)},
+                    {"aic", json_or_null(m.aic)},
+                    {"daic", json_or_null(m.daic)},
+                    {"aic_weight", json_or_null(m.aic_weight)},
+                    {"bic", json_or_null(m.bic)},
+                    {"dbic", json_or_null(m.dbic)}});
+  return rows;
 }
 
 }  // namespace shearfront::tools

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -54,8 +55,9 @@ Method MethodArguments::method() const {
 
 double number_of(const Method& method, std::string_view option) {
   double number = 0;
-  method.visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
-    if (info.name == option) number = static_cast<double>(member);
+  method.visit_options([&]<class Value>(const OptionInfo& info, const Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>)
+      if (info.name == option) number = static_cast<double>(value);
   });
   return number;
 }

@@ -39,12 +39,6 @@ class MethodArguments {
   std::vector<Given> given_;
 };
 
-/// The solver's options and who is told of its progress.
-struct SolverOptions {
-  Method method;
-  Progress progress;
-};
-
 /// A number among the options of a method; 0 if it has none of this name.
 [[nodiscard]] double number_of(const Method& method, std::string_view option);
 

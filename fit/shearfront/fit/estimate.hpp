@@ -2,15 +2,26 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/run_control.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/summary.hpp"
 
 namespace shearfront::fit {
+
+/// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
+/// the best point found (Status::interrupted).
+using Progress = std::function<bool(std::size_t evaluations, double best_misfit)>;
+
+/// The smallest misfit after so many evaluations: a curve for the picture of a search.
+struct SearchStep {
+  std::size_t evaluations = 0;
+  double misfit = 0;
+  std::size_t stage = 0;  ///< misfits of different stages cannot be compared
+};
 
 struct Interval {
   double low = 0, high = 0;

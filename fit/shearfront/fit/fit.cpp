@@ -8,16 +8,17 @@
 #include <memory>
 #include <utility>
 
+#include "shearfront/fit/bootstrap.hpp"
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/objective.hpp"
+#include "shearfront/fit/profile_likelihood.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
-#include "shearfront/fit/uncertainty.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::fit {
@@ -85,6 +86,34 @@ double mean_spacing(const Observations& observations) {
   return n > 0 ? sum / static_cast<double>(n) : 1;
 }
 
+/// With a shape the coordinates are steps between the values, whose profiles say nothing about a single value.
+void check_uncertainty(const FitSpec& spec) {
+  if (spec.uncertainty.profile && spec.unknown.shape != Shape::none)
+    throw InputError("uncertainty.profile", "true",
+                     "must be false with unknown.shape; use uncertainty.bootstrap");
+}
+
+/// Adds the intervals that [uncertainty] asks for, and their warnings.
+void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+                     const Refit& refit, const Progress& progress, Estimate& estimate) {
+  if (!estimate.usable() || estimate.status == Status::interrupted) return;
+  const auto warn = [&](const std::vector<std::string>& texts) {
+    estimate.warnings.insert(estimate.warnings.end(), texts.begin(), texts.end());
+  };
+  if (spec.uncertainty.profile) {
+    const Profiles profiles = profile_intervals(spec, parameters, objective, estimate, progress);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      estimate.parameters[i].profile95 = profiles.intervals[i];
+    warn(profiles.warnings);
+  }
+  if (spec.uncertainty.bootstrap > 0) {
+    const Bootstrap replicates = bootstrap(spec, parameters, estimate, refit, progress);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      estimate.parameters[i].bootstrap95 = replicates.intervals[i];
+    warn(replicates.warnings);
+  }
+}
+
 /// One fit from start to minimum; the report is made elsewhere.
 class Run {
  public:
@@ -96,6 +125,7 @@ class Run {
         quantity_(quantity_of(spec)),
         loss_name_(loss_of(spec)),
         loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))),
+        rows_(rows_of(quantity_, spec)),
         progress_(progress) {
     check_uncertainty(spec);
     const auto names = algorithm_names();
@@ -134,7 +164,7 @@ class Run {
     noise_ = 0;
     n_scales_ = 0;
     if (has_stages_) approach();
-    settle(rows_of(quantity_, spec_), has_stages_ && has_jumps());
+    settle(has_stages_ && has_jumps());
   }
 
   /// Every start goes through all stages: what is best in an early one need not be in the last.
@@ -157,23 +187,20 @@ class Run {
     u_ = best;
     noise_ = 0;  // of the last start, not of the best
     n_scales_ = 0;
-    settle(rows_of(quantity_, spec_), has_jumps());
+    settle(has_jumps());
     result_.message = "best of " + std::to_string(n) + " starts (number " + std::to_string(best_start) +
                       "): " + result_.message;
   }
 
-  [[nodiscard]] bool has_diffusion() const {
-    const SceneSpec<double> start = parameters_.scene_with(parameters_.start());
-    return start.diffusion && start.diffusion->D > 0;
-  }
+  [[nodiscard]] bool has_diffusion() const { return parameters_.start_scene().has_diffusion(); }
   /// Whether a jump of phi can be near an observation: with diffusion phi is continuous.
   [[nodiscard]] bool has_jumps() const { return quantity_ == PointMisfit::kName && !has_diffusion(); }
 
   /// Compares estimates whose last stages left out other rows or took another noise: all rows, with a loss of
   /// fixed scale.
   [[nodiscard]] double forgiving_misfit() {
-    ResidualRows rows = rows_of(quantity_, spec_);
     if (!loss_.is_robust && !left_out_) return objective_->evaluate(u_, false).misfit;
+    ResidualRows rows = rows_;
     set_weights(rows, 1);
     return make_objective(std::move(rows), find_loss(CauchyLoss::kName, kForgiven))
         ->evaluate(u_, false)
@@ -244,16 +271,16 @@ class Run {
   /// The misfit asked for. What it depends on besides the parameters, the rows without a jump and the noise
   /// that tells a robust loss what is gross, is taken from the estimate and renewed, with searches as rough
   /// as that, until it stays; the last search is fine.
-  void settle(const ResidualRows& rows, bool leaves_out_jumps) {
-    std::vector<bool> keep(leaves_out_jumps ? 0 : rows.rows.size(), true);
-    if (!leaves_out_jumps) objective_ = make_objective(rows, loss_);
+  void settle(bool leaves_out_jumps) {
+    std::vector<bool> keep(leaves_out_jumps ? 0 : rows_.rows.size(), true);
+    if (!leaves_out_jumps) objective_ = make_objective(rows_, loss_);
     // Noise of sums may lead the stages to rates that no grid resolves; with diffusion there is often but one
     // valley, and the start in it.
     if (has_stages_ && has_diffusion() &&
         objective_->inspect(start_, false).misfit < objective_->evaluate(u_, false).misfit)
       u_ = start_;
     for (int round = 0; round <= kMostRenewals; ++round) {
-      bool is_settled = !(leaves_out_jumps && renew_rows(rows, keep));
+      bool is_settled = !(leaves_out_jumps && renew_rows(keep));
       is_settled = !renew_scale() && is_settled;
       const Objective::Evaluation& at = objective_->evaluate(u_, false);
       const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact;
@@ -265,12 +292,12 @@ class Run {
   }
 
   /// Whether other rows than before have no jump near them.
-  bool renew_rows(const ResidualRows& rows, std::vector<bool>& keep) {
+  bool renew_rows(std::vector<bool>& keep) {
     std::vector<bool> now =
         rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
     if (now == keep) return false;
     keep = std::move(now);
-    objective_ = make_objective(rows.selected(keep), loss_);
+    objective_ = make_objective(rows_.selected(keep), loss_);
     if (noise_ > 0) objective_->set_loss(scaled_loss());
     return true;
   }
@@ -299,6 +326,7 @@ class Run {
   RunControl control_;
   std::string quantity_, loss_name_;
   Loss loss_;
+  ResidualRows rows_;  ///< of the misfit asked for, made once
   Progress progress_;
   std::unique_ptr<Objective> objective_;
   Eigen::VectorXd u_, start_;

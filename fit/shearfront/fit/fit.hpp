@@ -4,7 +4,6 @@
 
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
-#include "shearfront/fit/run_control.hpp"
 
 namespace shearfront::fit {
 

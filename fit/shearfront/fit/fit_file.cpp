@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "shearfront/fit/forward.hpp"
@@ -81,8 +81,7 @@ class FitReader {
 
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
-    if (data_path)
-      load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
+    if (data_path) load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
     check_unknown();
     check_quantity();
     throw_if_any();
@@ -109,7 +108,8 @@ class FitReader {
     for (std::string& name : unknown_.parameters)
       if (name.starts_with("packing.")) {
         const std::string old = std::exchange(name, "solid_fraction" + name.substr(name.find('.')));
-        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " + printable(name));
+        remarks_.push_back(printable(source_.name()) + ": " + printable(old) + " is the old name of " +
+                           printable(name));
       }
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);
@@ -154,26 +154,36 @@ class FitReader {
 
   /// The options of a method that are not `known` yet.
   void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
-    method.visit_options([&]<class Member>(const OptionInfo& info, Member& member) {
+    for (const Option& option : method.options()) {
+      const OptionInfo& info = option.info;
       std::string key(info.name);
       std::replace(key.begin(), key.end(), '-', '_');
-      if (std::find(known.begin(), known.end(), key) != known.end()) return;
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
       known.push_back(key);
-      if constexpr (std::same_as<Member, bool>) {
-        member = table.boolean(key, Need::optional).value_or(member);
-      } else if constexpr (std::is_enum_v<Member>) {
-        if (const auto name = table.choice(key, Need::optional, strings(info.names)))
-          member = static_cast<Member>(std::find(info.names.begin(), info.names.end(), *name) - info.names.begin());
-      } else if constexpr (std::same_as<Member, std::uint64_t>) {
-        const auto low = static_cast<unsigned long long>(info.range.low);
-        const auto high = static_cast<unsigned long long>(info.range.high);
-        member = table.count(key, Need::optional, low, high).value_or(member);
-      } else {
-        table.number(key, Need::optional, member);
-        if (table.is_good(key) && !info.range.contains(member))
-          add({table.path(key), "", "must be " + allowed_text(info.range)});
-      }
-    });
+      method.set(
+          info.name,
+          std::visit([&](const auto& value) { return read_option(table, key, info, value); }, option.value));
+    }
+  }
+  template <class Value>
+  OptionValue read_option(TableReader& table, const std::string& key, const OptionInfo& info, Value value) {
+    if constexpr (std::same_as<Value, bool>) {
+      return table.boolean(key, Need::optional).value_or(value);
+    } else if constexpr (std::same_as<Value, OptionChoice>) {
+      if (const auto name = table.choice(key, Need::optional, strings(info.names)))
+        value.index = static_cast<std::size_t>(std::find(info.names.begin(), info.names.end(), *name) -
+                                               info.names.begin());
+      return value;
+    } else if constexpr (std::same_as<Value, std::uint64_t>) {
+      const auto low = static_cast<unsigned long long>(info.range.low);
+      const auto high = static_cast<unsigned long long>(info.range.high);
+      return std::uint64_t{table.count(key, Need::optional, low, high).value_or(value)};
+    } else {
+      table.number(key, Need::optional, value);
+      if (table.is_good(key) && !info.range.contains(value))
+        add({table.path(key), "", "must be " + allowed_text(info.range)});
+      return value;
+    }
   }
 
   void misfit(TableReader& table) {

@@ -16,12 +16,12 @@ using Eigen::VectorXd;
 
 Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Observable observable,
                  std::vector<Place> places)
-    : parameters_(parameters),
+    : parameters_(&parameters),
       method_(forward.method),
       observable_(observable),
       places_(std::move(places)),
       entries_(parameters.entries()) {
-  const Scene<double> scene(parameters.scene_with(parameters.start()));
+  const Scene<double>& scene = parameters.start_scene();
   if (observable == Observable::bed_height)
     if (const std::string reason = BedHeight::refusal(scene); !reason.empty())
       throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),
@@ -46,9 +46,8 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
 
 Prediction Forward::predict(const VectorXd& values, bool with_derivatives) const {
   Prediction prediction;
-  const auto scene = parameters_.scene_at(values, prediction.failure);
+  const auto scene = parameters_->scene_at(values, prediction.failure);
   if (!scene) return prediction;
-  if (prediction.failure = method_.refusal(*scene); !prediction.is_valid()) return prediction;
   if (observable_ == Observable::bed_height)
     predict_heights(*scene, prediction);
   else
@@ -56,12 +55,14 @@ Prediction Forward::predict(const VectorXd& values, bool with_derivatives) const
   return prediction;
 }
 
-void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const {
+void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
+                              Prediction& prediction) const {
   if (!can_linearise_) {
     const PlaceSamples result = sample(scene, method_, places_);
     if (!result.summary.usable()) prediction.failure = result.summary.message;
     return take(result.samples, prediction);
   }
+  if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
   const std::vector<std::size_t> none;
   const Linearisation result = method_.linearise(scene, places_, with_derivatives ? entries_ : none, memory_);
   if (!result.summary.usable()) {

@@ -28,7 +28,8 @@ struct Prediction {
 /// are differentiated numerically by the caller (numeric_step.hpp). Not for use by several threads at once.
 class Forward {
  public:
-  /// Errors: InputError (forward.method, misfit.quantity) if the method does not solve the scene at the start values.
+  /// `parameters` must outlive this. Errors: InputError (forward.method, misfit.quantity) if the method does not solve
+  /// the scene at the start values.
   Forward(const Parameters& parameters, const ForwardSpec& forward, Observable observable,
           std::vector<Place> places);
 
@@ -45,7 +46,7 @@ class Forward {
   void predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const;
   void predict_heights(const Scene<double>& scene, Prediction& prediction) const;
 
-  Parameters parameters_;
+  const Parameters* parameters_;
   Method method_;
   Observable observable_;
   std::vector<Place> places_;

@@ -38,20 +38,11 @@ double share_inside(const Coordinates& coordinates, const VectorXd& u, const Vec
 
 class Checker {
  public:
-  Checker(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
-          const Covariance& errors, const Objective::Evaluation& best, const VectorXd& minimum,
-          double quantile)
-      : spec_(spec),
-        parameters_(parameters),
-        objective_(objective),
-        errors_(errors),
-        best_misfit_(best.misfit),
-        u_(minimum),
-        quantile_(quantile) {}
+  explicit Checker(const Minimum& minimum) : minimum_(minimum), u_(minimum.u), errors_(minimum.errors) {}
 
   /// Towards the lower (-1) or upper end of coordinate j.
   [[nodiscard]] EndFault towards(Index j, double sign, std::string& failure) const {
-    const VectorXd way = sign * quantile_ / std::sqrt(errors_.matrix(j, j)) * errors_.matrix.col(j);
+    const VectorXd way = sign * minimum_.quantile / std::sqrt(errors_.matrix(j, j)) * errors_.matrix.col(j);
     const Rise end = rise(j, way, 1);
     if (!end.failure.empty()) {
       failure = end.failure;
@@ -74,17 +65,17 @@ class Checker {
 
   /// At `stretch` times the way, or where it meets a bound.
   [[nodiscard]] Rise rise(Index j, const VectorXd& way, double stretch) const {
-    const double share = share_inside(objective_.coordinates(), u_, stretch * way);
+    const double share = share_inside(minimum_.objective.coordinates(), u_, stretch * way);
     if (share < kNearestBound) return {};
     // A bound is inside by rounding.
     const VectorXd at = u_ + (share < 1 ? share * (1 - 1e-9) : 1) * stretch * way;
-    const double expected = 0.5 * errors_.misfit_scale[j] * std::pow(share * stretch * quantile_, 2);
-    const Objective::Evaluation there = objective_.inspect(at, false);
+    const double expected = 0.5 * errors_.misfit_scale[j] * std::pow(share * stretch * minimum_.quantile, 2);
+    const Objective::Evaluation there = minimum_.objective.inspect(at, false);
     if (!there.is_valid)
       return {std::numeric_limits<double>::quiet_NaN(), share * stretch,
               there.failure.empty() ? "it is out of bounds" : there.failure};
     const auto size = [&](double misfit) {
-      return std::sqrt(std::max(0.0, misfit - best_misfit_) / expected);
+      return std::sqrt(std::max(0.0, misfit - minimum_.at.misfit) / expected);
     };
     double least = size(there.misfit);
     if (stretch < 1 && least > kMostOff) least = std::min(least, size(refitted(j, at, expected)));
@@ -94,44 +85,37 @@ class Checker {
   /// The misfit there when the others are refitted.
   [[nodiscard]] double refitted(Index j, const VectorXd& at, double expected) const {
     RunControl control(kMostEvaluations);
-    Objective objective(parameters_, objective_.coordinates(), spec_.forward, objective_.rows(),
-                        objective_.loss(), control);
-    SearchSpec search = spec_.search;
+    const Objective& found = minimum_.objective;
+    Objective objective(minimum_.parameters, found.coordinates(), minimum_.spec.forward, found.rows(),
+                        found.loss(), control);
+    SearchSpec search = minimum_.spec.search;
     search.max_evaluations = kMostEvaluations;
-    search.tolerance = std::clamp(kRefitTolerance * expected / best_misfit_, spec_.search.tolerance, 1e-2);
+    search.tolerance =
+        std::clamp(kRefitTolerance * expected / minimum_.at.misfit, minimum_.spec.search.tolerance, 1e-2);
     std::vector<bool> fixed(static_cast<std::size_t>(u_.size()), false);
     fixed[static_cast<std::size_t>(j)] = true;
     return search_ceres(objective, at, search, fixed).misfit;
   }
 
-  const FitSpec& spec_;
-  const Parameters& parameters_;
-  const Objective& objective_;
+  const Minimum& minimum_;
+  const VectorXd& u_;
   const Covariance& errors_;
-  double best_misfit_;
-  VectorXd u_;
-  double quantile_;
 };
 
 }  // namespace
 
-std::vector<std::optional<IntervalCheck>> check_intervals(const FitSpec& spec, const Parameters& parameters,
-                                                          const Objective& objective,
-                                                          const Covariance& errors,
-                                                          const Objective::Evaluation& best,
-                                                          const Eigen::VectorXd& minimum, double quantile,
-                                                          const Estimate& estimate) {
-  std::vector<std::optional<IntervalCheck>> checks(parameters.size());
-  const bool leaves_out = quantity_of(spec) == name_of(Quantity::point) &&
-                          objective.rows().rows.size() < spec.observations.rows.size();
-  if (parameters.shape() != Shape::none || leaves_out) return checks;
-  const Checker checker(spec, parameters, objective, errors, best, minimum, quantile);
+std::vector<std::optional<IntervalCheck>> check_intervals(const Minimum& minimum, const Estimate& estimate) {
+  std::vector<std::optional<IntervalCheck>> checks(estimate.parameters.size());
+  const bool leaves_out = quantity_of(minimum.spec) == name_of(Quantity::point) &&
+                          minimum.objective.rows().rows.size() < minimum.spec.observations.rows.size();
+  if (minimum.parameters.shape() != Shape::none || leaves_out) return checks;
+  const Checker checker(minimum);
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const auto j = static_cast<Index>(k);
-    const double scale = errors.misfit_scale[j];
+    const double scale = minimum.errors.misfit_scale[j];
     if (!estimate.parameters[k].ci95 || !(scale > 0) || !std::isfinite(scale)) continue;
-    const double half_width = quantile * std::sqrt(errors.matrix(j, j));
-    if (!(half_width > kRounding * std::max(1.0, std::abs(minimum[j])))) continue;
+    const double half_width = minimum.quantile * std::sqrt(minimum.errors.matrix(j, j));
+    if (!(half_width > kRounding * std::max(1.0, std::abs(minimum.u[j])))) continue;
     IntervalCheck check;
     check.low = checker.towards(j, -1, check.failure);
     check.high = checker.towards(j, 1, check.failure);

@@ -3,9 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "shearfront/fit/covariance.hpp"
-#include "shearfront/fit/estimate.hpp"
-#include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/fit/report.hpp"
 
 namespace shearfront::fit {
 
@@ -26,10 +24,8 @@ namespace shearfront::fit {
 /// depends on the estimate). Cost: two runs of the model per parameter; one more, or a refit of about ten,
 /// for an end where rise(1) is far from 1. Source: Bates & Watts (1988), Nonlinear Regression Analysis,
 /// section 6.1 (profile t plots).
-[[nodiscard]] std::vector<std::optional<IntervalCheck>> check_intervals(
-    const FitSpec& spec, const Parameters& parameters, const Objective& objective, const Covariance& errors,
-    const Objective::Evaluation& best, const Eigen::VectorXd& minimum, double quantile,
-    const Estimate& estimate);
+[[nodiscard]] std::vector<std::optional<IntervalCheck>> check_intervals(const Minimum& minimum,
+                                                                        const Estimate& estimate);
 
 inline constexpr double kMostOff = 1.5;
 

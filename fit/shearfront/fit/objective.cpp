@@ -95,6 +95,12 @@ void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* con
   at.is_valid = at.jacobian.allFinite();
 }
 
+VectorXd Objective::gradient(const Evaluation& at) const {
+  VectorXd weighted = at.residuals;
+  for (double& r : weighted) r *= loss_(r * r).first;
+  return at.jacobian.transpose() * weighted;
+}
+
 const Objective::Evaluation& Objective::evaluate(const VectorXd& u, bool with_jacobian) {
   const bool is_last = last_u_.size() == u.size() && last_u_ == u;
   if (!is_last) {

@@ -39,6 +39,8 @@ class Objective {
     double misfit = 0;             ///< infinite if not valid
     Eigen::VectorXd column_error;  ///< of a numeric jacobian from inspect(), relative; empty: rounding only
   };
+  /// dF/du = sum_i rho'(r_i^2) r_i dr_i/du from an evaluation with its Jacobian.
+  [[nodiscard]] Eigen::VectorXd gradient(const Evaluation& at) const;
 
   Objective(const Parameters& parameters, const Coordinates& coordinates, const ForwardSpec& forward,
             ResidualRows rows, Loss loss, RunControl& control);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "shearfront/io/text.hpp"
 
@@ -36,16 +37,23 @@ std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entri
 }  // namespace
 
 Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
-    : scene_(scene), shape_(unknown.shape) {
+    : scene_(scene), start_scene_(scene), shape_(unknown.shape) {
   Complaints complaints;
   resolve(unknown, complaints);
   if (complaints.empty()) set_defaults();
   if (complaints.empty()) set_numbers(unknown, complaints);
   if (complaints.empty()) check_shape(complaints);
-  if (complaints.empty())
-    for (const Complaint& complaint : find_complaints(scene_with(start())))
-      complaints.push_back({"unknown.start", "", "makes an invalid scene: " + complaint.text()});
+  if (complaints.empty()) make_start_scene(complaints);
   if (!complaints.empty()) throw InputError(std::move(complaints));
+}
+
+void Parameters::make_start_scene(Complaints& complaints) {
+  auto made = Scene<double>::make(scene_with(start()));
+  if (auto* scene = std::get_if<Scene<double>>(&made))
+    start_scene_ = std::move(*scene);
+  else
+    for (const Complaint& complaint : std::get<Complaints>(made))
+      complaints.push_back({"unknown.start", "", "makes an invalid scene: " + complaint.text()});
 }
 
 void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
@@ -53,7 +61,7 @@ void Parameters::resolve(const UnknownSpec& unknown, Complaints& complaints) {
   std::set<std::size_t> taken;
   if (unknown.parameters.empty())
     complaints.push_back({"unknown.parameters", count_text(0),
-                        "must name at least one entry of the scene: " + joined(field_names(all))});
+                          "must name at least one entry of the scene: " + joined(field_names(all))});
   for (std::size_t i = 0; i < unknown.parameters.size(); ++i) {
     const std::string& name = unknown.parameters[i];
     bool found = false, twice = false;
@@ -96,7 +104,7 @@ void Parameters::set_numbers(const UnknownSpec& unknown, Complaints& complaints)
     if (numbers.empty()) return;
     if (numbers.size() != size()) {
       complaints.push_back({key, count_text(numbers.size()),
-                          "must have one number per unknown (" + std::to_string(size()) + ")"});
+                            "must have one number per unknown (" + std::to_string(size()) + ")"});
       return;
     }
     for (std::size_t i = 0; i < size(); ++i) parameters_[i].*member = numbers[i];
@@ -120,7 +128,7 @@ void Parameters::set_numbers(const UnknownSpec& unknown, Complaints& complaints)
           {element("unknown.lower", i), number_text(p.lower), "must be > 0 (" + p.name() + ")"});
     else if (!(p.lower < p.upper))
       complaints.push_back({element("unknown.lower", i), number_text(p.lower),
-                          "must be less than upper (" + number_text(p.upper) + ")"});
+                            "must be less than upper (" + number_text(p.upper) + ")"});
     else if (!(p.start >= p.lower && p.start <= p.upper))
       complaints.push_back(
           {element("unknown.start", i), number_text(p.start),
@@ -132,7 +140,8 @@ void Parameters::check_shape(Complaints& complaints) const {
   if (shape_ == Shape::none) return;
   const std::string name = shape_ == Shape::decreasing ? "\"decreasing\"" : "\"convex\"";
   std::size_t n_values = 0;
-  for (const Entry& entry : shearfront::entries(scene_.spec())) n_values += entry.field == "shear_rate.values" ? 1 : 0;
+  for (const Entry& entry : shearfront::entries(scene_.spec()))
+    n_values += entry.field == "shear_rate.values" ? 1 : 0;
   std::vector<double> values;
   for (const Parameter& p : parameters_)
     if (p.entry.field == "shear_rate.values") {
@@ -183,12 +192,10 @@ SceneSpec<double> Parameters::scene_with(const Eigen::VectorXd& values) const {
 }
 
 std::optional<Scene<double>> Parameters::scene_at(const Eigen::VectorXd& values, std::string& failure) const {
-  SceneSpec<double> spec = scene_with(values);
-  if (const Complaints complaints = find_complaints(spec); !complaints.empty()) {
-    failure = complaints.front().text();
-    return std::nullopt;
-  }
-  return Scene<double>(std::move(spec));
+  auto made = Scene<double>::make(scene_with(values));
+  if (auto* scene = std::get_if<Scene<double>>(&made)) return std::move(*scene);
+  failure = std::get<Complaints>(made).front().text();
+  return std::nullopt;
 }
 
 }  // namespace shearfront::fit

@@ -39,6 +39,8 @@ class Parameters {
   [[nodiscard]] auto end() const { return parameters_.end(); }
   [[nodiscard]] Shape shape() const { return shape_; }
   [[nodiscard]] const Scene<double>& scene() const { return scene_; }
+  /// The scene at the start values.
+  [[nodiscard]] const Scene<double>& start_scene() const { return start_scene_; }
   /// Place of each parameter among entries(scene().spec()).
   [[nodiscard]] const std::vector<std::size_t>& entries() const { return places_; }
   [[nodiscard]] Eigen::VectorXd start() const;
@@ -55,8 +57,9 @@ class Parameters {
   void set_defaults();
   void set_numbers(const UnknownSpec& unknown, Complaints& complaints);
   void check_shape(Complaints& complaints) const;
+  void make_start_scene(Complaints& complaints);
 
-  Scene<double> scene_;
+  Scene<double> scene_, start_scene_;
   std::vector<Parameter> parameters_;
   std::vector<std::size_t> places_;  ///< of each parameter in entries(scene)
   Shape shape_ = Shape::none;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -159,26 +160,23 @@ double scale_of(const Covariance& errors, const Estimate& estimate, Index j) {
   return std::isfinite(scale) && scale > 0 ? scale : estimate.sigma * estimate.sigma;
 }
 
-/// What is to be said of ends that stay open.
-void warn_of_open_ends(const std::string& name, const Interval& interval, const Interval& edges,
-                       const std::string& failure_below, const std::string& failure_above,
+/// What is to be said of a lower and an upper end that stay open.
+void warn_of_open_ends(const std::string& name, const std::array<End, 2>& ends,
                        std::vector<std::string>& warnings) {
-  const bool low = std::isfinite(interval.low), high = std::isfinite(interval.high);
-  const auto edge = [&](double at, std::string_view end, std::string_view beyond,
-                        const std::string& failure) {
-    if (std::isnan(at)) return;
-    warnings.push_back(fmt::format(
-        "{}: no {} end of its 95 % profile interval {} to {}, {} which the model has no solution: {}", name,
-        end, end == "lower" ? "down" : "up", number_text(at, 3), beyond, failure));
-  };
-  edge(edges.low, "lower", "below", failure_below);
-  edge(edges.high, "upper", "above", failure_above);
-  const bool bounds_low = !low && std::isnan(edges.low), bounds_high = !high && std::isnan(edges.high);
-  if (!bounds_low && !bounds_high) return;
-  warnings.push_back(fmt::format("{}: these data give no {}95 % profile interval within its bounds", name,
-                                 !bounds_low    ? "upper end of its "
-                                 : !bounds_high ? "lower end of its "
-                                                : ""));
+  constexpr std::string_view kEnd[] = {"lower", "upper"}, kWay[] = {"down", "up"},
+                             kBeyond[] = {"below", "above"};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!std::isnan(ends[i].edge))
+      warnings.push_back(fmt::format(
+          "{}: no {} end of its 95 % profile interval {} to {}, {} which the model has no solution: {}", name,
+          kEnd[i], kWay[i], number_text(ends[i].edge, 3), kBeyond[i], ends[i].failure));
+  const auto meets_bound = [](const End& end) { return std::isnan(end.place) && std::isnan(end.edge); };
+  const bool low = meets_bound(ends[0]), high = meets_bound(ends[1]);
+  if (low || high)
+    warnings.push_back(fmt::format("{}: these data give no {}95 % profile interval within its bounds", name,
+                                   low && high ? ""
+                                   : low       ? "lower end of its "
+                                               : "upper end of its "));
 }
 
 /// All that the profiles of one fit have in common.
@@ -227,24 +225,21 @@ class Profiler {
     // Refits of one parameter may take as long as the fit itself did.
     RunControl control(local_.max_evaluations, progress_);
     Objective refitted(parameters_, coordinates_, forward_, objective_.rows(), objective_.loss(), control);
-    Interval interval, edges;
-    std::string failure_below, failure_above;
-    const auto find = [&](double direction, double bound, double& place, double& edge, std::string& failure) {
+    std::array<End, 2> ends;
+    for (const std::size_t i : {0, 1}) {
       Side side(refitted, local_, coordinates_.coordinates(parameters_.start()), u_, best_.misfit, j,
-                direction);
-      End end = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j), bound);
+                i == 0 ? -1 : 1);
+      ends[i] = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j),
+                         (i == 0 ? coordinates_.lower() : coordinates_.upper())[j]);
+      ends[i].place = value(j, ends[i].place);
+      ends[i].edge = value(j, ends[i].edge);
       found_lower_ = found_lower_ || side.found_lower();
-      place = value(j, end.place);
-      edge = value(j, end.edge);
-      failure = std::move(end.failure);
-    };
-    find(-1, coordinates_.lower()[j], interval.low, edges.low, failure_below);
-    find(1, coordinates_.upper()[j], interval.high, edges.high, failure_above);
+    }
     if (control.is_interrupted()) return false;
     const auto k = static_cast<std::size_t>(j);
-    if (std::isfinite(interval.low) || std::isfinite(interval.high)) profiles_.intervals[k] = interval;
-    warn_of_open_ends(parameters_[k].name(), interval, edges, failure_below, failure_above,
-                      profiles_.warnings);
+    if (std::isfinite(ends[0].place) || std::isfinite(ends[1].place))
+      profiles_.intervals[k] = Interval{ends[0].place, ends[1].place};
+    warn_of_open_ends(parameters_[k].name(), ends, profiles_.warnings);
     return true;
   }
 

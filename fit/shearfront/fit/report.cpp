@@ -8,12 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "shearfront/fit/covariance.hpp"
 #include "shearfront/fit/interval_check.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/residual_structure.hpp"
-#include "shearfront/fit/warnings.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -64,10 +62,11 @@ void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
   estimate.bic = chi2 + p * std::log(n);
 }
 
-void set_error_bars(const Objective& objective, const Covariance& errors, const SearchResult& found,
-                    double quantile, const Parameters& parameters, Estimate& estimate) {
-  const MatrixXd cov = parameter_covariance(errors, objective.coordinates().derivative(found.u));
-  const auto n = found.u.size();
+void set_error_bars(const Minimum& minimum, Estimate& estimate) {
+  const MatrixXd cov =
+      parameter_covariance(minimum.errors, minimum.objective.coordinates().derivative(minimum.u));
+  const auto n = minimum.u.size();
+  const double quantile = minimum.quantile;
   estimate.correlation = MatrixXd::Constant(n, n, kNaN);
   const auto has_error = [&](Index a) {
     return !estimate.parameters[static_cast<std::size_t>(a)].at_bound && cov(a, a) > 0 &&
@@ -78,7 +77,7 @@ void set_error_bars(const Objective& objective, const Covariance& errors, const 
     ParameterEstimate& parameter = estimate.parameters[static_cast<std::size_t>(a)];
     const double error = std::sqrt(cov(a, a));
     parameter.std_error = error;
-    if (parameters[static_cast<std::size_t>(a)].entry.range == Range::positive) {
+    if (minimum.parameters[static_cast<std::size_t>(a)].entry.range == Range::positive) {
       const double factor = std::exp(quantile * error / parameter.estimate);
       parameter.ci95 = {parameter.estimate / factor, parameter.estimate * factor};
     } else {
@@ -108,40 +107,35 @@ bool hold_near_bounds(const Coordinates& coordinates, const VectorXd& u, const C
   return any;
 }
 
-/// Sets the noise; covariance, and quantile of the 95 % intervals.
-std::pair<Covariance, double> errors_of(const FitSpec& spec, const Objective& objective,
-                                        const Objective::Evaluation& best, const VectorXd& u,
-                                        Estimate& estimate) {
-  std::vector<bool> held = objective.coordinates().at_bound(u);
-  const auto with_held = [&] {
-    double quantile = boost::math::quantile(boost::math::normal(), kTail);
-    estimate.sigma_is_given = spec.observations.has_sigma();
-    estimate.sigma = 1;
-    if (!estimate.sigma_is_given) {
-      const Noise noise = noise_of(objective, spec.observations, best, estimate.predicted,
-                                   static_cast<std::size_t>(std::count(held.begin(), held.end(), false)));
-      estimate.sigma = noise.sigma;
-      estimate.freedom = noise.freedom;
-      if (noise.freedom > 0) quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
-    }
-    return std::pair(
-        covariance(objective.rows(), spec.observations, best, objective.loss(), estimate.sigma, held),
-        quantile);
-  };
-  auto result = with_held();
-  if (hold_near_bounds(objective.coordinates(), u, result.first, held)) result = with_held();
-  return result;
+/// Sets the noise, the covariance, and the quantile of the 95 % intervals, with these coordinates held.
+void set_errors(Minimum& minimum, const std::vector<bool>& held, Estimate& estimate) {
+  const Observations& observations = minimum.spec.observations;
+  const Objective& objective = minimum.objective;
+  minimum.quantile = boost::math::quantile(boost::math::normal(), kTail);
+  estimate.sigma_is_given = observations.has_sigma();
+  estimate.sigma = 1;
+  if (!estimate.sigma_is_given) {
+    const Noise noise = noise_of(objective, observations, minimum.at, estimate.predicted,
+                                 static_cast<std::size_t>(std::count(held.begin(), held.end(), false)));
+    estimate.sigma = noise.sigma;
+    estimate.freedom = noise.freedom;
+    if (noise.freedom > 0)
+      minimum.quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
+  }
+  minimum.errors =
+      covariance(objective.rows(), observations, minimum.at, objective.loss(), estimate.sigma, held);
 }
 
-void mark_bounds(const Coordinates& coordinates, const Parameters& parameters, const std::vector<bool>& held,
-                 Estimate& estimate) {
+void mark_bounds(const Minimum& minimum, Estimate& estimate) {
+  const Parameters& parameters = minimum.parameters;
+  const std::vector<bool>& held = minimum.errors.held;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = estimate.parameters[i].estimate;
     estimate.parameters[i].at_bound = value <= parameters[i].lower || value >= parameters[i].upper;
   }
   for (std::size_t j = 0; j < held.size(); ++j)
     if (held[j])
-      for (const Index i : coordinates.bound_together(static_cast<Index>(j)))
+      for (const Index i : minimum.objective.coordinates().bound_together(static_cast<Index>(j)))
         estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
 }
 
@@ -158,7 +152,8 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   estimate.evaluations = objective.control().evaluations();
   estimate.steps = objective.control().steps();
   estimate.misfit = found.misfit;
-  const Objective::Evaluation best = objective.inspect(found.u, true);
+  Minimum minimum{spec, parameters, objective, found.u, objective.inspect(found.u, true), {}, 0};
+  const Objective::Evaluation& best = minimum.at;
   for (const Parameter& p : parameters) {
     ParameterEstimate& parameter = estimate.parameters.emplace_back();
     parameter.name = p.name();
@@ -185,16 +180,19 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   estimate.residual_norm = std::sqrt(squares);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     estimate.parameters[i].estimate = values[static_cast<Index>(i)];
-  const auto [errors, quantile] = errors_of(spec, objective, best, found.u, estimate);
-  mark_bounds(objective.coordinates(), parameters, errors.held, estimate);
-  set_error_bars(objective, errors, found, quantile, parameters, estimate);
+  std::vector<bool> held = objective.coordinates().at_bound(found.u);
+  set_errors(minimum, held, estimate);
+  if (hold_near_bounds(objective.coordinates(), found.u, minimum.errors, held))
+    set_errors(minimum, held, estimate);
+  mark_bounds(minimum, estimate);
+  set_error_bars(minimum, estimate);
   set_information_criteria(spec, estimate);
   if (found.status != Status::interrupted) {
-    auto checks = check_intervals(spec, parameters, objective, errors, best, found.u, quantile, estimate);
+    auto checks = check_intervals(minimum, estimate);
     for (std::size_t i = 0; i < checks.size(); ++i) estimate.parameters[i].check = std::move(checks[i]);
   }
   estimate.structure = residual_structure(spec.observations, estimate.predicted);
-  estimate.warnings = warnings(spec, parameters, objective, errors, best, estimate);
+  estimate.warnings = warnings(minimum, estimate);
   return estimate;
 }
 

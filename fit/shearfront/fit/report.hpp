@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/covariance.hpp"
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/fit/objective.hpp"
@@ -7,8 +11,24 @@
 
 namespace shearfront::fit {
 
+/// Where a search ended: what error bars, checks and warnings are made of.
+struct Minimum {
+  const FitSpec& spec;
+  const Parameters& parameters;
+  const Objective& objective;
+  Eigen::VectorXd u;         ///< the coordinates
+  Objective::Evaluation at;  ///< with its Jacobian
+  Covariance errors;
+  double quantile = 0;  ///< half width of a 95 % interval in standard errors
+};
+
 /// What a search found, with error bars, predictions and warnings.
 [[nodiscard]] Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
                               const SearchResult& found);
+
+/// What a reader of the estimate must know, one sentence each: parameters at a bound, not seen by the data,
+/// or confounded with others (with the direction that cannot be determined); intervals that are not to be
+/// trusted; residuals with structure or far larger than their sigma; too few data.
+[[nodiscard]] std::vector<std::string> warnings(const Minimum& minimum, const Estimate& estimate);
 
 }  // namespace shearfront::fit

@@ -55,6 +55,12 @@ class RowBuilder {
   /// A coefficient of observation k; the same k again right afterwards adds up.
   void data(std::size_t k, double coefficient);
   void finish_row();
+  /// Observation k against X at its place.
+  void row_of(std::size_t k) {
+    model(observations_->rows[k].t, observations_->rows[k].z, 1);
+    data(k, 1);
+    finish_row();
+  }
   /// Finishes the row and starts the next one with its terms: running sums.
   void finish_row_of_sum();
   void clear_row() { row_ = {}; }

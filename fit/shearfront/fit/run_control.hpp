@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
-#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "shearfront/fit/estimate.hpp"
+
 namespace shearfront::fit {
-
-/// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
-/// the best point found (Status::interrupted).
-using Progress = std::function<bool(std::size_t evaluations, double best_misfit)>;
-
-/// The smallest misfit after so many evaluations: a curve for the picture of a search.
-struct SearchStep {
-  std::size_t evaluations = 0;
-  double misfit = 0;
-  std::size_t stage = 0;  ///< misfits of different stages cannot be compared
-};
 
 /// Counts the evaluations of a whole fit, over all its searches, and ends it when told to.
 class RunControl {

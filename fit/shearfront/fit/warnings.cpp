@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/warnings.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "shearfront/fit/report.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
@@ -62,15 +61,11 @@ std::string names_of(const Parameters& parameters, const std::vector<Index>& whi
 
 class Writer {
  public:
-  Writer(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
-         const Covariance& errors, const Objective::Evaluation& best, const Estimate& estimate)
-      : spec_(spec),
-        parameters_(parameters),
-        coordinates_(objective.coordinates()),
-        rows_(objective.rows()),
-        robust_(objective.loss().is_robust),
-        errors_(errors),
-        best_(best),
+  Writer(const Minimum& minimum, const Estimate& estimate)
+      : spec_(minimum.spec),
+        parameters_(minimum.parameters),
+        coordinates_(minimum.objective.coordinates()),
+        minimum_(minimum),
         estimate_(estimate) {}
 
   std::vector<std::string> operator()() {
@@ -98,7 +93,7 @@ class Writer {
     for (Index j = 0; j < coordinates_.size(); ++j) {
       const std::vector<Index> together = coordinates_.bound_together(j);
       const bool is_lower = u[j] - coordinates_.lower()[j] < coordinates_.upper()[j] - u[j];
-      if (!errors_.held[static_cast<std::size_t>(j)] || together.size() < 2 || !is_lower) continue;
+      if (!minimum_.errors.held[static_cast<std::size_t>(j)] || together.size() < 2 || !is_lower) continue;
       shaped.insert(together.begin(), together.end());
       const bool is_convex = parameters_.shape() == Shape::convex;
       texts_.push_back(fmt::format(
@@ -132,7 +127,7 @@ class Writer {
     const MatrixXd derivative =
         coordinates_.derivative(coordinates_.coordinates(values_));  // of the parameters
     std::vector<Index> unseen;
-    for (const auto direction : errors_.null_directions.colwise()) {
+    for (const auto direction : minimum_.errors.null_directions.colwise()) {
       VectorXd change = derivative * direction;
       for (Index i = 0; i < change.size(); ++i)
         if (is_relative(i)) change[i] /= values_[i];
@@ -221,8 +216,9 @@ class Writer {
     const std::string_view measured = name_of(spec_.observations.quantity);
     const std::string& compared = spec_.misfit.quantity;
     if (compared.empty() || compared == measured) return;
-    const bool makes_rows = std::any_of(rows_.rows.begin(), rows_.rows.end(),
-                                        [](const ResidualRows::Row& row) { return row.data.size() > 1; });
+    const bool makes_rows =
+        std::any_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
+                    [](const ResidualRows::Row& row) { return row.data.size() > 1; });
     const bool from_points = spec_.observations.quantity == Quantity::point;
     texts_.push_back(fmt::format(
         "the data are {} values but are compared as {}: {}{}", measured, compared,
@@ -260,13 +256,14 @@ class Writer {
 
   /// Only for rows that are single observations: the others are correlated and follow another law.
   void chi_squared() {
-    const bool is_direct = std::all_of(rows_.rows.begin(), rows_.rows.end(),
-                                       [](const ResidualRows::Row& row) { return row.data.size() == 1; });
-    const auto n_known =
-        std::count(errors_.held.begin(), errors_.held.end(), true) + errors_.null_directions.cols();
-    const auto freedom = static_cast<double>(best_.residuals.size() - values_.size() + n_known);
+    const bool is_direct =
+        std::all_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
+                    [](const ResidualRows::Row& row) { return row.data.size() == 1; });
+    const auto n_known = std::count(minimum_.errors.held.begin(), minimum_.errors.held.end(), true) +
+                         minimum_.errors.null_directions.cols();
+    const auto freedom = static_cast<double>(minimum_.at.residuals.size() - values_.size() + n_known);
     if (!estimate_.sigma_is_given || !is_direct || !(freedom > 0)) return;
-    const Size size = !robust_ ? size_by_squares(freedom) : size_by_median();
+    const Size size = !minimum_.objective.loss().is_robust ? size_by_squares(freedom) : size_by_median();
     if (size.chance > kChance || (size.reduced < kLargeChi2 && size.reduced > 1 / kLargeChi2)) return;
     const bool is_large = size.reduced > 1;
     texts_.push_back(fmt::format(
@@ -284,7 +281,7 @@ class Writer {
     std::string_view name;
   };
   [[nodiscard]] Size size_by_squares(double freedom) const {
-    const double chi2 = best_.residuals.squaredNorm();
+    const double chi2 = minimum_.at.residuals.squaredNorm();
     const boost::math::chi_squared law(freedom);
     const double chance =
         chi2 > freedom ? boost::math::cdf(boost::math::complement(law, chi2)) : boost::math::cdf(law, chi2);
@@ -293,7 +290,7 @@ class Writer {
   /// Gross errors, for which a robust loss is chosen, say nothing about sigma.
   [[nodiscard]] Size size_by_median() const {
     constexpr double kMedian = 0.674489750196082;  // of |r|, r standard normal
-    VectorXd sizes = best_.residuals.cwiseAbs();
+    VectorXd sizes = minimum_.at.residuals.cwiseAbs();
     const auto n = static_cast<double>(sizes.size());
     const auto beyond = static_cast<double>((sizes.array() > kMedian).count());
     std::sort(sizes.begin(), sizes.end());
@@ -306,10 +303,7 @@ class Writer {
   const FitSpec& spec_;
   const Parameters& parameters_;
   const Coordinates& coordinates_;
-  const ResidualRows& rows_;
-  bool robust_;
-  const Covariance& errors_;
-  const Objective::Evaluation& best_;
+  const Minimum& minimum_;
   const Estimate& estimate_;
   VectorXd values_;
   std::vector<std::string> texts_;
@@ -317,10 +311,8 @@ class Writer {
 
 }  // namespace
 
-std::vector<std::string> warnings(const FitSpec& spec, const Parameters& parameters,
-                                  const Objective& objective, const Covariance& errors,
-                                  const Objective::Evaluation& best, const Estimate& estimate) {
-  return Writer(spec, parameters, objective, errors, best, estimate)();
+std::vector<std::string> warnings(const Minimum& minimum, const Estimate& estimate) {
+  return Writer(minimum, estimate)();
 }
 
 }  // namespace shearfront::fit

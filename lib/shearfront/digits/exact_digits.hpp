@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "shearfront/solution/timeline_text.hpp"
+#include "shearfront/solution/timeline.hpp"
 
 namespace shearfront {
 

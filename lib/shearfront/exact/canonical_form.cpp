@@ -54,31 +54,13 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       exponential_(exponential_of(*scene_)),
       layers_(layers_of(*scene_, layers, exponential_.has_value())) {
   if (is_identity_) {
-    set_identity();
+    for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
+    mass_ = scene_->mass();
     return;
   }
   set_layers();
   set_initial_data();
   mass_ = image_mass();
-}
-
-template <Real Scalar>
-void CanonicalForm<Scalar>::set_identity() {
-  const std::size_t n = layers_.n_layers();
-  lowest_ = {Scalar(0)};
-  highest_ = width_ = {Scalar(1)};
-  stretch_.assign(n, Scalar(1));
-  rate_factor_.assign(n, Scalar(1));
-  y_ = layers_.boundaries();
-  for (std::size_t k = 0; k < n; ++k) rates_.push_back(layers_.rate(k));
-  initial_breaks_ = scene_->initial_breaks();
-  initial_values_ = scene_->initial_values();
-  for (std::size_t j = 0; j < initial_values_.size(); ++j) {
-    initial_piece_.push_back(j);
-    initial_layer_.push_back(0);  // one flux everywhere
-    if (j > 0) initial_break_.push_back(j - 1);
-  }
-  mass_ = scene_->mass();
 }
 
 template <Real Scalar>
@@ -118,12 +100,14 @@ void CanonicalForm<Scalar>::set_layers() {
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::state_of(const Scalar& share, std::size_t k) const {
+  if (is_identity_) return share;
   const std::size_t i = layers_.flux_index(k);
   return (is_concave_ ? highest_[i] - share : share - lowest_[i]) / width_[i];
 }
 
 template <Real Scalar>
 Scalar CanonicalForm<Scalar>::share_of(const Scalar& u, std::size_t k) const {
+  if (is_identity_) return u;
   const std::size_t i = layers_.flux_index(k);
   return is_concave_ ? highest_[i] - u * width_[i] : lowest_[i] + u * width_[i];
 }

@@ -49,30 +49,44 @@ class CanonicalForm {
   [[nodiscard]] const LayerStack<Scalar>& layers() const { return layers_; }
 
   /// The image: heights of bottom, interfaces and top; 4 times the capacity of each layer; initial data; int u dy.
-  [[nodiscard]] const std::vector<Scalar>& boundaries() const { return y_; }
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const {
+    return is_identity_ ? layers_.boundaries() : y_;
+  }
   [[nodiscard]] const std::vector<Scalar>& rates() const { return rates_; }
-  [[nodiscard]] const std::vector<Scalar>& initial_breaks() const { return initial_breaks_; }
-  [[nodiscard]] const std::vector<Scalar>& initial_values() const { return initial_values_; }
+  [[nodiscard]] const std::vector<Scalar>& initial_breaks() const {
+    return is_identity_ ? scene_->initial_breaks() : initial_breaks_;
+  }
+  [[nodiscard]] const std::vector<Scalar>& initial_values() const {
+    return is_identity_ ? scene_->initial_values() : initial_values_;
+  }
   [[nodiscard]] const Scalar& mass() const { return mass_; }
 
   /// dy / dz in layer k.
-  [[nodiscard]] const Scalar& stretch(std::size_t k) const { return stretch_[k]; }
+  [[nodiscard]] Scalar stretch(std::size_t k) const { return is_identity_ ? Scalar(1) : stretch_[k]; }
   /// rates() in layer k over s a sqrt(T): the factor 4 c |f(m)|.
-  [[nodiscard]] const Scalar& rate_factor(std::size_t k) const { return rate_factor_[k]; }
+  [[nodiscard]] Scalar rate_factor(std::size_t k) const { return is_identity_ ? Scalar(1) : rate_factor_[k]; }
   /// +1 for convex fluxes, -1 for concave ones: the sign of d(int phi dz) / d(int u dy).
   [[nodiscard]] Scalar sign() const { return Scalar(is_concave_ ? -1 : 1); }
   /// d(phi / c) / du in layer k.
-  [[nodiscard]] Scalar state_slope(std::size_t k) const { return sign() * width_[layers_.flux_index(k)]; }
+  [[nodiscard]] Scalar state_slope(std::size_t k) const {
+    return is_identity_ ? Scalar(1) : sign() * width_[layers_.flux_index(k)];
+  }
   /// u of the share phi / c in layer k, and back.
   [[nodiscard]] Scalar state_of(const Scalar& share, std::size_t k) const;
   [[nodiscard]] Scalar share_of(const Scalar& u, std::size_t k) const;
   /// Piece of the scene's initial data to which piece j of the image's belongs.
-  [[nodiscard]] std::size_t initial_piece(std::size_t j) const { return initial_piece_[j]; }
+  [[nodiscard]] std::size_t initial_piece(std::size_t j) const {
+    return is_identity_ ? j : initial_piece_[j];
+  }
   /// Lowest layer of piece j of the image's initial data; all of its layers have the same flux.
-  [[nodiscard]] std::size_t initial_layer(std::size_t j) const { return initial_layer_[j]; }
+  [[nodiscard]] std::size_t initial_layer(std::size_t j) const {
+    return is_identity_ ? 0 : initial_layer_[j];
+  }
   /// Initial jump of the scene that jump j of the image's data is; kNone where only the range of states
   /// jumps.
-  [[nodiscard]] std::size_t initial_break(std::size_t j) const { return initial_break_[j]; }
+  [[nodiscard]] std::size_t initial_break(std::size_t j) const {
+    return is_identity_ ? j : initial_break_[j];
+  }
 
   [[nodiscard]] Scalar image_of(const Scalar& z) const;
   [[nodiscard]] Scalar height_of(const Scalar& y) const;
@@ -83,7 +97,6 @@ class CanonicalForm {
   [[nodiscard]] Profile<Scalar> image_of(const Profile<Scalar>& profile) const;
 
  private:
-  void set_identity();
   void set_layers();
   void set_initial_data();
   [[nodiscard]] Scalar image_mass() const;
@@ -92,12 +105,15 @@ class CanonicalForm {
   bool is_identity_, is_concave_, is_parabolic_;
   std::optional<ExponentialPiece<Scalar>> exponential_;
   LayerStack<Scalar> layers_;
+  // Empty in the identity:
   std::vector<Scalar> lowest_, highest_, width_;  ///< per flux
   std::vector<Scalar> stretch_, rate_factor_;     ///< per layer
-  std::vector<Scalar> y_, rates_;
+  std::vector<Scalar> y_;
   std::vector<Scalar> least_, most_;  ///< per boundary: int c lo dz and int c hi dz from the bottom
   std::vector<Scalar> initial_breaks_, initial_values_;
   std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
+
+  std::vector<Scalar> rates_;
   Scalar mass_{0};
 };
 

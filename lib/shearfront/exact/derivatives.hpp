@@ -19,10 +19,12 @@ template <Real Scalar>
 /// phi, M and their exact derivatives with respect to the entries of a scene; the domain walls stay where they are.
 ///
 /// M by the envelope theorem (the minimising path held fixed): with T_k the time the path spends in layer k,
+///
 ///     dM/da_k = H T_k / a_k  (+ (s / 4) (time at rest) if layer k limits the interface at which it rests),
-///     dM/ds = H t / s,   dM/dz_i = +-(p_below - p_above) for an interface crossed (+ going up),
-///     dM/dx_j = (phi_below - p_start) for the jump where the path starts, (phi_below - phi_above) for jumps
-///     below it.
+///     dM/ds   = H t / s,
+///     dM/dz_i = +-(p_below - p_above) for an interface crossed (+ going up),
+///     dM/dx_j = (phi_below - p_start) for the jump where the path starts, (phi_below - phi_above) for jumps below it.
+///
 /// phi by the implicit function theorem: T(H) = t for a fan, H = s min(a) / 4 for a path at rest, H the flux of the state
 /// for a constant one; then p(H) in the layer of z. From the numbers of the pieces to the entries of the scene by the
 /// chain rule: a layer's mean by the model's harmonic_mean_derivatives, its ends by the knots they lie between. So the

@@ -57,8 +57,8 @@ bool is_steady(const std::vector<Scalar>& states) {
 /// real volume) makes way for the best moving one, whose shortfall decides. Precondition: M(z, 0) < amount.
 /// `start` is any positive guess. Cost: about 10 queries.
 template <Real Scalar>
-Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
-                                const Scalar& start, const Scalar& height) {
+Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount, const Scalar& start,
+                  const Scalar& height) {
   const Scalar u = unit_roundoff<Scalar>();
   const Scalar tie = Scalar(64) * u * height;
   const auto shortfall = [&](const Path<Scalar>& path, const Scalar& time) {
@@ -104,7 +104,7 @@ Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amo
 /// `late` is no earlier. Cost: 60 queries.
 template <Real Scalar>
 Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
-                                            const Scalar& late, const Scalar& height) {
+                              const Scalar& late, const Scalar& height) {
   const Scalar u = unit_roundoff<Scalar>(), tie = Scalar(64) * u * height;
   const auto is_reached = [&](const Scalar& time) {
     const Path<Scalar> best = medium.best_free(z, time, infinity<Scalar>());
@@ -126,7 +126,8 @@ bool has_contacts(const Scene<Scalar>& scene) {
     return std::visit(
         [](const auto& f) {
           const Scalar m = f.extrema().front();
-          return !f.kIsParabola && (is_straight(f, f.range().lowest, m) || is_straight(f, m, f.range().highest));
+          return !f.kIsParabola &&
+                 (is_straight(f, f.range().lowest, m) || is_straight(f, m, f.range().highest));
         },
         flux);
   });
@@ -145,7 +146,8 @@ class Events {
     events.t1 = at_wall(true);
     events.t_star = is_steady(form_.initial_values()) ? Scalar(0) : last_time(medium_.steady_height());
     if (!form_.scene().is_layered()) return events;
-    for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i) events.interfaces.push_back(at_interface(i));
+    for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i)
+      events.interfaces.push_back(at_interface(i));
     return events;
   }
 
@@ -185,8 +187,8 @@ class Events {
     const auto amount = y < steady_height   ? FinalAmount::full_below
                         : y > steady_height ? FinalAmount::all_mass
                                             : FinalAmount::both;
-    const Scalar start = std::max(medium_.pure_travel_time(medium_.bottom(), y),
-                                  medium_.pure_travel_time(medium_.top(), y));
+    const Scalar start =
+        std::max(medium_.pure_travel_time(medium_.bottom(), y), medium_.pure_travel_time(medium_.top(), y));
     const Scalar height = medium_.top() - medium_.bottom();
     const Scalar t = final_time(medium_, y, amount, start, height);
     return has_contacts_ ? final_time_of_contacts(medium_, y, amount, t, height) : t;
@@ -202,7 +204,8 @@ class Events {
 template <Real Scalar>
 Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
   const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::default_layers(scene);
-  const CanonicalForm<Scalar> form(std::make_shared<const Scene<Scalar>>(scene), n);
+  const std::shared_ptr<const Scene<Scalar>> not_owned(std::shared_ptr<void>(), &scene);
+  const CanonicalForm<Scalar> form(not_owned, n);
   const auto medium = exact::make_medium(form);
   Timeline<Scalar> events = Events<Scalar>(form, *medium).all();
   events.mass = scene.mass();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/solution/share_function.hpp"
+#include "shearfront/solution/field.hpp"
 
 namespace shearfront {
 

@@ -23,9 +23,9 @@ namespace shearfront {
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
 /// it, at the top the value below. Guarantees: (1) layered scenes, and exponential a in a bed of one
 /// parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
-/// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux 0 <= phi <=
-/// 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds; (3) other
-/// smooth a, c, T: the exact solution of a staircase of layers (harmonic means), of order 3/2 in the layer
+/// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
+/// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
+/// (3) other smooth a, c, T: the exact solution of a staircase of layers (harmonic means), of order 3/2 in the layer
 /// height (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
 /// of M, once the change of phi, from half as many layers. Their largest value over a set of points is what
 /// to go by: at single points errors change sign; (4) const member functions are safe to call from many

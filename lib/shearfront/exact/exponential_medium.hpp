@@ -12,8 +12,8 @@ namespace shearfront::exact {
 /// With R = s a(z0) at the start, B = R t / decay and E = exp((z - z0) / decay), the momentum falls linearly,
 /// p = p0 - H t / decay, and R p0 (1 - p0) = H = s a(z) p (1 - p) gives for a path from z0 to z in the time t
 ///
-///     (1 - B (1 - p0)) (1 + B p0) = E:    p0 = 1/2 + (S - 1) / B,  p = 1/2 + (E - S) / B,  S = sqrt(E + B^2
-///     / 4), cost = decay [ log(1 + B p0) - B p0 (1 - p0) ],
+///     (1 - B (1 - p0)) (1 + B p0) = E:    p0 = 1/2 + (S - 1) / B,   p = 1/2 + (E - S) / B,
+///     S = sqrt(E + B^2 / 4),              cost = decay [ log(1 + B p0) - B p0 (1 - p0) ],
 ///
 /// one path per source, no iteration. A constant initial state p0 gives a quadratic for E, hence the foot
 /// point. Rising paths turn at s a = 4 H; those that would turn above the top are not admissible (the wall is
@@ -29,8 +29,7 @@ class ExponentialMedium final : public Medium<Scalar> {
   /// amplitude, decay
   [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
 
-  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t,
-                                            const Scalar& upper) const override;
+  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& z1, const Scalar& z2) const override;
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,

@@ -78,7 +78,8 @@ class Arrival {
       time += (cells_.x[c + 1] - cells_.x[c]) / speed(c, upward, over);
       upward ? --point : ++point;
       const bool wall = point == 0 || point + 1 == cells_.x.size();
-      if (wall && cells_.phi[c] == Scalar(upward ? 1 : 0)) return point;  // the wall's own state: never a wave
+      if (wall && cells_.phi[c] == Scalar(upward ? 1 : 0))
+        return point;  // the wall's own state: never a wave
       if (wall || !at_rest(point)) {
         arrive(time);
         return point;
@@ -143,8 +144,8 @@ class Arrival {
       const Scalar t1 = H > 0 ? beyond.time : pure_travel_time<Scalar>(law_, near, z_);
       if (!is_finite(t1)) continue;
       const Scalar t2 = t1 + width / speed(c, upward, over);
-      const Scalar gap = (upward ? cells_.M[c + 1] : cells_.M[c]) +
-                         (law_.peaks(near, z_) + beyond.Q / Scalar(2)) - M0_;
+      const Scalar gap =
+          (upward ? cells_.M[c + 1] : cells_.M[c]) + (law_.peaks(near, z_) + beyond.Q / Scalar(2)) - M0_;
       const Scalar far_gap = (upward ? cells_.M[c] : cells_.M[c + 1]) +
                              (law_.peaks(far, z_) + (beyond.Q + width * over) / Scalar(2)) - M0_;
       // On the window the gap is linear with slope H - H0; evaluated at its ends, then intersected.
@@ -175,9 +176,8 @@ class Arrival {
 
   [[nodiscard]] bool is_passable(const Scalar& x, const Scalar& H) const {
     bool passable = true;
-    law_.for_each_layer(x, z_, [&](const Scalar&, std::size_t k) {
-      passable = passable && !(law_.rate[k] < Scalar(4) * H);
-    });
+    law_.for_each_layer(
+        x, z_, [&](const Scalar&, std::size_t k) { passable = passable && !(law_.rate[k] < Scalar(4) * H); });
     return passable;
   }
 

@@ -11,8 +11,8 @@
 /// Travel times and costs of paths with constant H in a stack of layers.
 ///
 /// In layer k, with rate r_k = 4 (its capacity) and h = 4 H, a path lacks e = 1 - h / r_k to the capacity and has the
-/// momentum p = peak +- q / 2, + going up. With w = (de/dq) / 2 it moves at the speed r_k w; for a parabola q = w =
-/// sqrt(e). So
+/// momentum p = peak +- q / 2, + going up. With w = (de/dq) / 2 it moves at the speed r_k w; for a parabola
+/// q = w = sqrt(e). So
 ///
 ///     T = sum d_k / (r_k w_k),     cost = H T + int_x^z peak dz + Q / 2,     Q = sum q_k d_k.
 ///
@@ -22,9 +22,9 @@ namespace shearfront::exact {
 /// The layers with what every path needs.
 template <Real Scalar>
 struct Geometry {
-  std::vector<Scalar> boundaries;                   ///< bottom, interfaces, top
-  std::vector<Scalar> rate, inverse_rate, height;   ///< r_k, 1 / r_k, thickness of layer k
-  Scalar fastest{0};                                ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
+  std::vector<Scalar> boundaries;                  ///< bottom, interfaces, top
+  std::vector<Scalar> rate, inverse_rate, height;  ///< r_k, 1 / r_k, thickness of layer k
+  Scalar fastest{0};  ///< largest r_k: 1 / r^2 alone would overflow for tiny rates
 
   Geometry(std::vector<Scalar> heights, std::vector<Scalar> rates)
       : boundaries(std::move(heights)), rate(std::move(rates)) {

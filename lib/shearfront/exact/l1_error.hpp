@@ -32,7 +32,7 @@ struct ProfileErrors {
 /// Other fluxes, solid fraction and temperature: |phi - exact phi| dz = |u - exact u| dy in the canonical form, where
 /// all of the above is done; M_max is that of int u dy.
 ///
-/// Domain: the profile covers the scene's domain; 0 <= t <= +infinity. Guarantee: |l1 - true| <= l1_bound =
+/// Domain: the profile covers the scene's domain; 0 <= t <= +infinity. Guarantee: |l1 - true| <= l1_bound, which is
 /// 16 u (top - bottom) n_pieces for layered and exponential a, u the unit roundoff; about 1e-15 per piece in
 /// double, as a rule much less. Tabulated a: the error against the exact solution of the staircase (see
 /// ExactSolution). Cost: one query of the exact solution per cell and interface, 1 to 7 more per change of

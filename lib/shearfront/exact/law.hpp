@@ -253,8 +253,7 @@ struct UnimodalLaw : Geometry<Scalar> {
     const auto at = [&](const Scalar& x) {
       Leg<Scalar> leg;
       const auto add = [&](const Scalar& dk, std::size_t k) {
-        add_layer(*this, dk, k, sweep.upward,
-                  Scalar((this->rate[k] - fan.r_min) + fan.r_min * x * x), leg);
+        add_layer(*this, dk, k, sweep.upward, Scalar((this->rate[k] - fan.r_min) + fan.r_min * x * x), leg);
       };
       sweep.for_each_crossed(*this, add);
       if (d > 0) add(d, j);

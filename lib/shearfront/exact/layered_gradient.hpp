@@ -125,15 +125,15 @@ template <Real Scalar, class Law>
     legs.add(z_w, z);
     legs.add_rest(law.rate[w] <= law.rate[w - 1] ? w : w - 1, t);
     const bool comes = path.foot != z_w, goes = z != z_w;
-    const bool from_below = path.foot < z_w, goes_up = z > z_w;
+    const bool from_below = path.foot<z_w, goes_up = z> z_w;
     // Next to the interface, on the side the path comes from and the one it goes to.
     const auto beside = [&](bool above, bool upward) { return legs.momentum(above ? w : w - 1, upward); };
     if (comes) {
       out.start = legs.momentum(cells.layer[from_below ? path.source : path.source - 1], from_below);
       if (goes) {
         const auto in = beside(!from_below, from_below), back = beside(goes_up, goes_up);
-        out.boundaries[w - lowest].M +=
-            from_below ? Scalar((Scalar(1) - back.p) - in.missing) : Scalar((in.p - Scalar(1)) + back.missing);
+        out.boundaries[w - lowest].M += from_below ? Scalar((Scalar(1) - back.p) - in.missing)
+                                                   : Scalar((in.p - Scalar(1)) + back.missing);
       }
     } else if (goes) {  // a source at the interface itself: the start of the way back is what moves
       out.start = beside(goes_up, goes_up);

@@ -154,8 +154,7 @@ void LayeredMedium<Scalar, Law>::search_range(const Query& query, Sweep<Scalar>&
 /// The fan from point i. With `prune` false it is solved to the end even when it cannot be the best.
 template <Real Scalar, class Law>
 FanState<Scalar> LayeredMedium<Scalar, Law>::try_source(const Query& query, Sweep<Scalar>& sweep,
-                                                        std::size_t i, bool prune,
-                                                        Path<Scalar>& best) const {
+                                                        std::size_t i, bool prune, Path<Scalar>& best) const {
   FanState<Scalar> fan;
   if (i == 0 || i + 1 == cells_.x.size()) return fan;  // walls
   if (prune && !emits(i, sweep.upward)) return fan;
@@ -214,8 +213,7 @@ void LayeredMedium<Scalar, Law>::try_cell(const Query& query, const Sweep<Scalar
   if (!own) {                                          // the bound is linear in the foot point
     const Scalar limit = std::min(query.upper, best.value) + slack_;
     const auto bound = [&](std::size_t end, const Scalar& d) {
-      return Scalar(cells_.M[end] +
-                    dual_bound(law_, sweep, d, law_.peaks(cells_.x[end], query.z), query.t));
+      return Scalar(cells_.M[end] + dual_bound(law_, sweep, d, law_.peaks(cells_.x[end], query.z), query.t));
     };
     const Scalar bottom = bound(i, sweep.upward ? farthest : nearest);
     const Scalar top = bound(i + 1, sweep.upward ? nearest : farthest);
@@ -284,8 +282,8 @@ Scalar LayeredMedium<Scalar, Law>::shortfall(const Path<Scalar>& path, const Sca
       sum += -to;
     }
     law_.for_each_layer(from, to, [&](const Scalar& d, std::size_t k) {
-      const Scalar q = law_.q(k, upward, Scalar((law_.rate[k] - path.r_reference) +
-                                                path.r_reference * path.x * path.x));
+      const Scalar q =
+          law_.q(k, upward, Scalar((law_.rate[k] - path.r_reference) + path.r_reference * path.x * path.x));
       lost += d * law_.loss(k, upward, q, path.H);
     });
   };

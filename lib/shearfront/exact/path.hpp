@@ -28,8 +28,8 @@ struct Path {
   std::size_t source = 0;     ///< fan, waiting: point of Cells; constant: cell of Cells
   std::size_t interface = 0;  ///< waiting: boundary index of the interface
   Scalar foot{0};             ///< height where it starts
-  /// Layered media: 4 H = r_reference (1 - x^2), so that what layer k lacks to its capacity, (r_k - r_reference +
-  /// r_reference x^2) / r_k, keeps its accuracy near the capacity, where H alone does not.
+  /// Layered media: 4 H = r_reference (1 - x^2), so that what layer k lacks to its capacity,
+  /// (r_k - r_reference + r_reference x^2) / r_k, keeps its accuracy near the capacity, where H alone does not.
   Scalar r_reference{0}, x{1};
 
   /// Smaller value first; at a tie (a shock passes through z) the smaller p, which is the state above.

@@ -27,12 +27,10 @@ template <class Model>
 std::string refusal_of(const Model& flux) {
   const auto range = flux.range();
   const std::size_t extrema = flux.extrema().size();
-  if (flux.curvature() == Curvature::mixed)
-    return description(flux) + " is neither convex nor concave";
+  if (flux.curvature() == Curvature::mixed) return description(flux) + " is neither convex nor concave";
   if (!(flux.value(range.lowest) == 0) || !(flux.value(range.highest) == 0))
     return description(flux) + " does not vanish at both ends of its range";
-  if (extrema != 1)
-    return description(flux) + " has " + std::to_string(extrema) + " extrema instead of one";
+  if (extrema != 1) return description(flux) + " has " + std::to_string(extrema) + " extrema instead of one";
   return {};
 }
 
@@ -41,8 +39,7 @@ std::string refusal_of(const Model& flux) {
 template <Real Scalar>
 std::string refusal(const Scene<Scalar>& scene) {
   if (scene.is_plain()) return {};
-  if (scene.has_diffusion())
-    return "grains diffuse in this bed";
+  if (scene.has_diffusion()) return "grains diffuse in this bed";
   const auto curvature = [](const Flux<Scalar>& flux) {
     return std::visit([](const auto& f) { return f.curvature(); }, flux);
   };

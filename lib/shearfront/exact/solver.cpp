@@ -25,7 +25,9 @@ class ExactField final : public Field {
     worst_M = std::max(worst_M, value.M_error);
     return {value.phi, value.M};
   }
-  [[nodiscard]] double integral(const ShareFunction& g) const override { return share_integral(solution_, t, g); }
+  [[nodiscard]] double integral(const ShareFunction& g) const override {
+    return share_integral(solution_, t, g);
+  }
 
  private:
   const ExactSolution<double>& solution_;
@@ -34,8 +36,11 @@ class ExactField final : public Field {
 class ExactRun final : public Run {
  public:
   ExactRun(const Scene<double>& scene, const ExactSolver::Options& options, const Watch& watch)
-      : scene_(scene), layers_(static_cast<std::size_t>(options.layers)), progress_(watch.progress),
-        solution_(scene, {layers_}), field_(solution_) {}
+      : scene_(scene),
+        layers_(static_cast<std::size_t>(options.layers)),
+        progress_(watch.progress),
+        solution_(scene, {layers_}),
+        field_(solution_) {}
 
   Status advance(double t) override {
     field_.t = t;
@@ -50,10 +55,11 @@ class ExactRun final : public Run {
     Summary summary;
     summary.status = status_;
     summary.layers = solution_.n_layers();
-    summary.message = status_ != Status::ok   ? "interrupted at t = " + number_text(field_.t)
-                      : solution_.is_exact() ? "exact to rounding"
-                                             : "exact for a staircase of " + std::to_string(solution_.n_layers()) +
-                                                   " layers; estimated error of M " + number_text(field_.worst_M);
+    summary.message = status_ != Status::ok ? "interrupted at t = " + number_text(field_.t)
+                      : solution_.is_exact()
+                          ? "exact to rounding"
+                          : "exact for a staircase of " + std::to_string(solution_.n_layers()) +
+                                " layers; estimated error of M " + number_text(field_.worst_M);
     return summary;
   }
 
@@ -70,7 +76,8 @@ class ExactRun final : public Run {
 
 std::string ExactSolver::refusal(const Scene<double>& scene, const Options&) { return exact::refusal(scene); }
 
-std::unique_ptr<Run> ExactSolver::start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+std::unique_ptr<Run> ExactSolver::start(const Scene<double>& scene, const Options& options,
+                                        const Watch& watch) {
   return std::make_unique<ExactRun>(scene, options, watch);
 }
 

@@ -15,7 +15,10 @@ struct ExactSolver {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(OptionInfo{"layers", "smooth shear rates: number of layers of the staircase", {1, 1e6}, {},
+      visit(OptionInfo{"layers",
+                       "smooth shear rates: number of layers of the staircase",
+                       {1, 1e6},
+                       {},
                        "1024, 128 where a flux is no parabola"},
             self.layers);
     }
@@ -29,9 +32,11 @@ struct ExactSolver {
   static std::string refusal(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
   /// See exact/derivatives.hpp.
-  static std::string derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry);
-  static Linearisation linearise(const Scene<double>& scene, const Options& options, const std::vector<Place>& places,
-                                 const std::vector<std::size_t>& entries, std::any& memory);
+  static std::string derivative_refusal(const Scene<double>& scene, const Options& options,
+                                        const Entry& entry);
+  static Linearisation linearise(const Scene<double>& scene, const Options& options,
+                                 const std::vector<Place>& places, const std::vector<std::size_t>& entries,
+                                 std::any& memory);
 };
 static_assert(DifferentiableSolver<ExactSolver>);
 

@@ -66,7 +66,8 @@ void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells,
     Leg<Scalar> in, out;  // of paths that come from this side, and that go there
     const bool store = ways_.size() < kMaxStored;
     const std::size_t offset = ways_.size();
-    for (std::size_t k = above ? i : i - 1; k < law.n_layers() && !(law.rate[k] < basin.h); above ? ++k : --k) {
+    for (std::size_t k = above ? i : i - 1; k < law.n_layers() && !(law.rate[k] < basin.h);
+         above ? ++k : --k) {
       const Scalar r_minus_h = law.rate[k] - basin.h;
       if (!Law::kMovesAtCapacity && !(r_minus_h > 0)) break;
       const Scalar q = law.q(k, !above, r_minus_h), w = law.steepness(k, !above, q);
@@ -116,8 +117,8 @@ void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells,
 
 template <Real Scalar, class Law>
 void Waiting<Scalar, Law>::try_interface(const Law& law, const Cells<Scalar>& cells, std::size_t i,
-                                         const Scalar& z, std::size_t k, const Scalar& t,
-                                         const Scalar& upper, Scalar& Q_floor, Path<Scalar>& best) const {
+                                         const Scalar& z, std::size_t k, const Scalar& t, const Scalar& upper,
+                                         Scalar& Q_floor, Path<Scalar>& best) const {
   const Basin& basin = basins_[i];
   if (basin.entries.empty()) return;
   const Scalar H = basin.h / Scalar(4);

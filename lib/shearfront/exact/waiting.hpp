@@ -62,7 +62,8 @@ class Waiting {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<Basin> basins_;                             ///< per boundary; walls stay empty
   std::vector<std::size_t> slower_above_, slower_below_;  ///< next layer of strictly smaller rate, or kNone
-  std::vector<Leg<Scalar>> ways_;  ///< from an interface outwards to the near boundary of each layer of a side
+  std::vector<Leg<Scalar>>
+      ways_;  ///< from an interface outwards to the near boundary of each layer of a side
   Scalar slack_;
 };
 

@@ -11,8 +11,9 @@ Profile<double> cell_profile(const Scene<double>& scene, const Grid& grid, const
   const auto& solid_fraction = scene.spec().solid_fraction;
   const bool is_layered =
       !solid_fraction || std::visit([](const auto& model) { return model.kIsLayered; }, *solid_fraction);
-  const auto knots = solid_fraction ? std::visit([](const auto& model) { return model.knots(); }, *solid_fraction)
-                                    : std::vector<double>{};
+  const auto knots = solid_fraction
+                         ? std::visit([](const auto& model) { return model.knots(); }, *solid_fraction)
+                         : std::vector<double>{};
   std::vector<double> z, below, above;
   for (std::size_t j = 0; j < grid.n_cells(); ++j)
     for_pieces(knots, grid.edges[j], grid.edges[j + 1], [&](double lo, double hi) {
@@ -20,7 +21,8 @@ Profile<double> cell_profile(const Scene<double>& scene, const Grid& grid, const
       const double c_lo = scene.solid_fraction_at(lo), c_hi = is_layered ? c_lo : scene.solid_fraction_at(hi);
       const double mean = scene.mean_packing(lo, hi), half = (c_hi - c_lo) / 2;
       // A slope times another one, or over unequal pieces, would not have the mean of the cell.
-      const bool has_slope = !cells.half_rise.empty() && is_layered && lo == grid.edges[j] && hi == grid.edges[j + 1];
+      const bool has_slope =
+          !cells.half_rise.empty() && is_layered && lo == grid.edges[j] && hi == grid.edges[j + 1];
       const double rise = has_slope ? cells.half_rise[j] : 0;
       z.push_back(lo);
       below.push_back(std::min(c_lo, mean - half) * (cells.x[j] - rise));

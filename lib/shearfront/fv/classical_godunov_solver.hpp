@@ -12,27 +12,11 @@ namespace shearfront {
 /// diverges. It is `godunov` where the coefficients are constant. Guaranteed: the mass is kept, nothing else.
 /// Half the time step of godunov, since shares beyond [0, 1] are faster. Parabolas only. Tables:
 /// docs/packing.md, also for the source.
-struct ClassicalGodunovSolver {
+struct ClassicalGodunovSolver : fv::GridSolver<fv::RuleOptions<fv::Rule::classical_godunov>> {
   static constexpr std::string_view kName = "classical-godunov";
-  static constexpr std::string_view kDescription = "Godunov scheme that does not match fluxes at jumps; overshoots";
+  static constexpr std::string_view kDescription =
+      "Godunov scheme that does not match fluxes at jumps; overshoots";
   static constexpr std::string_view kScenes = "parabolas, open ends";
-
-  using Options = fv::GridOptions;
-
-  static Guarantees guarantees() {
-    Guarantees g;
-    g.conservative = g.has_profiles = true;
-    return g;
-  }
-  static std::string refusal(const Scene<double>& scene, const Options& options) {
-    return fv::refusal(scheme(options), scene, options);
-  }
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
-    return fv::start(scheme(options), scene, options, watch);
-  }
-
- private:
-  static fv::Scheme scheme(const Options&) { return {fv::Rule::classical_godunov}; }
 };
 static_assert(Solver<ClassicalGodunovSolver>);
 

@@ -3,6 +3,24 @@
 #include "shearfront/fv/run.hpp"
 
 namespace shearfront {
+namespace fv {
+
+struct EngquistOsherOptions : GridOptions {
+  FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    GridOptions::fields(self, visit);
+    visit(OptionInfo{"face-coefficient",
+                     "harmonic mean of a(z) between the middles of two cells, or its value at their face",
+                     {},
+                     kFaceCoefficientNames},
+          self.face_coefficient);
+  }
+  [[nodiscard]] Scheme scheme() const { return {Rule::engquist_osher, face_coefficient}; }
+};
+
+}  // namespace fv
 
 /// Engquist-Osher scheme, first order, on options.cells cells with Courant number options.cfl:
 ///
@@ -12,41 +30,10 @@ namespace shearfront {
 /// is constant) the scheme would not converge for any other a. Solid fraction, several fluxes, ends and guarantees: as
 /// GodunovSolver; between different fluxes and at open ends it takes Godunov's flux. A steady shock takes two mixed
 /// cells. Source: Engquist & Osher (1981), Math. Comp. 36, 321-351; Towers (2000), SIAM J. Numer. Anal. 38, 681-698.
-struct EngquistOsherSolver {
+struct EngquistOsherSolver : fv::GridSolver<fv::EngquistOsherOptions> {
   static constexpr std::string_view kName = "engquist-osher";
   static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
   static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
-
-  struct Options : fv::GridOptions {
-    FaceCoefficient face_coefficient = FaceCoefficient::harmonic;
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      fv::GridOptions::fields(self, visit);
-      visit(OptionInfo{"face-coefficient",
-                       "harmonic mean of a(z) between the middles of two cells, or its value at their face",
-                       {},
-                       kFaceCoefficientNames},
-            self.face_coefficient);
-    }
-  };
-
-  static Guarantees guarantees() {
-    Guarantees g;
-    g.conservative = g.bounded = g.has_profiles = true;
-    g.order_phi = 0.5;
-    g.order_M = 1;
-    return g;
-  }
-  static std::string refusal(const Scene<double>& scene, const Options& options) {
-    return fv::refusal(scheme(options), scene, options);
-  }
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
-    return fv::start(scheme(options), scene, options, watch);
-  }
-
- private:
-  static fv::Scheme scheme(const Options& options) { return {fv::Rule::engquist_osher, options.face_coefficient}; }
 };
 static_assert(Solver<EngquistOsherSolver>);
 

@@ -30,6 +30,10 @@ namespace shearfront::fv {
 /// classical_godunov and upwind: the thesis named in docs/packing.md, Sections 4.2, 4.3.
 enum class Rule { godunov, engquist_osher, classical_godunov, upwind };
 
+[[nodiscard]] constexpr bool is_monotone(Rule rule) {
+  return rule == Rule::godunov || rule == Rule::engquist_osher;
+}
+
 /// A flux f(x) on [lo, hi] with any number of extrema, as the schemes see it.
 ///
 /// Marches count in v = sign (2 (x - lo) / (hi - lo) - 1), the state of the grains that sink: -sign f has its

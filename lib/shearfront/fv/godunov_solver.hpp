@@ -15,29 +15,10 @@ namespace shearfront {
 /// the range of the flux, L1 contraction, u <= v stays u <= v. A steady shock takes one mixed cell. L1 error of phi:
 /// O(sqrt(dz)) by theory, near O(dz) in practice. Fluxes: fv/face_flux.hpp; ends: fv/march.hpp; time steps, outcomes,
 /// cost: fv/run.hpp. Source: Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42, 179-208.
-struct GodunovSolver {
+struct GodunovSolver : fv::GridSolver<fv::RuleOptions<fv::Rule::godunov>> {
   static constexpr std::string_view kName = "godunov";
   static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
   static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
-
-  using Options = fv::GridOptions;
-
-  static Guarantees guarantees() {
-    Guarantees g;
-    g.conservative = g.bounded = g.has_profiles = true;
-    g.order_phi = 0.5;
-    g.order_M = 1;
-    return g;
-  }
-  static std::string refusal(const Scene<double>& scene, const Options& options) {
-    return fv::refusal(scheme(options), scene, options);
-  }
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
-    return fv::start(scheme(options), scene, options, watch);
-  }
-
- private:
-  static fv::Scheme scheme(const Options&) { return {fv::Rule::godunov}; }
 };
 static_assert(Solver<GodunovSolver>);
 

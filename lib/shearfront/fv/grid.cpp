@@ -92,7 +92,8 @@ std::vector<double> initial_shares(const Scene<double>& scene, const Grid& grid)
       solid += weight;
       least = std::min(least, share), most = std::max(most, share);
     });
-    shares[j] = std::clamp(sum.value() / solid.value(), least, most);  // exact where the cell is all one state
+    shares[j] =
+        std::clamp(sum.value() / solid.value(), least, most);  // exact where the cell is all one state
   }
   return shares;
 }

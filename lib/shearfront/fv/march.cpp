@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <variant>
 
 #include "shearfront/fv/vectorised.hpp"
 #include "shearfront/numeric/sum.hpp"
@@ -70,16 +70,16 @@ struct Sides {
 };
 
 struct Faces {
-  const double *below, *above;          ///< states
-  const double *k_below, *k_above;      ///< coefficients
+  const double *below, *above;      ///< states
+  const double *k_below, *k_above;  ///< coefficients
   double scale;
   std::size_t n;
 };
 
 template <class Flux>
 SHEARFRONT_FV_INLINE void cross_by_godunov(const Flux& f, const Faces& faces, double* __restrict crossing) {
-  const double *__restrict below = faces.below, *__restrict above = faces.above;
-  const double *__restrict k_below = faces.k_below, *__restrict k_above = faces.k_above;
+  const double* __restrict below = faces.below, * __restrict above = faces.above;
+  const double* __restrict k_below = faces.k_below, * __restrict k_above = faces.k_above;
   const double scale = faces.scale;
   for (std::size_t i = 0; i < faces.n; ++i) {
     const double from_below = k_below[i] * f.upward(below[i]), from_above = k_above[i] * f.downward(above[i]);
@@ -89,7 +89,7 @@ SHEARFRONT_FV_INLINE void cross_by_godunov(const Flux& f, const Faces& faces, do
 template <class Flux>
 SHEARFRONT_FV_INLINE void cross_by_engquist_osher(const Flux& f, const Faces& faces,
                                                   double* __restrict crossing) {
-  const double *__restrict below = faces.below, *__restrict above = faces.above;
+  const double* __restrict below = faces.below, * __restrict above = faces.above;
   const double* __restrict k = faces.k_below;
   const double scale = faces.scale;
   for (std::size_t i = 0; i < faces.n; ++i) crossing[i] = whole(scale * (k[i] * f.both(below[i], above[i])));
@@ -118,8 +118,6 @@ double lower_of_pair(const FluxShape& flux, double amount, double capacity_below
   }
   return low + (high - low) / 2;
 }
-
-bool is_monotone(Rule rule) { return rule == Rule::godunov || rule == Rule::engquist_osher; }
 
 }  // namespace
 
@@ -159,10 +157,10 @@ March::March(const Scheme& scheme, const Scene<double>& scene, const Grid& grid)
       if (capacity * inverses_[j] < 1) inverses_[j] = std::nextafter(inverses_[j], infinity<double>());
       if (limit_ != 1) solid_fractions_.push_back(contents[j] / grid.widths[j]);
     }
-  has_steady_state_ = scene.has_walls() && limit_ == 1 &&
-                      std::all_of(parts_.begin(), parts_.end(), [](const Part& part) {
-                        return part.flux.has_one_extremum() && part.flux.vanishes;
-                      });
+  has_steady_state_ =
+      scene.has_walls() && limit_ == 1 && std::all_of(parts_.begin(), parts_.end(), [](const Part& part) {
+        return part.flux.has_one_extremum() && part.flux.vanishes;
+      });
 }
 
 void March::set_face_rates(const Scene<double>& scene, const Grid& grid) {
@@ -170,8 +168,7 @@ void March::set_face_rates(const Scene<double>& scene, const Grid& grid) {
   if (scheme_.rule != Rule::engquist_osher && !is_smooth) return;
   const bool is_value = is_smooth || scheme_.face_coefficient == FaceCoefficient::value;
   face_rates_ = is_value ? face_values(scene, grid) : fv::face_rates(scene, grid);
-  if (is_periodic_)
-    face_rates_.front() = face_rates_.back() = 2 / (1 / rates_.front() + 1 / rates_.back());
+  if (is_periodic_) face_rates_.front() = face_rates_.back() = 2 / (1 / rates_.front() + 1 / rates_.back());
   if (scene.spec().outside_bottom) face_rates_.front() = rates_.front();
   if (scene.spec().outside_top) face_rates_.back() = rates_.back();
   // Between different fluxes Godunov's flux counts, with the coefficients of both cells.
@@ -181,9 +178,7 @@ void March::set_face_rates(const Scene<double>& scene, const Grid& grid) {
   }
 }
 
-double March::state(std::size_t j) const {
-  return std::clamp(amounts_[j] * inverses_[j], -limit_, limit_);
-}
+double March::state(std::size_t j) const { return std::clamp(amounts_[j] * inverses_[j], -limit_, limit_); }
 
 double March::end_flux(std::size_t end) const {
   if (!is_periodic_ && std::isnan(outside_[end])) return 0;
@@ -199,9 +194,7 @@ double March::end_flux(std::size_t end) const {
   return sign * (end == 0 ? face_flux(rule, outside, bottom, 0) : face_flux(rule, top, outside, 0));
 }
 
-void March::step(double dt) {
-  muscl_ ? second_order_step(dt / unit_) : first_order_step(dt / unit_);
-}
+void March::step(double dt) { muscl_ ? second_order_step(dt / unit_) : first_order_step(dt / unit_); }
 
 void March::first_order_step(double scale) {
   constexpr std::size_t kBlock = 256;  // small enough for the first cache
@@ -253,8 +246,9 @@ void March::cross_faces(const Part& part, std::size_t first, std::size_t end, co
   const bool is_godunov = scheme_.rule == Rule::godunov;
   if (limit_ != 1 || !part.flux.has_one_extremum()) {
     for (std::size_t j = first; j < end; ++j) {
-      const double flux = face_flux(scheme_.rule, side(part, j - 1, below[j - first]),
-                                    side(part, j, above[j - first]), face_rates_.empty() ? 0 : face_rates_[j]);
+      const double flux =
+          face_flux(scheme_.rule, side(part, j - 1, below[j - first]), side(part, j, above[j - first]),
+                    face_rates_.empty() ? 0 : face_rates_[j]);
       crossing[j - first] = whole(scale * part.flux.sign * flux);
     }
     return;

@@ -3,6 +3,20 @@
 #include "shearfront/fv/run.hpp"
 
 namespace shearfront {
+namespace fv {
+
+struct MusclOptions : GridOptions {
+  Limiter limiter = Limiter::mc;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    GridOptions::fields(self, visit);
+    visit(OptionInfo{"limiter", "what bounds the slopes", {}, kLimiterNames}, self.limiter);
+  }
+  [[nodiscard]] Scheme scheme() const { return {Rule::godunov, {}, limiter}; }
+};
+
+}  // namespace fv
 
 /// MUSCL scheme, second order, on options.cells cells: phi is linear in every cell, with a slope bounded by
 /// options.limiter; Godunov's flux between the states at both sides of a face; two stages of Runge-Kutta.
@@ -16,37 +30,10 @@ namespace shearfront {
 /// forever. One flux with one extremum, between walls; with solid fraction see GodunovSolver; where c varies inside
 /// cells what comes out has no slopes but those of c. Error: O(dz^2) in fans, O(dz) in L1 past shocks. Source: van Leer
 /// (1979), J. Comput. Phys. 32, 101-136; Shu & Osher (1988), J. Comput. Phys. 77, 439-471.
-struct MusclSolver {
+struct MusclSolver : fv::GridSolver<fv::MusclOptions> {
   static constexpr std::string_view kName = "muscl";
   static constexpr std::string_view kDescription = "MUSCL scheme of second order with a choice of limiters";
   static constexpr std::string_view kScenes = "fluxes with one extremum, the same everywhere, walls";
-
-  struct Options : fv::GridOptions {
-    Limiter limiter = Limiter::mc;
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      fv::GridOptions::fields(self, visit);
-      visit(OptionInfo{"limiter", "what bounds the slopes", {}, kLimiterNames}, self.limiter);
-    }
-  };
-
-  static Guarantees guarantees() {
-    Guarantees g;
-    g.conservative = g.bounded = g.has_profiles = true;
-    g.order_phi = 0.5;
-    g.order_M = 1;
-    return g;
-  }
-  static std::string refusal(const Scene<double>& scene, const Options& options) {
-    return fv::refusal(scheme(options), scene, options);
-  }
-  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
-    return fv::start(scheme(options), scene, options, watch);
-  }
-
- private:
-  static fv::Scheme scheme(const Options& options) { return {fv::Rule::godunov, {}, options.limiter}; }
 };
 static_assert(Solver<MusclSolver>);
 

@@ -28,10 +28,12 @@ struct GridOptions {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit(OptionInfo{"cells", "number of cells", {1, 1e8}}, self.cells);
-    visit(OptionInfo{"cfl",
-                     "time step over the largest for which the bounds of phi are proved (Courant number 1, muscl 1/2)",
-                     {0, 1, true}},
-          self.cfl);
+    visit(
+        OptionInfo{
+            "cfl",
+            "time step over the largest for which the bounds of phi are proved (Courant number 1, muscl 1/2)",
+            {0, 1, true}},
+        self.cfl);
     visit(OptionInfo{"align-cells", "edges of cells on the interfaces, equal cells within each layer"},
           self.align_cells);
   }

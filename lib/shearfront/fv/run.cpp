@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -17,8 +16,6 @@ namespace {
 constexpr double kMostUpdates = 1e15;  // some days
 // The caller is asked for leave to go on after so many cell updates, some thousandths of a second.
 constexpr double kUpdatesPerCall = 1 << 22;
-// A wave crosses the bed in as many steps as there are cells, at least: no need to look for rest more often.
-constexpr double kStepsPerCheck = 1024;
 // A bed that changes by no more than this in a step, and is where it ends, is at rest: the two mixed cells of an
 // Engquist-Osher shock may hand a quantum to and fro for ever.
 constexpr double kRestChange = 4 * March::kQuantum;
@@ -83,7 +80,8 @@ class GridRun final : public Run {
   void enter(double begin) {
     const Outside &bottom = scene_.spec().outside_bottom, &top = scene_.spec().outside_top;
     begin_ = begin;
-    n_steps_ = next_check_ = 0;
+    n_steps_ = 0;
+    next_check_ = steps_per_check();
     next_break_ = std::min(next_break(bottom, begin), next_break(top, begin));
     march_.set_outside({share_outside(bottom, begin), share_outside(top, begin)});
   }
@@ -103,7 +101,8 @@ class GridRun final : public Run {
       cells_ = march_.shares();
       return Status::ok;
     }
-    const double steps = is_final ? kMostStepsPerCell * n_cells_ : (t - begin_) / dt_, whole = std::floor(steps);
+    const double steps = is_final ? kMostStepsPerCell * n_cells_ : (t - begin_) / dt_,
+                 whole = std::floor(steps);
     if (const Status status = march_to(whole); status != Status::ok) return status;
     if (is_final && !is_at_rest_) return Status::not_converged;
     const double rest = is_at_rest_ ? 0 : (steps - whole) * dt_;
@@ -119,23 +118,23 @@ class GridRun final : public Run {
       if (!(static_cast<double>(n_updates_) + (end - n_steps_) * n_cells_ <= kMostUpdates))
         return Status::budget_reached;
       if (progress_ && !progress_(begin_ + dt_ * n_steps_, n_updates_)) return Status::interrupted;
-      const double n = std::min(steps - n_steps_, std::max(1.0, std::floor(kUpdatesPerCall / n_cells_)));
+      const double per_call = std::max(1.0, std::floor(kUpdatesPerCall / n_cells_));
+      const double n = std::min({steps - n_steps_, next_check_ - n_steps_, per_call});
       for (double i = 1; i < n; ++i) march_.step(dt_);
       n_steps_ += n;
       n_updates_ += static_cast<std::uint64_t>(n * n_cells_);
-      if (n_steps_ < next_check_) {
-        march_.step(dt_);
-      } else {
-        next_check_ = n_steps_ + std::max(kStepsPerCheck, n_cells_);
-        step_and_check_rest();
-      }
+      n_steps_ < next_check_ ? march_.step(dt_) : step_and_check_rest();
     }
     if (!march_.has_steady_state() || is_steady_) return Status::ok;
     // What rounding has stopped or will have taken by then is too much if the bed is not steady.
     return steps * (March::kQuantum / 4 / capacity_) < kSteadyTolerance ? Status::ok : Status::not_converged;
   }
 
+  /// A wave crosses the bed in as many steps as there are cells, at least: no need to look for rest more often.
+  [[nodiscard]] double steps_per_check() const { return std::max(1024.0, n_cells_); }
+
   void step_and_check_rest() {
+    next_check_ = n_steps_ + steps_per_check();
     const std::vector<double> before = march_.amounts();
     march_.step(dt_);
     double change = 0;
@@ -179,8 +178,8 @@ class GridRun final : public Run {
   double dt_, n_cells_;
   double capacity_ = 0;  ///< of the bed, in the units of the march
   double steps_to_rest_ = infinity<double>();
-  double begin_ = 0, next_break_ = 0;         ///< breaks of the states outside around the present
-  double n_steps_ = 0, next_check_ = 0;       ///< since begin_
+  double begin_ = 0, next_break_ = 0;    ///< breaks of the states outside around the present
+  double n_steps_ = 0, next_check_ = 0;  ///< since begin_
   std::uint64_t n_updates_ = 0;
   bool is_at_rest_ = false, is_steady_ = false;
   Status status_ = Status::ok;
@@ -201,22 +200,22 @@ std::string refusal(const Scheme& scheme, const Scene<double>& scene, const Grid
     const auto number = static_cast<double>(member);
     if (why.empty() && !(info.range.contains(number)))
       why = std::string(info.name) + " = " + number_text(number) + "; must be " +
-            (info.range.excludes_low ? "> " : ">= ") + number_text(info.range.low) + " and <= " +
-            number_text(info.range.high);
+            (info.range.excludes_low ? "> " : ">= ") + number_text(info.range.low) +
+            " and <= " + number_text(info.range.high);
   });
   if (!why.empty()) return why;
   for (const Flux<double>& model : scene.fluxes()) {
     const FluxShape flux(model);
     const bool has_one = flux.has_one_extremum() && flux.vanishes;
     const std::string name = "flux " + std::visit([](const auto& f) { return std::string(f.kName); }, model);
-    const bool is_bounded = scheme.rule == Rule::godunov || scheme.rule == Rule::engquist_osher;
-    if (!is_bounded && !flux.is_parabola)
+    if (!is_monotone(scheme.rule) && !flux.is_parabola)
       return name + " has no values for shares beyond its range, where this scheme goes";
     if (scheme.limiter && !(has_one && scene.fluxes().size() == 1 && scene.has_walls()))
       return "it takes one flux with one extremum that vanishes at both ends of its range, and walls";
     if (!has_one && !scene.is_uniform())
-      return name + " has no exact flux between cells of unequal rate or packing: it must have one extremum and "
-                    "vanish at both ends of its range";
+      return name +
+             " has no exact flux between cells of unequal rate or packing: it must have one extremum and "
+             "vanish at both ends of its range";
   }
   return "";
 }

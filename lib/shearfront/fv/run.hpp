@@ -15,7 +15,8 @@ namespace shearfront::fv {
 /// Why the scheme cannot solve the scene: diffusion; options out of range; a flux with other than one extremum, or one
 /// that does not vanish at the ends of its range, between cells of unequal rate or solid fraction, or for muscl
 /// anywhere; more for muscl than one flux between walls; for the rules without balance all but parabolas.
-[[nodiscard]] std::string refusal(const Scheme& scheme, const Scene<double>& scene, const GridOptions& options);
+[[nodiscard]] std::string refusal(const Scheme& scheme, const Scene<double>& scene,
+                                  const GridOptions& options);
 
 /// All finite-volume solvers: a March on grid_of().
 ///
@@ -36,5 +37,34 @@ namespace shearfront::fv {
 /// Cost: cells * (t / dt) cell updates; tests/bench/fv_bench.cpp.
 [[nodiscard]] std::unique_ptr<Run> start(const Scheme& scheme, const Scene<double>& scene,
                                          const GridOptions& options, const Watch& watch);
+
+/// What the finite-volume solvers have in common: all but name, description and options. OptionsOfSolver derives from
+/// GridOptions and has scheme().
+template <class OptionsOfSolver>
+struct GridSolver {
+  using Options = OptionsOfSolver;
+
+  static Guarantees guarantees() {
+    Guarantees g;
+    g.conservative = g.has_profiles = true;
+    if (!is_monotone(Options{}.scheme().rule)) return g;
+    g.bounded = true;
+    g.order_phi = 0.5;
+    g.order_M = 1;
+    return g;
+  }
+  static std::string refusal(const Scene<double>& scene, const Options& options) {
+    return fv::refusal(options.scheme(), scene, options);
+  }
+  static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch) {
+    return fv::start(options.scheme(), scene, options, watch);
+  }
+};
+
+/// Options of a rule that has none but those of the grid.
+template <Rule rule>
+struct RuleOptions : GridOptions {
+  [[nodiscard]] static Scheme scheme() { return {rule}; }
+};
 
 }  // namespace shearfront::fv

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
-#include <type_traits>
+#include <variant>
 
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -14,12 +14,12 @@
 namespace shearfront {
 namespace {
 
-template <class Member>
-constexpr bool kIsCount = std::same_as<Member, std::uint64_t>;
+template <class Value>
+constexpr bool kIsCount = std::same_as<Value, std::uint64_t>;
 
-template <class Member>
+template <class Value>
 std::string allowed(const OptionInfo& info) {
-  if constexpr (kIsCount<Member>)
+  if constexpr (kIsCount<Value>)
     return fmt::format("from {} to {}", static_cast<std::uint64_t>(info.range.low),
                        static_cast<std::uint64_t>(info.range.high));
   else
@@ -34,47 +34,75 @@ std::string names_of(const OptionInfo& info, const char* separator) {
   throw InputError(key, parse_number(text) ? std::string(text) : quoted_text(text), constraint);
 }
 
-template <class Member>
-void set(const OptionInfo& info, Member& member, std::string_view text, const std::string& key) {
-  if constexpr (std::same_as<Member, bool>) {
-    if (text != "true" && text != "false") refuse(key, text, "must be true or false");
-    member = text == "true";
-  } else if constexpr (std::is_enum_v<Member>) {
-    const auto it = std::find(info.names.begin(), info.names.end(), text);
-    if (it == info.names.end()) refuse(key, text, "must be one of: " + names_of(info, ", "));
-    member = static_cast<Member>(it - info.names.begin());
-  } else if constexpr (kIsCount<Member>) {
-    const auto n = parse_count(text);
-    if (!n || !info.range.contains(static_cast<double>(*n)))
-      refuse(key, text, "must be a whole number " + allowed<Member>(info));
-    member = *n;
-  } else {
-    const auto x = parse_number(text);
-    if (!x) refuse(key, text, "must be a number " + allowed<Member>(info));
-    if (!info.range.contains(*x)) refuse(key, text, "must be " + allowed<Member>(info));
-    member = *x;
-  }
+/// `text` as a value of the kind of `like`.
+OptionValue parsed(const OptionInfo& info, const OptionValue& like, std::string_view text,
+                   const std::string& key) {
+  return std::visit(
+      [&]<class Value>(const Value&) -> OptionValue {
+        if constexpr (std::same_as<Value, bool>) {
+          if (text != "true" && text != "false") refuse(key, text, "must be true or false");
+          return text == "true";
+        } else if constexpr (std::same_as<Value, OptionChoice>) {
+          const auto it = std::find(info.names.begin(), info.names.end(), text);
+          if (it == info.names.end()) refuse(key, text, "must be one of: " + names_of(info, ", "));
+          return OptionChoice{static_cast<std::size_t>(it - info.names.begin())};
+        } else if constexpr (kIsCount<Value>) {
+          const auto n = parse_count(text);
+          if (!n || !info.range.contains(static_cast<double>(*n)))
+            refuse(key, text, "must be a whole number " + allowed<Value>(info));
+          return std::uint64_t{*n};
+        } else {
+          const auto x = parse_number(text);
+          if (!x) refuse(key, text, "must be a number " + allowed<Value>(info));
+          if (!info.range.contains(*x)) refuse(key, text, "must be " + allowed<Value>(info));
+          return *x;
+        }
+      },
+      like);
 }
 
-template <class Member>
-std::string text_of(const OptionInfo& info, const Member& member) {
-  if constexpr (std::same_as<Member, bool>) return member ? "on" : "off";
-  else if constexpr (std::is_enum_v<Member>) return std::string(info.names[static_cast<std::size_t>(member)]);
-  else if constexpr (kIsCount<Member>) return std::to_string(member);
-  else return number_text(member);
+std::string text_of(const Option& option) {
+  return std::visit(
+      [&]<class Value>(const Value& value) {
+        if constexpr (std::same_as<Value, bool>)
+          return std::string(value ? "on" : "off");
+        else if constexpr (std::same_as<Value, OptionChoice>)
+          return std::string(option.info.names[value.index]);
+        else if constexpr (kIsCount<Value>)
+          return std::to_string(value);
+        else
+          return number_text(value);
+      },
+      option.value);
 }
 
-template <class Member>
-OptionText described(const OptionInfo& info, const Member& member) {
+OptionText described(const Option& option) {
+  const OptionInfo& info = option.info;
   OptionText text{std::string(info.name), std::string(info.sentence), "", "", std::string(info.unset), {}};
-  if constexpr (std::is_enum_v<Member>) {
-    text.kind = names_of(info, "|");
-  } else if constexpr (!std::same_as<Member, bool>) {
-    text.kind = kIsCount<Member> ? "N" : "X";
-    text.allowed = allowed<Member>(info);
-  }
-  if (text.initial.empty()) text.initial = text_of(info, member);
+  std::visit(
+      [&]<class Value>(const Value&) {
+        if constexpr (std::same_as<Value, OptionChoice>) {
+          text.kind = names_of(info, "|");
+        } else if constexpr (!std::same_as<Value, bool>) {
+          text.kind = kIsCount<Value> ? "N" : "X";
+          text.allowed = allowed<Value>(info);
+        }
+      },
+      option.value);
+  if (text.initial.empty()) text.initial = text_of(option);
   return text;
+}
+
+/// Whether the option is left at a default that lies outside its range.
+bool is_unset(const Option& option) {
+  return !option.info.unset.empty() && std::visit(
+                                           [&]<class Value>(const Value& value) {
+                                             if constexpr (std::same_as<Value, OptionChoice>)
+                                               return false;
+                                             else
+                                               return !option.info.range.contains(static_cast<double>(value));
+                                           },
+                                           option.value);
 }
 
 }  // namespace
@@ -88,32 +116,29 @@ std::string allowed_text(const OptionRange& range) {
 std::vector<OptionText> all_options() {
   std::vector<OptionText> all;
   for (const std::string& name : Method::names())
-    Method(name).visit_options([&](const OptionInfo& info, const auto& member) {
-      auto known = std::find_if(all.begin(), all.end(), [&](const OptionText& o) { return o.name == info.name; });
-      if (known == all.end()) known = all.insert(all.end(), described(info, member));
+    for (const Option& option : Method(name).options()) {
+      auto known = std::find_if(all.begin(), all.end(),
+                                [&](const OptionText& o) { return o.name == option.info.name; });
+      if (known == all.end()) known = all.insert(all.end(), described(option));
       known->solvers.push_back(name);
-    });
+    }
   return all;
 }
 
 void set_option(Method& method, std::string_view name, std::string_view text, const std::string& key) {
-  method.visit_options([&](const OptionInfo& info, auto& member) {
-    if (info.name == name) set(info, member, text, key);
-  });
+  for (const Option& option : method.options())
+    if (option.info.name == name) method.set(name, parsed(option.info, option.value, text, key));
 }
 
 std::string settings(const Method& method) {
   std::string all = fmt::format("--method {}", method.name());
-  method.visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
-    if constexpr (std::same_as<Member, bool>) {
-      if (member) all += fmt::format(" --{}", info.name);
-    } else {
-      // The default of such an option lies outside its range.
-      if constexpr (!std::is_enum_v<Member>)
-        if (!info.unset.empty() && !info.range.contains(static_cast<double>(member))) return;
-      all += fmt::format(" --{} {}", info.name, text_of(info, member));
+  for (const Option& option : method.options()) {
+    if (const bool* flag = std::get_if<bool>(&option.value)) {
+      if (*flag) all += fmt::format(" --{}", option.info.name);
+    } else if (!is_unset(option)) {
+      all += fmt::format(" --{} {}", option.info.name, text_of(option));
     }
-  });
+  }
   return all;
 }
 

@@ -4,11 +4,12 @@
 #include <string>
 
 #include "shearfront/io/file_error.hpp"
-#include "shearfront/io/output_file.hpp"
 #include "shearfront/solution/observation.hpp"
 
 /// Files of observations (CSV; the format is described in docs/formats).
 namespace shearfront {
+
+class OutputFile;
 
 /// Complaints of a file that are printed; of the others only the number is.
 inline constexpr std::size_t kMostComplaints = 20;

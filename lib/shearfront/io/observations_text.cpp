@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/io/detail/observation_columns.hpp"
 #include "shearfront/io/observations_csv.hpp"
+#include "shearfront/io/output_file.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront {

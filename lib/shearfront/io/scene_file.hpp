@@ -9,18 +9,18 @@ namespace shearfront {
 
 /// Reads a scene file (TOML; the format is described in docs/formats).
 ///
-/// Models are looked up in FluxList and DepthFunctionList and their entries read through fields(), so a new model
-/// needs no change here. Guaranteed:
+/// Models are looked up in FluxList and DepthFunctionList and their entries read through fields(), so a new
+/// model needs no change here. Guaranteed:
 ///   (1) numbers are read in the scalar from their text in the file: in Real110, 0.31 is the decimal 0.31;
 ///   (2) every complaint is reported, one line each in the order of the file, with line and column;
 ///   (3) a file is valid or not whatever the scalar, except for what rounding to the scalar decides.
 /// A scene without a name gets that of the file. Errors: FileError (an InputError).
 /// Cost: O(size of the file); 1e6 numbers take about a second.
-template <Real S>
+template <Real S = double>
 [[nodiscard]] Scene<S> read_scene(const std::string& path);
 
 /// The same from a text; `file` is the name used in messages.
-template <Real S>
+template <Real S = double>
 [[nodiscard]] Scene<S> parse_scene(std::string text, const std::string& file);
 
 extern template Scene<double> read_scene(const std::string&);

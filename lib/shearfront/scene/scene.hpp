@@ -9,10 +9,13 @@
 
 #include "shearfront/model/complaint.hpp"
 #include "shearfront/numeric/scalar.hpp"
-#include "shearfront/scene/scene_complaints.hpp"
 #include "shearfront/scene/scene_spec.hpp"
 
 namespace shearfront {
+
+/// All that is wrong with a specification, in the order of the entries of a scene file; empty if nothing is.
+template <Real Scalar>
+[[nodiscard]] Complaints find_complaints(const SceneSpec<Scalar>& spec);
 
 /// A bed of mixed grains: flux, shear rate a(z), scale s, solid fraction c(z), granular temperature T(z), initial
 /// concentration phi(z, 0), and what lies at its ends.
@@ -23,7 +26,7 @@ namespace shearfront {
 /// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction, and checked there once.
-template <Real Scalar>
+template <Real Scalar = double>
 class Scene {
  public:
   /// Errors: InputError that carries all complaints.

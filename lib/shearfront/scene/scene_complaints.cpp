@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/scene/scene_complaints.hpp"
+#include "shearfront/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,7 @@ struct Diffusion {
 };
 
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
-template <Real Scalar>
+template <Real Scalar = double>
 struct SceneSpec {
   std::string name;
   /// What the reader of its file has to say, one line each; for the user, not part of the model.

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/solution/share_function.hpp"
+#include "shearfront/solution/field.hpp"
 
 namespace shearfront {
 

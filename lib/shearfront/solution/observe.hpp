@@ -11,7 +11,7 @@
 /// Synthetic observations: what an instrument would have read where a solver has computed.
 ///
 ///     const ObservationPlan plan{{0.5, 1}, {0.25, 0.75}, Quantity::cumulative, 0};
-///     auto result = ExactSolver::solve(scene, request_of(plan, scene), options);
+///     auto result = solve(scene, "exact", request_of(plan, scene));
 ///     auto observations = observe(plan, scene, result);
 ///     add_noise(observations, 0.01, 1);
 namespace shearfront {

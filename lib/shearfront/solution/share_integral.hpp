@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "shearfront/scene/scene.hpp"
+#include "shearfront/solution/field.hpp"
 #include "shearfront/solution/profile.hpp"
-#include "shearfront/solution/share_function.hpp"
 
 namespace shearfront {
 

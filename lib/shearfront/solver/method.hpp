@@ -4,64 +4,151 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "shearfront/solver/all.hpp"
+#include "shearfront/numeric/contract.hpp"
+#include "shearfront/solver/solver.hpp"
 
 namespace shearfront {
 
 namespace method_detail {
 
-template <Solver S>
-struct Configured {
-  using Type = S;
-  typename S::Options options{};
+/// What a Method asks of a solver and its options, whichever it is.
+class AnySolver {
+ public:
+  virtual ~AnySolver() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  [[nodiscard]] virtual std::string_view description() const = 0;
+  [[nodiscard]] virtual std::string_view scenes() const = 0;
+  [[nodiscard]] virtual Guarantees guarantees() const = 0;
+  [[nodiscard]] virtual std::vector<Option> options() const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const AnySolver> with(std::string_view, const OptionValue&) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const AnySolver> smooth(const Scene<double>&) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const AnySolver> amounts() const = 0;
+  [[nodiscard]] virtual std::string refusal(const Scene<double>&) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Run> start(const Scene<double>&, const Watch&) const = 0;
+  [[nodiscard]] virtual bool has_derivative(const Scene<double>&, const Entry&) const = 0;
+  [[nodiscard]] virtual Linearisation linearise(const Scene<double>&, const std::vector<Place>&,
+                                                const std::vector<std::size_t>&, std::any&) const = 0;
 };
-template <class List>
-struct VariantOf;
-template <class... S>
-struct VariantOf<TypeList<S...>> {
-  using Type = std::variant<Configured<S>...>;
+
+template <Solver S>
+class Configured final : public AnySolver {
+ public:
+  using Options = typename S::Options;
+  explicit Configured(Options options) : options_(std::move(options)) {}
+
+  [[nodiscard]] std::string_view name() const override { return S::kName; }
+  [[nodiscard]] std::string_view description() const override { return S::kDescription; }
+  [[nodiscard]] std::string_view scenes() const override { return S::kScenes; }
+  [[nodiscard]] Guarantees guarantees() const override { return S::guarantees(); }
+  [[nodiscard]] std::vector<Option> options() const override {
+    std::vector<Option> all;
+    Options::fields(options_, [&]<class Member>(const OptionInfo& info, const Member& member) {
+      if constexpr (std::is_enum_v<Member>)
+        all.push_back({info, OptionChoice{static_cast<std::size_t>(member)}});
+      else
+        all.push_back({info, member});
+    });
+    return all;
+  }
+  [[nodiscard]] std::shared_ptr<const AnySolver> with(std::string_view option,
+                                                      const OptionValue& value) const override {
+    return changed([&](Options& options) {
+      Options::fields(options, [&]<class Member>(const OptionInfo& info, Member& member) {
+        if (info.name != option) return;
+        if constexpr (std::is_enum_v<Member>)
+          member = static_cast<Member>(std::get<OptionChoice>(value).index);
+        else
+          member = std::get<Member>(value);
+      });
+    });
+  }
+  [[nodiscard]] std::shared_ptr<const AnySolver> smooth(const Scene<double>& scene) const override {
+    return changed([&](Options& options) {
+      if constexpr (requires { S::prefer_smooth(scene, options); }) S::prefer_smooth(scene, options);
+    });
+  }
+  [[nodiscard]] std::shared_ptr<const AnySolver> amounts() const override {
+    return changed([](Options& options) {
+      if constexpr (requires { S::prefer_amounts(options); }) S::prefer_amounts(options);
+    });
+  }
+  [[nodiscard]] std::string refusal(const Scene<double>& scene) const override {
+    return S::refusal(scene, options_);
+  }
+  [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const override {
+    return S::start(scene, options_, watch);
+  }
+  [[nodiscard]] bool has_derivative(const Scene<double>& scene, const Entry& entry) const override {
+    if constexpr (DifferentiableSolver<S>)
+      return S::derivative_refusal(scene, options_, entry).empty();
+    else
+      return false;
+  }
+  [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
+                                        const std::vector<std::size_t>& entries,
+                                        std::any& memory) const override {
+    if constexpr (DifferentiableSolver<S>) {
+      return S::linearise(scene, options_, places, entries, memory);
+    } else {
+      SHEARFRONT_EXPECTS(false, "a method with derivatives");
+      return {};
+    }
+  }
+
+ private:
+  template <class Change>
+  [[nodiscard]] std::shared_ptr<const AnySolver> changed(Change&& change) const {
+    Options options = options_;
+    change(options);
+    return std::make_shared<const Configured>(std::move(options));
+  }
+
+  Options options_;
 };
 
 }  // namespace method_detail
 
-/// A solver of SolverList with its options: what --method, [forward] and `compare` choose.
+/// A solver with its options: what --method, [forward] and `compare` choose. A value.
 class Method {
  public:
-  /// The first of the list, with its defaults.
-  Method() = default;
+  /// The first of the list, with its defaults: the exact solution.
+  Method();
   /// By its name, with defaults. Errors: InputError (key "method") that lists the known names.
-  explicit Method(std::string_view name);
+  Method(std::string_view name);
+  Method(const char* name) : Method(std::string_view(name)) {}
+  Method(const std::string& name) : Method(std::string_view(name)) {}
+  /// Any solver, also one that the program does not know.
   template <Solver S>
   [[nodiscard]] static Method of(typename S::Options options = {}) {
-    Method method;
-    method.solver_ = method_detail::Configured<S>{std::move(options)};
-    return method;
+    return Method(std::make_shared<const method_detail::Configured<S>>(std::move(options)));
   }
 
-  [[nodiscard]] std::string_view name() const;
-  [[nodiscard]] std::string_view description() const;
-  [[nodiscard]] std::string_view scenes() const;
-  [[nodiscard]] Guarantees guarantees() const;
+  [[nodiscard]] std::string_view name() const { return solver_->name(); }
+  [[nodiscard]] std::string_view description() const { return solver_->description(); }
+  [[nodiscard]] std::string_view scenes() const { return solver_->scenes(); }
+  [[nodiscard]] Guarantees guarantees() const { return solver_->guarantees(); }
 
-  [[nodiscard]] bool has_option(std::string_view option) const;
-  /// Calls visit(OptionInfo, member) for all options.
-  template <class Visit>
-  void visit_options(Visit&& visit) {
-    std::visit([&](auto& solver) { solver.options.fields(solver.options, visit); }, solver_);
-  }
+  /// In the order in which the solver lists them.
+  [[nodiscard]] std::vector<Option> options() const { return solver_->options(); }
+  /// Calls visit(OptionInfo, value) with the alternative of every option's value.
   template <class Visit>
   void visit_options(Visit&& visit) const {
-    std::visit([&](const auto& solver) { solver.options.fields(solver.options, visit); }, solver_);
+    for (const Option& option : options())
+      std::visit([&](const auto& value) { visit(option.info, value); }, option.value);
   }
-  /// Chooses the options with which the solution depends most smoothly on the numbers of the scene: what a fit wants
-  /// unless its user says otherwise.
-  void prefer_smooth(const Scene<double>& scene);
+  [[nodiscard]] bool has_option(std::string_view option) const;
+  /// Sets an option. Preconditions: has_option(option); the value is of the option's kind and in its range.
+  void set(std::string_view option, const OptionValue& value) { solver_ = solver_->with(option, value); }
+  /// Chooses the options with which the solution depends most smoothly on the numbers of the scene: what a
+  /// fit wants unless its user says otherwise.
+  void prefer_smooth(const Scene<double>& scene) { solver_ = solver_->smooth(scene); }
   /// Chooses the options with which M is most accurate and smooth, whatever phi is.
-  void prefer_amounts();
+  void prefer_amounts() { solver_ = solver_->amounts(); }
 
   /// Why the method cannot solve the scene, and which can; empty if it can.
   [[nodiscard]] std::string refusal(const Scene<double>& scene) const;
@@ -69,19 +156,24 @@ class Method {
   [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const;
 
   /// Whether the method can differentiate its solution with respect to an entry of the scene.
-  [[nodiscard]] bool has_derivative(const Scene<double>& scene, const Entry& entry) const;
-  /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at least one
-  /// if `entries` is empty.
+  [[nodiscard]] bool has_derivative(const Scene<double>& scene, const Entry& entry) const {
+    return solver_->has_derivative(scene, entry);
+  }
+  /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at
+  /// least one if `entries` is empty.
   [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
-                                        const std::vector<std::size_t>& entries, std::any& memory) const;
+                                        const std::vector<std::size_t>& entries, std::any& memory) const {
+    return solver_->linearise(scene, places, entries, memory);
+  }
 
   /// Names of all solvers with the property, in the order of the list.
   [[nodiscard]] static std::vector<std::string> names(bool Guarantees::*property = nullptr);
 
  private:
-  [[nodiscard]] std::string own_refusal(const Scene<double>& scene) const;
+  using AnySolver = method_detail::AnySolver;
+  explicit Method(std::shared_ptr<const AnySolver> solver) : solver_(std::move(solver)) {}
 
-  typename method_detail::VariantOf<SolverList>::Type solver_;
+  std::shared_ptr<const AnySolver> solver_;  ///< never changed, so copies may share it
 };
 
 }  // namespace shearfront

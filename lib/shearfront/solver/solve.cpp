@@ -17,7 +17,8 @@ void check(const Scene<double>& scene, const SolverRequest& request) {
   Complaints complaints;
   for (std::size_t i = 0; i < request.times.size(); ++i)
     if (!(request.times[i] >= 0))
-      complaints.push_back({"times[" + std::to_string(i) + "]", number_text(request.times[i]), "must be >= 0"});
+      complaints.push_back(
+          {"times[" + std::to_string(i) + "]", number_text(request.times[i]), "must be >= 0"});
   for (std::size_t i = 0; i < request.heights.size(); ++i)
     if (!(request.heights[i] >= scene.bottom() && request.heights[i] <= scene.top()))
       complaints.push_back({"heights[" + std::to_string(i) + "]", number_text(request.heights[i]),
@@ -88,6 +89,23 @@ SolverResult solve(const Scene<double>& scene, const Method& method, const Solve
   }
   result.summary.wall_s = seconds_since(begin);
   return result;
+}
+
+Timeline<double> event_times(const Scene<double>& scene, const Method& method) {
+  SolverRequest request;
+  request.timeline = true;
+  const SolverResult result = solve(scene, method, request);
+  if (result.timeline) return *result.timeline;
+  throw InputError(
+      "method", '"' + std::string(method.name()) + '"',
+      result.summary.usable() ? "must know event times" : "gives no event times: " + result.summary.message);
+}
+
+Timeline<double> event_times(const Scene<double>& scene) {
+  const std::vector<std::string> names = Method::names(&Guarantees::has_timeline);
+  for (const std::string& name : names)
+    if (Method(name).refusal(scene).empty()) return event_times(scene, name);
+  return event_times(scene, names.front());
 }
 
 PlaceSamples sample(const Scene<double>& scene, const Method& method, const std::vector<Place>& places,

@@ -12,10 +12,9 @@
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/timeline.hpp"
-#include "shearfront/track/solver.hpp"
-#include "shearfront/track/ends.hpp"
-#include "shearfront/track/initial_pieces.hpp"
+#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/level_grid.hpp"
+#include "shearfront/track/track.hpp"
 #include "shearfront/track/tracker.hpp"
 
 namespace shearfront {
@@ -52,7 +51,49 @@ template <Real Scalar>
   return staircase(scene, layers > 0 ? layers : staircase_layers(scene, resolution));
 }
 
-/// Everything a Tracker needs for a scene. Keep it alive as long as the tracker.
+/// The initial state of a scene cut at jumps and interfaces: for each piece its layer, its top and phi / c.
+template <Real Scalar>
+struct InitialPieces {
+  std::vector<LayerState<Scalar>> states;  ///< one per piece, bottom to top
+  std::vector<Scalar> tops;
+};
+
+/// Cuts the initial data of `scene` by the layers of `stack`. A jump on an interface makes one cut, not two.
+/// Cost: O(jumps + layers).
+template <Real Scalar>
+[[nodiscard]] InitialPieces<Scalar> initial_pieces(const Scene<Scalar>& scene,
+                                                   const LayerStack<Scalar>& stack) {
+  InitialPieces<Scalar> pieces;
+  const std::vector<Scalar>& breaks = scene.initial_breaks();
+  std::size_t jump = 0;
+  for (std::size_t k = 0; k < stack.n_layers(); ++k) {
+    const Scalar& top = stack.boundary(k + 1);
+    while (jump < breaks.size() && breaks[jump] < top) {
+      if (breaks[jump] > stack.boundary(k)) {
+        pieces.states.push_back({k, scene.initial_values()[jump]});
+        pieces.tops.push_back(breaks[jump]);
+      }
+      ++jump;
+    }
+    pieces.states.push_back({k, scene.initial_values()[jump]});
+    pieces.tops.push_back(top);
+  }
+  return pieces;
+}
+
+/// The pieces with the states of a grid, ready for a Tracker. `states`, of which the first are those of the
+/// pieces, comes from the grid's factory function.
+template <Real Scalar>
+[[nodiscard]] std::vector<Piece<Scalar>> on_grid(const InitialPieces<Scalar>& pieces,
+                                                 const std::vector<State>& states) {
+  std::vector<Piece<Scalar>> result(pieces.states.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = {pieces.states[i].layer, pieces.tops[i], states[i]};
+  return result;
+}
+
+/// Everything a Tracker needs for a scene. Keep it alive as long as the tracker. Errors: InputError (key "flux") if the
+/// grid does not take the scene's fluxes; Tracking (track/track.hpp) chooses the grid that does.
 template <Real Scalar, class Grid = LevelGrid<Scalar>>
 struct TrackingSetup {
   LayerStack<Scalar> stack;
@@ -67,6 +108,7 @@ struct TrackingSetup {
   TrackingSetup(const Scene<Scalar>& scene, LayerStack<Scalar> layers, const Scalar& resolution,
                 GridKind kind)
       : stack(std::move(layers)) {
+    if (std::string why = refusal(resolution); !why.empty()) throw InputError("flux", "", why);
     const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
     std::vector<LayerState<Scalar>> states = initial.states;
     const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
@@ -89,6 +131,10 @@ struct TrackingSetup {
   }
 
  private:
+  [[nodiscard]] std::string refusal(const Scalar& resolution) const {
+    if constexpr (requires { Grid::refusal(stack); }) return Grid::refusal(stack);
+    else return Grid::refusal(stack, resolution);
+  }
   [[nodiscard]] typename Grid::Built build(GridKind kind, const Scalar& resolution,
                                            const std::vector<LayerState<Scalar>>& states) const {
     if constexpr (requires { Grid::singular_mapping(stack, resolution, states); })

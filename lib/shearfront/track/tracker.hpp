@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,15 +12,20 @@
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
-#include "shearfront/track/ends.hpp"
+#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/front_system.hpp"
 #include "shearfront/track/observers.hpp"
-#include "shearfront/track/piece.hpp"
-#include "shearfront/track/run_limits.hpp"
 #include "shearfront/track/snapshot.hpp"
 
 namespace shearfront {
+
+/// What may stop a run before its end.
+struct RunLimits {
+  std::uint64_t max_collisions = UINT64_MAX;
+  /// Called now and then with (a time in the run, collisions so far); false stops with Status::interrupted.
+  std::function<bool(double, std::uint64_t)> keep_going;
+};
 
 /// Event-driven front tracking: the exact solution of the problem whose fluxes are the polygons of a
 /// StateGrid.
@@ -49,14 +55,16 @@ class Tracker {
   using Scalar = typename Grid::Scalar;
 
   /// `pieces` fill the domain from bottom to top; every interface must be the top of a piece. The state is
-  /// taken at time 0. `grid` must outlive the tracker.
-  Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, Observer observer = {})
-      : Tracker(grid, pieces, {}, std::move(observer)) {}
-  /// With ends that need not be walls. A periodic bed has no steady state that rounding would not disturb:
-  /// give it finite times. Mass is then kept only between what comes in and goes out.
+  /// taken at time 0. `grid` must outlive the tracker. A periodic bed has no steady state that rounding would not
+  /// disturb: give it finite times. Where ends are not walls, mass is kept only between what comes in and goes out.
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
           Observer observer = {})
       : system_(grid, pieces, ends, std::move(observer)), changes_(ends.changes) {}
+  /// What a TrackingSetup holds, which must outlive the tracker.
+  template <class Setup>
+  explicit Tracker(const Setup& setup, Observer observer = {})
+    requires requires { setup.ends; }
+      : Tracker(setup.grid, setup.pieces, setup.ends, std::move(observer)) {}
 
   /// Runs to time t, events at t included. Precondition: t >= time().
   /// Returns ok, or steady if nothing will ever happen again. After budget_reached or interrupted the fronts
@@ -85,6 +93,7 @@ class Tracker {
   }
 
   [[nodiscard]] const Grid& grid() const { return system_.grid(); }
+  /// What it has seen so far, without the fronts alive.
   [[nodiscard]] const Observer& observer() const { return system_.observer(); }
   [[nodiscard]] const Scalar& time() const { return system_.time(); }
   /// Whether nothing will ever happen again.
@@ -130,16 +139,16 @@ class Tracker {
   /// Mass at the current time from the unrounded positions.
   [[nodiscard]] Scalar mass() const { return mass_of(grid(), system_.fronts(), time()); }
 
-  /// Ends the record of an observer at the current time: fronts still alive are handed to observer.end_of().
-  void close_record() {
-    if constexpr (Observer::kActive) {
-      const FrontList<Scalar>& fronts = system_.fronts();
-      fronts.for_each([&](FrontIndex i, const auto& node) {
-        if (!fronts.is_boundary(i))
-          system_.observer().end_of(grid(), fronts.view_of(i), time(), node.position(time()));
-      });
-      system_.observer().close();
-    }
+  /// What the observer has seen, fronts still alive ended at the current time. Cost: a copy of the record,
+  /// sorted.
+  [[nodiscard]] Observer record() const requires(Observer::kActive) {
+    Observer observer = system_.observer();
+    const FrontList<Scalar>& fronts = system_.fronts();
+    fronts.for_each([&](FrontIndex i, const auto& node) {
+      if (!fronts.is_boundary(i)) observer.end_of(grid(), fronts.view_of(i), time(), node.position(time()));
+    });
+    observer.close();
+    return observer;
   }
 
  private:

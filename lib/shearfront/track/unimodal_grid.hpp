@@ -9,7 +9,7 @@
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/scene/layer_stack.hpp"
-#include "shearfront/track/layer_state.hpp"
+#include "shearfront/track/pieces.hpp"
 
 namespace shearfront {
 

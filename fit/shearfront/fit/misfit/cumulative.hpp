@@ -33,11 +33,7 @@ struct CumulativeMisfit {
       else if (observations.quantity == Quantity::point)
         add_trapezoids(builder, observations, profile);
       else
-        for (const std::size_t k : profile.rows) {
-          builder.model(profile.t, observations.rows[k].z, 1);
-          builder.data(k, 1);
-          builder.finish_row();
-        }
+        for (const std::size_t k : profile.rows) builder.row_of(k);
       builder.clear_row();
     }
     return builder.take();

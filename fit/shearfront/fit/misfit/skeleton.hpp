@@ -20,11 +20,7 @@ struct SkeletonMisfit {
   }
   static ResidualRows rows(const Observations& observations, double /*bottom*/, double /*top*/) {
     RowBuilder builder(observations, Observable::phi);
-    for (std::size_t k = 0; k < observations.rows.size(); ++k) {
-      builder.model(observations.rows[k].t, observations.rows[k].z, 1);
-      builder.data(k, 1);
-      builder.finish_row();
-    }
+    for (std::size_t k = 0; k < observations.rows.size(); ++k) builder.row_of(k);
     return builder.take();
   }
 };

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "shearfront/fit/search/allowance.hpp"
-#include "shearfront/fit/search/gradient.hpp"
 #include "shearfront/fit/search/search.hpp"
 
 namespace shearfront::fit {
@@ -190,7 +189,7 @@ std::vector<bool> held_at_bounds(Objective& objective, VectorXd& u, double toler
   if (outwards.isZero()) return held;
   const Objective::Evaluation& at = objective.evaluate(u, true);
   if (!at.is_valid) return held;
-  const VectorXd gradient = misfit_gradient(at, objective.loss());
+  const VectorXd gradient = objective.gradient(at);
   for (Index j = 0; j < u.size(); ++j) {
     const double slope = gradient[j] * outwards[j], curvature = at.jacobian.col(j).squaredNorm();
     const bool gains = slope * slope / 2 > tolerance * at.misfit * curvature;

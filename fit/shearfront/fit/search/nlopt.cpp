@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "shearfront/fit/search/allowance.hpp"
-#include "shearfront/fit/search/gradient.hpp"
 #include "shearfront/fit/search/nlopt_algorithm.hpp"
 #include "shearfront/fit/search/nlopt_space.hpp"
 #include "shearfront/fit/search/search.hpp"
@@ -88,8 +87,7 @@ class Session {
     }
     ++best_->iterations;
     if (gradient)
-      Eigen::Map<VectorXd>(gradient, v.size()) =
-          space_->derivative(u).transpose() * misfit_gradient(at, objective_->loss());
+      Eigen::Map<VectorXd>(gradient, v.size()) = space_->derivative(u).transpose() * objective_->gradient(at);
     return at.misfit;
   }
 

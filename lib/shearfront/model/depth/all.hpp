@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "shearfront/numeric/type_list.hpp"
 #include "shearfront/model/depth/chute.hpp"
 #include "shearfront/model/depth/exponential.hpp"
 #include "shearfront/model/depth/piecewise.hpp"
 #include "shearfront/model/depth/table.hpp"
+#include "shearfront/numeric/type_list.hpp"
 
 namespace shearfront {
 

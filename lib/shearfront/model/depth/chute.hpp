@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/depth/model.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -32,14 +32,15 @@ struct Chute {
     visit(FieldInfo{"decay", Range::positive}, self.decay);
     visit(FieldInfo{"centre", Range::any, true}, self.centre);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
     if (!(amplitude > 0) || !(decay > 0) || !is_finite(amplitude) || !is_finite(decay) || !is_finite(centre))
       return;  // reported elsewhere
     for (const Scalar& z : {bottom, top})
       if (const Scalar a = value(z); !is_finite(a))
         complaints.push_back({prefix + "decay", number_text(decay),
-                            "must keep a(z) a positive finite number on the whole domain (a(" +
-                                number_text(z) + ") = " + number_text(a) + ")"});
+                              "must keep a(z) a positive finite number on the whole domain (a(" +
+                                  number_text(z) + ") = " + number_text(a) + ")"});
   }
 
   [[nodiscard]] Scalar value(const Scalar& z) const {

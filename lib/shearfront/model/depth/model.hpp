@@ -113,9 +113,9 @@ void harmonic_mean_derivatives(const Model& model, const Scalar& lo, const Scala
       };
       const Scalar change =
           side == 0 ? Scalar(Scalar(8) * (at(1) - at(-1)) - (at(2) - at(-2)))
-                    : Scalar(Scalar(side) * (Scalar(-25) * at(0) + Scalar(48) * at(side) -
-                                             Scalar(36) * at(2 * side) + Scalar(16) * at(3 * side) -
-                                             Scalar(3) * at(4 * side)));
+                    : Scalar(Scalar(side) *
+                             (Scalar(-25) * at(0) + Scalar(48) * at(side) - Scalar(36) * at(2 * side) +
+                              Scalar(16) * at(3 * side) - Scalar(3) * at(4 * side)));
       *places[e] = here;
       if (change != Scalar(0)) add(e, Scalar(change / (Scalar(12) * h)));
     }

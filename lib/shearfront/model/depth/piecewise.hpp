@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -28,7 +28,8 @@ struct Piecewise {
     visit(FieldInfo{"breaks"}, self.breaks);
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
     check_breaks(prefix + "breaks", breaks, bottom, top, complaints);
     if (values.size() != breaks.size() + 1)
       complaints.push_back(

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -27,7 +27,8 @@ struct Table {
     visit(FieldInfo{"z"}, self.z);
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
     check_points(prefix, z, values.size(), bottom, top, complaints);
   }
 

@@ -51,7 +51,9 @@ template <class F, class Scalar>
   const Scalar third = p + (q - p) / Scalar(3), middle = p + (q - p) / Scalar(2);
   const Scalar slope = f.secant(p, q);
   const Scalar rounding = Scalar(64) * unit_roundoff<Scalar>() * (slope < 0 ? Scalar(-slope) : slope);
-  const auto equal = [&](const Scalar& other) { return other - slope <= rounding && slope - other <= rounding; };
+  const auto equal = [&](const Scalar& other) {
+    return other - slope <= rounding && slope - other <= rounding;
+  };
   return equal(f.secant(p, third)) && equal(f.secant(p, middle)) && equal(f.secant(middle, q));
 }
 

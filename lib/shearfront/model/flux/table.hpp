@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/model/flux/model.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/flux/model.hpp"
 
 namespace shearfront {
 
@@ -78,12 +78,13 @@ struct FluxTable {
     if (phi.size() < 2)
       complaints.push_back(wrong_length(prefix + "phi", phi.size(), "must have at least 2 entries"));
     if (values.size() != phi.size())
-      complaints.push_back(wrong_length(prefix + "values", values.size(),
-                                        "must have as many entries as phi (" + std::to_string(phi.size()) + ")"));
+      complaints.push_back(
+          wrong_length(prefix + "values", values.size(),
+                       "must have as many entries as phi (" + std::to_string(phi.size()) + ")"));
     for (std::size_t i = 1; i < phi.size(); ++i)
       if (is_finite(phi[i]) && is_finite(phi[i - 1]) && !(phi[i] > phi[i - 1]))
         complaints.push_back({prefix + "phi[" + std::to_string(i) + "]", number_text(phi[i]),
-                            "must be greater than the entry before it (" + number_text(phi[i - 1]) + ")"});
+                              "must be greater than the entry before it (" + number_text(phi[i - 1]) + ")"});
   }
 
   static std::vector<FluxTable> samples() {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/model/flux/model.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/flux/model.hpp"
 
 namespace shearfront {
 
@@ -52,7 +52,7 @@ struct Triangular {
   void check(const std::string& prefix, Complaints& complaints) const {
     if (critical > 0 && is_finite(critical) && is_finite(jam) && !(critical < jam))
       complaints.push_back({prefix + "critical", number_text(critical),
-                          "must be less than " + prefix + "jam (" + number_text(jam) + ")"});
+                            "must be less than " + prefix + "jam (" + number_text(jam) + ")"});
   }
 
   static std::vector<Triangular> samples() {

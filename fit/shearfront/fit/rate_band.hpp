@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/parameters.hpp"
+
+namespace shearfront::fit {
+
+/// s a at a height, with its 95 % interval: its ends are equal where no unknown has a part in s a; empty
+/// where one that has no error bar has.
+struct RateRow {
+  double z = 0, a = 0;
+  std::optional<Interval> band;
+};
+
+/// Where an interface lies with 95 %, and the span of s a on both sides of it.
+struct InterfaceBand {
+  Interval z, a;
+};
+
+/// s a(z) of an estimate with its pointwise 95 % band, by linear propagation of the covariance of the
+/// parameters to log(s a(z)):
+///
+///     band = s a exp(-+ q sqrt(g^T C g)),   g_i = d log(s a) / d p_i,   C_ij = corr_ij se_i se_j,
+///
+/// where q is the quantile behind the confidence intervals of the estimate. For a layer with its own
+/// unknown this is the confidence interval of that unknown. Unknown interfaces have no part in it; they have
+/// bands of their own. Layers have a row at each end, other beds 201 rows and one at each knot.
+struct RateBand {
+  std::vector<RateRow> rows, start;  ///< of the estimate; of the start of the search, without bands
+  std::vector<InterfaceBand> interfaces;
+  bool is_unknown = false;  ///< whether anything about a or s was
+};
+
+[[nodiscard]] RateBand rate_band(const Parameters& parameters, const Estimate& estimate);
+
+}  // namespace shearfront::fit

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/track/packed_profile.hpp"
+#include "shearfront/track/reconstruct.hpp"
+#include "shearfront/track/setup.hpp"
+#include "shearfront/track/unimodal_grid.hpp"
+
+namespace shearfront {
+
+namespace {
+
+// A record of 40 bytes per level: beyond this a grid would need more memory than a workstation has.
+constexpr double kMaxLevels = 4e8;
+
+template <class Grid>
+constexpr bool kIsLevelGrid = std::is_same_v<Grid, LevelGrid<double>>;
+
+/// Why the grid cannot be built; empty if it can.
+std::string refusal_of_levels(const LayerStack<double>& stack, const TrackOptions& options) {
+  if (options.grid == GridKind::levels) {
+    if (const double n = LevelGrid<double>::exact_level_count(stack, options.resolution); n > kMaxLevels)
+      return "the grid would need " + number_text(std::floor(n)) + " levels; use a coarser resolution";
+    return {};
+  }
+  double largest = 0;
+  for (std::size_t k = 0; k < stack.n_layers(); ++k) largest = std::max(largest, stack.shear_rate(k));
+  if (const double n = largest / options.resolution; n > kMaxLevels)
+    return "the singular-mapping grid would need " + number_text(std::floor(n)) +
+           " levels; use a coarser resolution or the levels grid";
+  return {};
+}
+
+/// A flux that does not vanish at the ends of its range may bring more to a layer than that can carry.
+std::string refusal_between_layers(const Scene<double>& scene) {
+  if (scene.is_uniform()) return {};
+  for (const Flux<double>& flux : scene.fluxes())
+    if (std::string name = std::visit(
+            [](const auto& f) {
+              const bool vanishes = f.value(f.range().lowest) == 0 && f.value(f.range().highest) == 0;
+              return vanishes ? std::string() : std::string(f.kName);
+            },
+            flux);
+        !name.empty())
+      return "flux " + name + " must vanish at both ends of its range where a, c or T vary";
+  return {};
+}
+
+std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& stack,
+                       const TrackOptions& options) {
+  if (stack.is_plain()) return refusal_of_levels(stack, options);
+  if (options.grid != GridKind::levels)
+    return "the singular-mapping grid is known for the quadratic flux only";
+  if (options.reconstruct != Reconstruction::constant)
+    return "the linear reconstruction is known for the quadratic flux only";
+  if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
+  if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
+  return refusal_between_layers(scene);
+}
+
+/// What needs no layers to be refused.
+std::string refusal_at_once(const Scene<double>& scene, const TrackOptions& options) {
+  if (options.grid == GridKind::levels && !(options.resolution > 0 && options.resolution <= 1))
+    return "resolution = " + number_text(options.resolution) + "; must be > 0 and <= 1";
+  if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
+  if (scene.has_diffusion()) return "there are no fronts where grains diffuse";
+  return {};
+}
+
+LayerStack<double> layers_of(const Scene<double>& scene, const TrackOptions& options) {
+  return tracking_layers(scene, std::min(options.resolution, 1.0), static_cast<std::size_t>(options.layers));
+}
+
+std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
+  switch (status) {
+    case Status::steady:
+      return "steady state reached";
+    case Status::budget_reached:
+      return "stopped at " + std::to_string(n_collisions) +
+             " collisions, the largest number allowed; allow more or use a coarser resolution";
+    case Status::interrupted:
+      return "interrupted after " + std::to_string(n_collisions) + " collisions";
+    default:
+      return n_unreachable > 0 ? "some fronts meet only after the largest representable time"
+                               : "reached the last time";
+  }
+}
+
+template <class AnyTracker>
+Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene,
+                           const LayerStack<double>& stack, Reconstruction reconstruct) {
+  if (has_smooth_packing(scene)) return packed_profile(tracker, scene, stack);
+  if constexpr (kIsLevelGrid<std::decay_t<decltype(tracker.grid())>>)
+    if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
+  return tracker.profile();
+}
+
+}  // namespace
+
+namespace track_detail {
+
+class AnyTracking {
+ public:
+  virtual ~AnyTracking() = default;
+  [[nodiscard]] virtual std::unique_ptr<AnyTracking> copy() const = 0;
+  virtual Status advance(double t) = 0;
+  [[nodiscard]] virtual double time() const = 0;
+  [[nodiscard]] virtual Profile<double> profile() const = 0;
+  [[nodiscard]] virtual std::vector<FrontSegment<double>> fronts() const = 0;
+  [[nodiscard]] virtual std::vector<Collision> collisions() const = 0;
+  [[nodiscard]] virtual std::optional<Timeline<double>> timeline() = 0;
+  [[nodiscard]] virtual Summary summary() const = 0;
+};
+
+}  // namespace track_detail
+
+namespace {
+
+using track_detail::AnyTracking;
+
+template <class Grid, class Observer>
+class TrackingOn final : public AnyTracking {
+ public:
+  TrackingOn(const Scene<double>& scene, const TrackOptions& options, Progress progress, LayerStack<double> stack)
+      : bed_(std::make_shared<const Bed>(scene, options, std::move(stack))),
+        limits_{options.max_collisions, std::move(progress)},
+        tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends) {}
+
+  [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override { return std::make_unique<TrackingOn>(*this); }
+  Status advance(double t) override {
+    if (bed_->scene.spec().is_periodic && !std::isfinite(t)) {
+      refused_ = "a periodic bed has no steady state; ask for a finite time";
+      return status_ = Status::unsupported;
+    }
+    return status_ = tracker_.advance_to(t, limits_);
+  }
+  [[nodiscard]] double time() const override { return tracker_.time(); }
+  [[nodiscard]] Profile<double> profile() const override {
+    return profile_of(tracker_, bed_->scene, bed_->setup.stack, bed_->reconstruct);
+  }
+  [[nodiscard]] std::vector<FrontSegment<double>> fronts() const override {
+    if constexpr (Observer::kActive) return tracker_.record().segments();
+    SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its fronts");
+    return {};
+  }
+  [[nodiscard]] std::vector<Collision> collisions() const override {
+    std::vector<Collision> all;
+    if constexpr (requires(const Observer& observer) { observer.collisions(); }) {
+      const Observer record = tracker_.record();
+      for (const auto& c : record.collisions()) {
+        all.push_back({c.t, c.z, c.boundary, c.incoming.size(), c.outgoing.size()});
+        if (c.boundary == CollisionView<double>::kNoBoundary) all.back().boundary.reset();
+      }
+      return all;
+    }
+    SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its history");
+    return all;
+  }
+  [[nodiscard]] std::optional<Timeline<double>> timeline() override {
+    if (!bed_->scene.has_walls()) {
+      refused_ = "event times are those of a bed between walls";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
+    status_ = tracker_.run_to_steady(limits_);
+    if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
+    return tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+  }
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.message =
+        refused_.empty() ? message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable()) : refused_;
+    summary.collisions = tracker_.n_collisions();
+    summary.fronts_max = tracker_.n_fronts_max();
+    summary.levels = bed_->setup.grid.n_levels();
+    summary.layers = bed_->setup.stack.n_layers();
+    return summary;
+  }
+
+ private:
+  /// What never changes; the tracker refers to it.
+  struct Bed {
+    Bed(const Scene<double>& of, const TrackOptions& options, LayerStack<double> stack)
+        : scene(of), setup(of, std::move(stack), options.resolution, options.grid), reconstruct(options.reconstruct) {}
+    Scene<double> scene;
+    TrackingSetup<double, Grid> setup;
+    Reconstruction reconstruct;
+  };
+
+  std::shared_ptr<const Bed> bed_;
+  RunLimits limits_;
+  Tracker<Grid, Observer> tracker_;
+  Status status_ = Status::ok;
+  std::string refused_;
+};
+
+template <class Grid>
+std::unique_ptr<AnyTracking> tracking_on(const Scene<double>& scene, const TrackOptions& options, Progress progress,
+                                         LayerStack<double> stack) {
+  const auto keeping = [&]<class Observer>(Observer) -> std::unique_ptr<AnyTracking> {
+    return std::make_unique<TrackingOn<Grid, Observer>>(scene, options, std::move(progress), std::move(stack));
+  };
+  if (options.history) return keeping(History<double>{});
+  if (options.fronts) return keeping(SegmentRecord<double>{});
+  return keeping(NoObserver{});
+}
+
+}  // namespace
+
+std::string Tracking::refusal(const Scene<double>& scene, const TrackOptions& options) {
+  if (std::string why = refusal_at_once(scene, options); !why.empty()) return why;
+  return refusal_of(scene, layers_of(scene, options), options);
+}
+
+Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Progress progress) {
+  std::string why = refusal_at_once(scene, options);
+  if (why.empty()) {
+    LayerStack<double> stack = layers_of(scene, options);
+    why = refusal_of(scene, stack, options);
+    if (why.empty())
+      tracking_ = LevelGrid<double>::refusal(stack).empty()
+                      ? tracking_on<LevelGrid<double>>(scene, options, std::move(progress), std::move(stack))
+                      : tracking_on<UnimodalGrid<double>>(scene, options, std::move(progress), std::move(stack));
+  }
+  if (!tracking_) throw InputError("method", "\"front-tracking\"", "must suit the scene: " + why);
+}
+Tracking::Tracking(const Tracking& other) : tracking_(other.tracking_->copy()) {}
+Tracking::Tracking(Tracking&&) noexcept = default;
+Tracking& Tracking::operator=(Tracking other) noexcept {
+  tracking_ = std::move(other.tracking_);
+  return *this;
+}
+Tracking::~Tracking() = default;
+
+Status Tracking::advance(double t) { return tracking_->advance(t); }
+double Tracking::time() const { return tracking_->time(); }
+Profile<double> Tracking::profile() const { return tracking_->profile(); }
+std::vector<FrontSegment<double>> Tracking::fronts() const { return tracking_->fronts(); }
+std::vector<Collision> Tracking::collisions() const { return tracking_->collisions(); }
+std::optional<Timeline<double>> Tracking::timeline() { return tracking_->timeline(); }
+Summary Tracking::summary() const { return tracking_->summary(); }
+
+}  // namespace shearfront

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bed_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/solution/bed_height.hpp"
+#include "shearfront/solution/mixing.hpp"
+
+namespace shearfront::tools {
+
+double last_time(const std::vector<double>& times) {
+  double last = 0;
+  for (const double t : times)
+    if (std::isfinite(t)) last = std::max(last, t);
+  return last;
+}
+
+BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
+                     const std::vector<double>& times, const Progress& progress) {
+  const BedHeight bed(scene);
+  const bool is_mixing = quantity == SolvedQuantity::mixing;
+  const auto is_steady = [](double t) { return !std::isfinite(t); };
+  SolverRequest request;
+  request.times = times;
+  request.integrand = is_mixing ? entropy_function() : bed.integrand();
+  request.timeline = method.guarantees().has_timeline && std::any_of(times.begin(), times.end(), is_steady);
+  const SolverResult result = solve(scene, method, request, progress);
+  BedCourse course{quantity, {{"H"}, times, {}}, {}, result.summary};
+  if (is_mixing) course.table.columns = {"E", "Psi"};
+  if (result.timeline && result.timeline->t_star)
+    std::replace_if(course.table.times.begin(), course.table.times.end(), is_steady,
+                    *result.timeline->t_star);
+  if (!course.summary.usable()) return course;
+  const double solid = scene.solid(scene.bottom(), scene.top());
+  for (const double integral : result.integrals) {
+    const Mixing at = is_mixing ? mixing(integral, scene.mass(), solid) : Mixing{};
+    course.table.rows.push_back(is_mixing ? std::vector<double>{at.entropy, at.parameter}
+                                          : std::vector<double>{bed.height(integral)});
+  }
+  const double t_end = last_time(times);
+  if (is_mixing || !(t_end > 0)) return course;
+  const auto heights = [&](const std::vector<double>& at) {
+    request.times = at;
+    request.timeline = false;
+    std::vector<double> all = solve(scene, method, request, progress).integrals;
+    for (double& x : all) x = bed.height(x);
+    return all;
+  };
+  course.lowest = lowest_bed(heights, t_end);
+  return course;
+}
+
+}  // namespace shearfront::tools

@@ -1,0 +1,36 @@
+# A number of the whole bed against time: the mixing parameter, or the height of the bed.
+#
+# course.csv   t,H or t,E,Psi   as written by `shearfront solve --quantity`: a curve
+# times.csv    the same: points on it
+#
+# Variables: quantity     'H' or 'Psi'
+#            t_end        right end of the axis
+#            has_points   1: times.csv is drawn
+#            t_lowest, h_lowest   of the lowest bed; t_lowest = 0: not marked
+width = 560
+height = 380
+load 'style.gp'
+if (!exists("quantity")) quantity = 'H'
+if (!exists("t_end")) {
+  stats 'course.csv' using (column("t")) nooutput
+  t_end = STATS_max
+}
+if (!exists("has_points")) has_points = 0
+if (!exists("t_lowest")) t_lowest = 0
+
+set title title noenhanced offset 0,0.2
+set xlabel 'time {/:Italic t}' offset 0,0.3
+set xrange [0:t_end]
+if (quantity eq 'H') {
+  set ylabel 'height of the bed {/:Italic H}' offset 0.5,0
+  set offsets 0,0,graph 0.03,graph 0.12
+} else {
+  set ylabel 'mixing parameter Ψ' offset 0.5,0
+  set yrange [-0.02:1.02]
+}
+if (t_lowest > 0) {
+  set arrow from t_lowest,graph 0 to t_lowest,h_lowest nohead lw 0.8 dt (8,6) lc rgb '#7f7f7f' back
+  set label sprintf('lowest, {/:Italic t} = %.5g', t_lowest) at t_lowest,graph 0.05 offset 0.8,0 tc rgb '#505050'
+}
+plot 'course.csv' using "t":(column(quantity)) with lines lw 2 lc rgb blue, \
+  for [i=1:has_points] 'times.csv' using "t":(column(quantity)) with points pt 7 ps 0.5 lc rgb blue

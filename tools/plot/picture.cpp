@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plot/picture.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text between single quotes, for gnuplot ('') or a shell ('\'').
+std::string quoted(std::string_view text, std::string_view quote) {
+  std::string all = "'";
+  for (const char c : text) all += c == '\'' ? std::string(quote) : std::string(1, c);
+  return all + "'";
+}
+
+std::string ending_of(const std::string& path) { return fs::path(path).extension().string(); }
+
+/// The same place relative to the program in the build tree and where it is installed.
+fs::path template_folder() {
+  if (const char* folder = std::getenv("SHEARFRONT_PLOT_FOLDER"); folder && *folder)
+    return fs::absolute(folder);
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/shearfront/plot";
+}
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// gnuplot's SVG leaves blanks between words of different fonts to the viewer, and viewers drop them.
+void keep_blanks(std::string& svg) {
+  constexpr std::string_view kText = "<text>", kKeeping = "<text xml:space=\"preserve\">";
+  for (std::size_t i = svg.find(kText); i != std::string::npos; i = svg.find(kText, i + kKeeping.size()))
+    svg.replace(i, kText.size(), kKeeping);
+}
+
+}  // namespace
+
+void check_picture_name(std::string_view option, const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (!path.empty() && ending != ".svg" && ending != ".png" && ending != ".pdf")
+    refuse(option, path, "must end in .svg, .png or .pdf");
+}
+
+void check_picture_target(const std::string& path) {
+  if (!path.empty()) OutputFile{path};
+}
+
+Picture::Picture(std::string path, std::string_view kind) : path_(std::move(path)), kind_(kind) {
+  std::error_code error;
+  folder_ = (fs::temp_directory_path(error) / "shearfront-XXXXXX").string();
+  if (error || !mkdtemp(folder_.data()))
+    throw InputError("TMPDIR", "", "must name a folder in which temporary files can be made");
+  set("picture", "picture" + ending_of(path_));
+}
+
+Picture::~Picture() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+void Picture::set(std::string_view variable, std::string_view text) {
+  variables_ += fmt::format("{} = {}\n", variable, quoted(printable(text, 10'000'000), "''"));
+}
+
+void Picture::set(std::string_view variable, double number) {
+  // "2" would be an integer for gnuplot, and 2 / 4 = 0.
+  variables_ += fmt::format("{} = real('{}')\n", variable, number_text(number));
+}
+
+void Picture::set(std::string_view variable, bool holds) {
+  variables_ += fmt::format("{} = {:d}\n", variable, holds);
+}
+
+void Picture::set(std::string_view variable, const std::vector<double>& numbers) {
+  std::string words;
+  for (const double x : numbers) words += (words.empty() ? "" : " ") + number_text(x);
+  set(variable, words);
+}
+
+int Picture::draw() const {
+  const fs::path templates = template_folder();
+  if (!fs::exists(templates / (kind_ + ".gp"))) {
+    note(fmt::format("no picture {}: {}.gp not found in {} (SHEARFRONT_PLOT_FOLDER names another folder)",
+                     printable(path_), kind_, printable(templates.string())));
+    return kNoResult;
+  }
+  add_file("run.gp", [&](OutputFile& file) {
+    file.write(variables_);
+    file.write(fmt::format("set loadpath {}\nload '{}.gp'\n", quoted(templates.string(), "''"), kind_));
+  });
+  const std::string command =
+      fmt::format("cd {} && gnuplot run.gp >output 2>errors", quoted(folder_, "'\\''"));
+  constexpr int kCommandNotFound = 127;  // exit code of the shell
+  const int status = std::system(command.c_str());
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kCommandNotFound) {
+    note(fmt::format("no picture {}: gnuplot is not installed", printable(path_)));
+    return kDone;
+  }
+  std::string picture = content(folder_ + "/picture" + ending_of(path_));
+  if (status != 0 || picture.empty()) {
+    const std::string errors = content(folder_ + "/errors");  // after any number of warnings
+    constexpr std::size_t kLongest = 150;
+    note(fmt::format("no picture {}: gnuplot failed: {}", printable(path_),
+                     printable(errors.substr(errors.size() - std::min(errors.size(), kLongest)))));
+    return kNoResult;
+  }
+  if (ending_of(path_) == ".svg") keep_blanks(picture);
+  OutputFile file(path_);
+  file.write(picture);
+  file.commit();
+  return kDone;
+}
+
+std::string without_markup(std::string_view text) {
+  std::string marked;
+  for (const char c : printable(text, 30)) {
+    if (std::string_view("{}^_@&~\\").find(c) != std::string_view::npos) marked += '\\';
+    marked += c;
+  }
+  return marked;
+}
+
+}  // namespace shearfront::tools

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plot/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "shearfront/io/results.hpp"
+#include "shearfront/numeric/number_text.hpp"
+
+namespace shearfront::tools {
+namespace {
+
+// Finer than a picture can show.
+constexpr std::size_t kProfileHeights = 4001, kMapTimes = 241, kMapHeights = 321, kCourseTimes = 401;
+
+/// What every picture of a bed shows.
+void set_scene(Picture& picture, const Scene<double>& scene) {
+  const StateRange<double> states = states_of(scene);
+  picture.set("title", scene.name());
+  picture.set("z_low", scene.bottom());
+  picture.set("z_high", scene.top());
+  picture.set("phi_low", states.lowest);
+  picture.set("phi_high", states.highest);
+  picture.set("interfaces", scene.is_layered() ? scene.knots() : std::vector<double>{});
+}
+
+/// The smallest jump drawn as a shock: more than a step of a fan, and in a staircase more than the jump with
+/// which a wave turns round at the edge of a step, the square root of the relative change of a there.
+double least_shock(const Scene<double>& scene, const std::vector<FrontSegment<double>>& fronts,
+                   double resolution) {
+  double least = 1.5 * resolution;
+  if (scene.is_layered()) return least;
+  std::size_t n = 1;
+  for (const auto& f : fronts) n = std::max(n, f.layer + 1);
+  const double step = (scene.top() - scene.bottom()) / static_cast<double>(n);
+  for (std::size_t k = 1; k < n; ++k) {
+    const double z = scene.bottom() + static_cast<double>(k) * step;
+    const double change = scene.shear_rate_at(z) / scene.shear_rate_at(z - step) - 1;
+    least = std::max(least, 1.3 * std::sqrt(std::abs(change)));
+  }
+  return std::min(least, 0.5);
+}
+
+/// Latest time to show: a little after the steady state, else the end of the computed fronts.
+double end_time(const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline) {
+  double end = 0;
+  for (const auto& f : fronts) end = std::max(end, std::isfinite(f.t_end) ? f.t_end : f.t_begin);
+  if (timeline.t_star && *timeline.t_star > 0 && *timeline.t_star <= end * 1.05)
+    return *timeline.t_star * 1.08;
+  return end > 0 ? end : 1.0;
+}
+
+/// Rows t,z,label,side of the events. Labels stand where no front is: before a first wave, after a last one,
+/// and outside the walls. More than a few interfaces have no labels.
+std::string event_rows(const Scene<double>& scene, const Timeline<double>& timeline, double t_end) {
+  constexpr std::size_t kMostLabels = 4;
+  std::string rows = "t,z,label,side\n";
+  const auto mark = [&](const std::optional<double>& t, double z, std::string_view symbol,
+                        std::string_view index, std::string_view side) {
+    if (!t || *t > t_end) return;
+    const std::string label = symbol.empty() ? "" : fmt::format("\"{{/:Italic {}}}{}\"", symbol, index);
+    rows += fmt::format("{},{},{},{}\n", number_text(*t), number_text(z), label, side);
+  };
+  const std::size_t n = timeline.interfaces.size();
+  const double z_jump = scene.initial_breaks().empty() ? scene.top() : scene.initial_breaks().front();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& at = timeline.interfaces[i];
+    const std::string index = n == 1 ? "_{c}" : fmt::format("_{{c,{}}}", i + 1);
+    const bool has_room = at.first && *at.first > 0.07 * t_end;
+    mark(at.first, at.z, n <= kMostLabels && has_room ? "t" : "", index,
+         at.z < z_jump ? "left-below" : "left-above");
+    mark(at.last, at.z, n <= kMostLabels ? "t\u0302" : "", index,
+         at.z < timeline.steady_height ? "right-below" : "right-above");
+  }
+  mark(timeline.t0, scene.bottom(), "t", "_0", "below");
+  mark(timeline.t1, scene.top(), "t", "_1", "above");
+  mark(timeline.t_star, timeline.steady_height, "t", "*", "right");
+  return rows;
+}
+
+}  // namespace
+
+StateRange<double> states_of(const Scene<double>& scene) {
+  std::vector<double> heights = scene.knots();
+  heights.push_back(scene.top());
+  StateRange<double> all = scene.range_at(scene.bottom());
+  double below = scene.bottom();
+  for (const double z : heights) {
+    for (const double at : {below + (z - below) / 2, z}) {  // the value at a knot is that above it
+      const StateRange<double> range = scene.range_at(at);
+      all = {std::min(all.lowest, range.lowest), std::max(all.highest, range.highest)};
+    }
+    below = z;
+  }
+  return all;
+}
+
+int draw_fronts(const std::string& path, const Scene<double>& scene,
+                const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline,
+                double resolution) {
+  const double t_end = end_time(fronts, timeline);
+  Picture picture(path, "fronts");
+  set_scene(picture, scene);
+  picture.set("t_end", t_end);
+  picture.set("wall_low", !scene.spec().is_periodic && !scene.spec().outside_bottom);
+  picture.set("wall_high", !scene.spec().is_periodic && !scene.spec().outside_top);
+  picture.set("least_shock", least_shock(scene, fronts, resolution));
+  picture.set("fan_width", scene.is_layered() ? 0.7 : 0.4);  // a staircase has many more fronts
+  picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, fronts); });
+  picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
+  return picture.draw();
+}
+
+int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
+                  const std::vector<double>& times) {
+  SolverRequest request;
+  request.times = times;
+  request.heights = equally_spaced(scene.bottom(), scene.top(), kProfileHeights);
+  const auto write = [&](const SolverResult& result) {
+    return [&](OutputFile& file) { write_samples_csv(file, times, request.heights, result.samples); };
+  };
+  Picture picture(path, "profiles");
+  set_scene(picture, scene);
+  picture.set("times", times);
+  picture.set("symbol", scene.is_plain() ? "of small grains " : "");
+  picture.add_file("profiles.csv", write(solve(scene, method, request)));
+  const bool compare = !method.guarantees().exact;
+  const SolverResult exact = compare ? solve<ExactSolver>(scene, request) : SolverResult{};
+  picture.set("has_exact", exact.summary.usable());
+  if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));
+  return picture.draw();
+}
+
+int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end) {
+  SolverRequest request;
+  request.times = equally_spaced(0, t_end, kMapTimes);
+  request.heights = equally_spaced(scene.bottom(), scene.top(), kMapHeights);
+  const SolverResult result = solve(scene, method, request);
+  if (!result.summary.usable()) return report_unusable(result.summary);
+  Picture picture(path, "map");
+  set_scene(picture, scene);
+  picture.set("t_end", t_end);
+  picture.add_file("map.csv", [&](OutputFile& file) {
+    std::string rows = "t,z,phi\n";
+    for (std::size_t i = 0; i < kMapTimes; ++i) {
+      for (std::size_t j = 0; j < kMapHeights; ++j)
+        rows += fmt::format("{:.6g},{:.6g},{:.4g}\n", request.times[i], request.heights[j],
+                            result.samples[i * kMapHeights + j].phi);
+      rows += '\n';
+    }
+    file.write(rows);
+  });
+  return picture.draw();
+}
+
+int draw_bed_course(const std::string& path, const Scene<double>& scene, const Method& method,
+                    const BedCourse& course) {
+  constexpr std::size_t kMostPoints = 60;
+  double t_end = last_time(course.table.times);
+  if (!(t_end > 0)) t_end = 1;
+  const BedCourse fine = bed_course(course.quantity, scene, method, equally_spaced(0, t_end, kCourseTimes));
+  Picture picture(path, "bed");
+  set_scene(picture, scene);
+  picture.set("quantity", course.table.columns.back());
+  picture.set("t_end", t_end);
+  picture.set("has_points", course.table.times.size() <= kMostPoints);
+  picture.set("t_lowest", course.lowest ? course.lowest->t : 0);
+  picture.set("h_lowest", course.lowest ? course.lowest->height : 0);
+  picture.add_file("course.csv", [&](OutputFile& file) { write_time_table_csv(file, fine.table); });
+  picture.add_file("times.csv", [&](OutputFile& file) { write_time_table_csv(file, course.table); });
+  return picture.draw();
+}
+
+}  // namespace shearfront::tools

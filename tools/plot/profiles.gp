@@ -1,0 +1,62 @@
+# Profiles phi(z) at some times, z upwards.
+#
+# profiles.csv   t,z,phi,M   as written by `shearfront solve -o`: the same heights at every time
+# exact.csv      the same by the exact method, drawn as thin lines on top
+#
+# Variables: times               words, in the order of the file
+#            has_exact           1 if there is exact.csv
+#            z_low, z_high       bottom and top
+#            phi_low, phi_high   states of the bed
+#            interfaces          their heights, words
+#            symbol              what stands before phi on the axis
+width = 560
+height = 480
+load 'style.gp'
+if (!exists("times")) {  # one profile, of unknown time
+  times = 'unknown'
+}
+if (!exists("has_exact")) has_exact = 0
+if (!exists("z_low")) z_low = 0
+if (!exists("z_high")) z_high = 1
+if (!exists("phi_low")) phi_low = 0
+if (!exists("phi_high")) phi_high = 1
+if (!exists("interfaces")) interfaces = ''
+if (!exists("symbol")) symbol = ''
+
+set title title noenhanced offset 0,0.2
+set xlabel 'concentration '.symbol.'{/:Italic φ}' offset 0,0.3
+set ylabel 'height {/:Italic z}' offset 0.5,0
+margin = 0.02 * (phi_high - phi_low)
+set xrange [phi_low-margin:phi_high+margin]
+set yrange [z_low:z_high]
+if (phi_low == 0 && phi_high == 1) set xtics 0.2
+set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1
+do for [z in interfaces] { set arrow from graph 0,first real(z) to graph 1,first real(z) nohead lw 0.8 dt (8,6) lc rgb grey back }
+
+n_times = words(times)
+stats 'profiles.csv' using (column("z")) nooutput
+n = STATS_records / n_times
+t_of(i) = real(word(times, i))
+line_width = has_exact ? 2.4 : 2.0
+exact = has_exact ? 'exact.csv' : 'profiles.csv'
+if (n_times <= words(colours)) {
+  plot for [i=1:n_times] 'profiles.csv' using "phi":"z" every ::((i-1)*n)::(i*n-1) \
+      with lines lw line_width lc rgb word(colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)), \
+    for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
+      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : ''
+} else {  # too many to be named
+  eval "set palette defined (" . phi_palette . ")"
+  first = t_of(1)
+  last = t_of(1)
+  do for [t in times] {
+    first = min(first, real(t))
+    last = max(last, real(t))
+  }
+  set cbrange [first:last > first ? last : first + 1]
+  set cblabel 'time {/:Italic t}' offset 1.2,0
+  set colorbox noborder
+  plot for [i=1:n_times] 'profiles.csv' using "phi":"z" every ::((i-1)*n)::(i*n-1) \
+      with lines lw line_width lc palette cb t_of(i) notitle, \
+    for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
+      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : ''
+}
