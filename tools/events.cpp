@@ -24,7 +24,8 @@ namespace {
 
 constexpr int kDoubleDigits = 17;
 // Few enough fronts to be told apart.
-constexpr const char *kPictureResolution = "0.04", *kPictureLayers = "100";
+constexpr double kPictureResolution = 0.04;
+constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
   std::string scene, digits, plot;
@@ -92,7 +93,7 @@ std::string summary_line(const Summary& s) {
 Timeline<double> exact_times(const Scene<double>& scene) {
   SolverRequest request;
   request.timeline = true;
-  return solve<ExactSolver>(scene, request).timeline.value_or(Timeline<double>{});
+  return solve(scene, Method(), request).timeline.value_or(Timeline<double>{});
 }
 
 /// `text` are the times as they are printed, `digits` those of times by another road.
@@ -121,8 +122,8 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
 int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
                 const Timeline<double>& timeline, const Progress& progress) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
-  if (!arguments.method.has("resolution")) set_option(method, "resolution", kPictureResolution, "");
-  if (!arguments.method.has("layers")) set_option(method, "layers", kPictureLayers, "");
+  if (!arguments.method.has("resolution")) method.set("resolution", kPictureResolution);
+  if (!arguments.method.has("layers")) method.set("layers", kPictureLayers);
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.fronts = true;
@@ -143,7 +144,7 @@ int events(const EventsArguments& arguments) {
   if (digits > kDoubleDigits && !method.guarantees().exact)
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
-                       method.name(), ExactSolver::kName));
+                       method.name(), Method().name()));
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene, {{"--plot", arguments.plot}});
   const auto scene = with_remarks(read_scene<double>(arguments.scene));

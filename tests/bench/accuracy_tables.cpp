@@ -18,6 +18,7 @@
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/scene/scene_cast.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/observed_events.hpp"
 

@@ -12,6 +12,7 @@
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 #include "support/any_flux.hpp"
+#include "support/checked.hpp"
 
 namespace shearfront {
 namespace {
@@ -40,11 +41,13 @@ void check_laws(const Scene<double>& scene, double resolution, const std::vector
   // All that was mixed has gone to its end of the bed.
   const double z = scene.steady_height();
   const Profile<double> last = tracker.profile();
+  support::Checked checked;
   for (const double d : {-0.1, -1e-6, 1e-6, 0.1}) {
     if (z + d <= scene.bottom() || z + d >= scene.top()) continue;
     const StateRange<double> range = scene.range_at(z + d);
     const double phi = last.at(z + d).phi;
     EXPECT_EQ(phi, (d < 0) == setup.grid.is_reversed() ? range.lowest : range.highest) << d;
+    checked.count();
   }
 }
 

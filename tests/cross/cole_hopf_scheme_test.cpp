@@ -8,6 +8,7 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
+#include "support/checked.hpp"
 #include "support/closeness.hpp"
 #include "support/crank_nicolson.hpp"
 
@@ -72,6 +73,7 @@ class BesselSeries {
 };
 
 TEST(ColeHopf, PeriodicBurgersIsTheBesselSeries) {
+  shearfront::support::Checked checked({""}, 20);
   for (const double mu : {1.0, 0.1, 0.01}) {
     const BesselSeries series(mu);
     const PeriodicBurgers<Real110> exact(Real110(mu), 1, 1);
@@ -83,6 +85,7 @@ TEST(ColeHopf, PeriodicBurgersIsTheBesselSeries) {
         const auto error = [&](const Real110& u) { return support::relative_error(u, reference); };
         EXPECT_LT(error(Real110(exact.at(x, t).value)), 1e-45) << mu << ' ' << t << ' ' << x;
         EXPECT_LT(error(Real110(rounded.at(x, t).value)), 1e-12) << mu << ' ' << t << ' ' << x;
+        checked.count();
       }
   }
 }

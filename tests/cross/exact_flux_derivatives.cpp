@@ -91,7 +91,7 @@ TEST(FluxDerivativeRefusal, SayWhenThereAreNone) {
   EXPECT_EQ(text("shear_rate.breaks[0]"),
             "shear_rate.breaks[0] lies on a jump of solid fraction, temperature or flux");
   EXPECT_EQ(text("shear_rate.values[0]"), "");
-  EXPECT_EQ(text("packing.values[0]"), "packing.values has no exact derivatives");
+  EXPECT_EQ(text("solid_fraction.values[0]"), "solid_fraction.values has no exact derivatives");
   EXPECT_EQ(text("domain.top"), "domain.top has no exact derivatives");
   spec.solid_fraction = Piecewise<double>{{0.4}, {0.5, 0.25}};
   EXPECT_EQ(text("shear_rate.breaks[0]"), "");

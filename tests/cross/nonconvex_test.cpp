@@ -8,6 +8,7 @@
 #include "oracles/polygon_stack.hpp"
 #include "oracles/verify.hpp"
 #include "shearfront/track/tracker.hpp"
+#include "support/checked.hpp"
 #include "support/godunov.hpp"
 
 namespace shearfront {
@@ -80,8 +81,10 @@ TEST(NonConvex, TwoLayersKeepEveryGuarantee) {
   Tracker<PolygonStack<double>> tracker(
       grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}}, Ends<double>{});
   const double mass = tracker.mass();
+  support::Checked checked({""}, 10);
   while (tracker.step()) {
     if (tracker.n_collisions() % 25 != 0) continue;
+    checked.count();
     ASSERT_EQ(verify(tracker, 1e-13, 1e-10), std::vector<std::string>{});
     ASSERT_NEAR(tracker.mass(), mass, 1e-13);
   }

@@ -13,6 +13,7 @@
 #include "shearfront/diffusion/cole_hopf_kink.hpp"
 #include "shearfront/diffusion/cole_hopf_steady.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
+#include "support/checked.hpp"
 #include "support/closeness.hpp"
 
 namespace shearfront::diffusion {
@@ -157,6 +158,7 @@ TEST(UniformStart, IsTheSameByImagesAndBySeries) {
 }
 
 TEST(UniformStart, TendsToTheShocksOfTheHyperbolicBed) {
+  shearfront::support::Checked checked({""}, 300);
   const double phi0 = 0.55;
   for (const double d : {1e-3, 1e-4, 1e-5})
     for (const double t : {0.2, 0.5, 2.0}) {
@@ -167,6 +169,7 @@ TEST(UniformStart, TendsToTheShocksOfTheHyperbolicBed) {
         if (std::abs(z - lower) < 100 * d || std::abs(z - upper) < 100 * d) continue;
         const double limit = z < lower ? 1 : z < upper ? phi0 : 0;
         EXPECT_NEAR(exact.at(z, t).phi, limit, 1e-12) << d << ' ' << t << ' ' << z;
+        checked.count();
       }
     }
 }
@@ -219,6 +222,7 @@ TEST(Kink, SatisfiesTheEquationAndIsTheTanh) {
 }
 
 TEST(PeriodicBurgers, HasTwelveDigits) {
+  shearfront::support::Checked checked({""}, 100);
   const double pi = std::acos(-1.0);
   for (const double mu : {1.0, 0.1, 0.01, 0.001}) {
     const PeriodicBurgers<double> rounded(mu, 1, 1);
@@ -231,6 +235,7 @@ TEST(PeriodicBurgers, HasTwelveDigits) {
         EXPECT_LT(tail_error(std::abs(here.value), abs(truth.value)), 1e-12) << mu << ' ' << t << ' ' << x;
         EXPECT_LT(distance(here.gradient, truth.gradient) / (1 + std::abs(here.gradient)), 1e-12);
         EXPECT_LT(distance(here.cumulative, truth.cumulative), 1e-13);
+        checked.count();
       }
   }
 }

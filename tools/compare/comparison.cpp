@@ -10,9 +10,7 @@
 #include "cli/arguments.hpp"
 #include "cli/progress.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/io/method_text.hpp"
 #include "shearfront/io/text.hpp"
-#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -62,16 +60,16 @@ std::vector<ComparedMethod> compared_methods() {
     const Guarantees g = method.guarantees();
     if ((!g.exact && !g.has_profiles) || g.diffusion) continue;  // errors are those against exact
     all.push_back({name, method});
-    const auto add = [&](std::string_view variant, std::string_view option, std::string_view value) {
+    const auto add = [&](std::string_view variant, std::string_view option, const OptionValue& value) {
       all.push_back({fmt::format("{}:{}", name, variant), method});
-      set_option(all.back().method, option, value, "");
+      all.back().method.set(option, value);
     };
-    method.visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
-      if constexpr (std::is_same_v<Member, bool>) add(info.name, info.name, "true");
-      if constexpr (std::is_enum_v<Member>)
-        for (std::size_t i = 0; i < info.names.size(); ++i)
-          if (i != static_cast<std::size_t>(member)) add(info.names[i], info.name, info.names[i]);
-    });
+    for (const Option& o : method.options()) {
+      if (std::holds_alternative<bool>(o.value)) add(o.info.name, o.info.name, true);
+      const auto* choice = std::get_if<OptionChoice>(&o.value);
+      for (std::size_t i = 0; choice && i < o.info.names.size(); ++i)
+        if (i != choice->index) add(o.info.names[i], o.info.name, OptionChoice{i});
+    }
   }
   return all;
 }
@@ -127,8 +125,8 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
       break;
     }
     Method finer = method.method;
-    for (const char* option : {"resolution", "cells"})
-      if (finer.has_option(option)) set_option(finer, option, number_text(resolution), "");
+    if (finer.has_option("resolution")) finer.set("resolution", resolution);
+    if (finer.has_option("cells")) finer.set("cells", static_cast<std::uint64_t>(resolution));
     SolverResult result;
     const auto run = [&] {
       const auto begin = Clock::now();

@@ -38,10 +38,8 @@ std::string local_algorithm(const std::string& algorithm) {
 /// The specification of all replicates but for the values of their observations.
 FitSpec template_of(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate) {
   FitSpec replicate = spec;
-  replicate.unknown.parameters.clear();
-  replicate.unknown.start.clear();
-  replicate.unknown.lower.clear();
-  replicate.unknown.upper.clear();
+  replicate.unknown = {};
+  replicate.unknown.shape = spec.unknown.shape;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
     replicate.unknown.parameters.push_back(p.name());

@@ -138,9 +138,7 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   const auto n_free = static_cast<Index>(parts.free.size());
   const MatrixXd moved = noise_to_coordinates(rows, observations, parts.pseudo_inverse);
   // How much of the noise the fit takes out of the residuals: the rank of J if they are independent.
-  MatrixXd jacobian(at.jacobian.rows(), n_free);
-  for (Index a = 0; a < n_free; ++a)
-    jacobian.col(a) = at.jacobian.col(parts.free[static_cast<std::size_t>(a)]);
+  const MatrixXd jacobian = at.jacobian(Eigen::all, parts.free);
   const double fitted = (jacobian.transpose() * jacobian * moved).cwiseProduct(moved).sum();
   const LossEffect effect = effect_of(loss, at, noise, fitted);
   const MatrixXd cov = effect.variance * moved * moved.transpose();
@@ -152,10 +150,10 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   result.null_directions = MatrixXd::Zero(n, parts.null.cols());
   result.determined.assign(static_cast<std::size_t>(n), false);
   result.misfit_scale = VectorXd::Constant(n, kNaN);
+  result.matrix(parts.free, parts.free) = cov;
+  if (parts.null.cols() > 0) result.null_directions(parts.free, Eigen::all) = parts.null;
   for (Index a = 0; a < n_free; ++a) {
     const Index j = parts.free[static_cast<std::size_t>(a)];
-    for (Index b = 0; b < n_free; ++b) result.matrix(j, parts.free[static_cast<std::size_t>(b)]) = cov(a, b);
-    if (parts.null.cols() > 0) result.null_directions.row(j) = parts.null.row(a);
     const bool determined = (parts.null.row(a).array() == 0).all();
     result.determined[static_cast<std::size_t>(j)] = determined;
     if (determined) result.misfit_scale[j] = cov(a, a) / curvature[a];
