@@ -115,7 +115,7 @@ void check_exact_in_50_digits(const Bed& bed, Findings& findings) {
     if (!(z > scene.bottom() && z < scene.top())) continue;
     findings.expect_between(in_double.M(z, t), to_double(solution.M(z, t * (1 - bed.t_rounding()))),
                             to_double(solution.M(z, t * (1 + bed.t_rounding()))), bed.M_rounding(),
-                            "exact: M in double and in 50 digits", [&] { return at(to_double(z), to_double(t)); });
+                            "exact: M in double and in 50 digits", [&] { return at(z, t); });
     check_slopes(solution, z, t, findings);
     if (bed.trial.is_generic && t == bed.trial.late && scene.is_layered() == bed.scene.is_layered())
       check_derivatives(solution, make, z, t, findings);
