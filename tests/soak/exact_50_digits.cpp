@@ -16,10 +16,6 @@ namespace {
 // of 1e30 not to count, large enough for 50 digits.
 constexpr double kStep = 1e-20;
 
-std::string at(const Real110& z, const Real110& t) {
-  return "z = " + number_text(to_double(z)) + ", t = " + number_text(to_double(t));
-}
-
 void check_slopes(const ExactSolution<Real110>& solution, const Real110& z, const Real110& t,
                   Findings& findings) {
   const Scene<Real110>& scene = solution.scene();
@@ -28,10 +24,10 @@ void check_slopes(const ExactSolution<Real110>& solution, const Real110& z, cons
   const Real110 slope = (solution.M(z + h, t) - solution.M(z - h, t)) / (2 * h),
                 growth = (solution.M(z, t + dt) - solution.M(z, t - dt)) / (2 * dt);
   findings.expect_near(to_double(value.phi), to_double(slope), 1e-8, "exact: phi = dM/dz",
-                       [&] { return at(z, t); });
+                       [&] { return at(to_double(z), to_double(t)); });
   findings.expect_near(to_double(Real110(value.H * t / height)), to_double(Real110(growth * t / height)),
                        1e-8 * (1 + to_double(Real110(value.H * t / height))), "exact: H = dM/dt",
-                       [&] { return at(z, t); });
+                       [&] { return at(to_double(z), to_double(t)); });
 }
 
 struct PhiM {
@@ -67,7 +63,7 @@ void check_derivatives(const ExactSolution<Real110>& solution, support::SceneMak
   const Real110 height = spec.top - spec.bottom;
   const std::vector<Entry> all = entries(spec);
   findings.expect(exact.value.M == solution.M(z, t), "derivatives: M is that of the solution",
-                  [&] { return at(z, t); });
+                  [&] { return at(to_double(z), to_double(t)); });
   for (int k = 0; k < kParameters; ++k) {
     const auto i = static_cast<std::size_t>(make.integer(0, static_cast<int>(all.size()) - 1));
     if (!derivative_refusal(solution.scene(), all[i]).empty()) continue;
@@ -76,7 +72,7 @@ void check_derivatives(const ExactSolution<Real110>& solution, support::SceneMak
     const bool is_state = all[i].field == "initial.values", is_height = all[i].field.ends_with(".breaks");
     const Real110 unit = is_state ? Real110(1) : is_height ? height : *entry_places(copy)[i];
     const PhiM numeric = quotient(solution, i, kStep * unit, is_state, z, t);
-    const auto where = [&] { return "d/d " + all[i].name() + " at " + at(z, t); };
+    const auto where = [&] { return "d/d " + all[i].name() + " at " + at(to_double(z), to_double(t)); };
     const double M_size = to_double(Real110(dM * unit / height)), phi_size = to_double(Real110(dphi * unit));
     findings.expect_near(M_size, to_double(Real110(numeric.M * unit / height)), 1e-8 * (1 + std::abs(M_size)),
                          "derivatives: dM against differences", where);

@@ -8,8 +8,6 @@
 namespace shearfront::soak {
 namespace {
 
-std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " + number_text(t); }
-
 void check_profile(const Bed& bed, double t, Findings& findings) {
   const auto& exact = bed.exact;
   const double bottom = bed.scene.bottom(), top = bed.scene.top(), m = exact.mass(), slack = bed.M_rounding();

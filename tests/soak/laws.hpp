@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "soak/findings.hpp"
 #include "soak/trial.hpp"
@@ -34,6 +36,10 @@ struct Bed {
   /// Relative rounding of a time: a sum over the layers, each term right to a few units.
   [[nodiscard]] double t_rounding() const;
 };
+
+/// Where a law does not hold.
+inline std::string at(double t) { return "t = " + number_text(t); }
+inline std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " + number_text(t); }
 
 void check_exact(const Bed& bed, Findings& findings);
 /// phi = dM/dz, H = dM/dt, derivatives, double against 50 digits: expensive.

@@ -16,8 +16,6 @@ constexpr double kMassSlack = 1e-13;
 constexpr double kLeastUnconverged = 1e3;
 constexpr double kMostUpdates = 4e5;  ///< of one run, so that no scene takes long
 
-std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " + number_text(t); }
-
 /// Schemes on a grid have neither fronts nor exact values.
 template <class Solver>
 bool is_on_grid() {

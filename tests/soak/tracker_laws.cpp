@@ -24,9 +24,6 @@ constexpr double kTrace = 1e-3;
 // Fronts of the first moment; larger grids are made coarser.
 constexpr double kMostFronts = 1e5;
 
-std::string at(double z, double t) { return "z = " + number_text(z) + ", t = " + number_text(t); }
-std::string at(double t) { return "t = " + number_text(t); }
-
 double affordable_resolution(const Bed& bed) {
   double resolution = bed.trial.options.at("resolution");
   const double n_pieces = static_cast<double>(bed.stack.n_layers() + bed.scene.initial_values().size());

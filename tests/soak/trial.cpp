@@ -16,7 +16,7 @@ namespace {
 
 using support::SceneMaker;
 
-constexpr double kMostUpdates = 2e7;  // of cells in a run, about 0.1 s
+constexpr double kMostAlignedUpdates = 2e7;  // of cells in a run, about 0.1 s
 
 class Draw {
  public:
@@ -183,7 +183,7 @@ class Draw {
     options["cfl"] = chance(0.5) ? 1.0 : make_.uniform(0.1, 1);
     options["max-collisions"] = 20'000;
     options["limiter"] = make_.integer(0, static_cast<int>(kLimiterNames.size()) - 1);
-    options["align-cells"] = chance(0.3) && aligned_updates(trial) < kMostUpdates ? 1 : 0;
+    options["align-cells"] = chance(0.3) && aligned_updates(trial) < kMostAlignedUpdates ? 1 : 0;
   }
 
   /// Cell updates of a run on aligned cells with equal steps: a thin layer gets a cell of its own, and that

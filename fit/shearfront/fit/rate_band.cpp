@@ -8,11 +8,11 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr std::size_t kRateHeights = 201;
+constexpr std::size_t kHeights = 201;
 /// Relative step of central differences: error of order step^2 and rounding / step, both below 1e-9.
-constexpr double kRateStep = 1e-5;
+constexpr double kDifference = 1e-5;
 /// A part of log(s a) smaller than this per unit of log p is rounding, not dependence.
-constexpr double kNoRatePart = 1e-8;
+constexpr double kNoPart = 1e-8;
 
 double rate_at(const SceneSpec<double>& spec, double z) {
   return spec.scale * std::visit([&](const auto& a) { return a.value(z); }, spec.shear_rate);
@@ -20,7 +20,7 @@ double rate_at(const SceneSpec<double>& spec, double z) {
 
 /// The number of standard errors behind the confidence intervals; that of a normal distribution if none has
 /// one.
-double band_quantile(const Estimate& estimate, const Parameters& parameters) {
+double quantile_of(const Estimate& estimate, const Parameters& parameters) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const ParameterEstimate& p = estimate.parameters[i];
     if (!p.ci95 || !p.std_error || !(*p.std_error > 0)) continue;
@@ -33,12 +33,12 @@ double band_quantile(const Estimate& estimate, const Parameters& parameters) {
 }
 
 /// Where a row stands and where its s a is taken: for layers their ends and their middle.
-struct RatePlace {
+struct Place {
   double z = 0, inside = 0;
 };
-std::vector<RatePlace> places_of(const Scene<double>& scene) {
+std::vector<Place> places_of(const Scene<double>& scene) {
   std::vector<double> knots = scene.knots();
-  std::vector<RatePlace> places;
+  std::vector<Place> places;
   if (scene.is_layered()) {
     knots.push_back(scene.top());
     double below = scene.bottom();
@@ -49,34 +49,34 @@ std::vector<RatePlace> places_of(const Scene<double>& scene) {
     }
     return places;
   }
-  for (std::size_t i = 0; i < kRateHeights; ++i)
-    knots.push_back(std::lerp(scene.bottom(), scene.top(), static_cast<double>(i) / (kRateHeights - 1)));
+  for (std::size_t i = 0; i < kHeights; ++i)
+    knots.push_back(std::lerp(scene.bottom(), scene.top(), static_cast<double>(i) / (kHeights - 1)));
   std::sort(knots.begin(), knots.end());
   for (const double z : knots) places.push_back({z, z});
   return places;
 }
 
 /// One unknown, a step up and down.
-struct RateDirection {
+struct Direction {
   std::size_t index = 0;
   double value = 0, step = 0;
   SceneSpec<double> above, below;
   /// d log(s a) / d p; 0 where it is rounding.
   [[nodiscard]] double slope(double z) const {
     const double slope = std::log(rate_at(above, z) / rate_at(below, z)) / (2 * step);
-    return std::abs(slope * value) > kNoRatePart ? slope : 0;
+    return std::abs(slope * value) > kNoPart ? slope : 0;
   }
 };
 
-std::vector<RateDirection> directions_of(const Parameters& parameters, const Estimate& estimate) {
+std::vector<Direction> directions_of(const Parameters& parameters, const Estimate& estimate) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i)
     values[static_cast<Eigen::Index>(i)] = estimate.parameters[i].estimate;
-  std::vector<RateDirection> directions;
+  std::vector<Direction> directions;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (estimate.scene->is_layered() && parameters[i].entry.field == "shear_rate.breaks") continue;
     const auto k = static_cast<Eigen::Index>(i);
-    const double value = values[k], step = kRateStep * std::max(std::abs(value), 1e-300);
+    const double value = values[k], step = kDifference * std::max(std::abs(value), 1e-300);
     Eigen::VectorXd above = values, below = values;
     above[k] += step;
     below[k] -= step;
@@ -85,10 +85,10 @@ std::vector<RateDirection> directions_of(const Parameters& parameters, const Est
   return directions;
 }
 
-std::optional<Interval> band_at(double z, double rate, const std::vector<RateDirection>& directions,
+std::optional<Interval> band_at(double z, double rate, const std::vector<Direction>& directions,
                                 const Estimate& estimate, double quantile) {
   std::vector<std::pair<Eigen::Index, double>> parts;  // slopes times standard errors
-  for (const RateDirection& d : directions) {
+  for (const Direction& d : directions) {
     const double slope = d.slope(z);
     if (slope == 0) continue;
     const auto& error = estimate.parameters[d.index].std_error;
@@ -108,14 +108,14 @@ std::optional<Interval> band_at(double z, double rate, const std::vector<RateDir
 RateBand rate_band(const Parameters& parameters, const Estimate& estimate) {
   RateBand result;
   const Scene<double>& scene = *estimate.scene;
-  const std::vector<RateDirection> directions = directions_of(parameters, estimate);
-  const double quantile = band_quantile(estimate, parameters);
-  for (const RatePlace& p : places_of(scene)) {
+  const std::vector<Direction> directions = directions_of(parameters, estimate);
+  const double quantile = quantile_of(estimate, parameters);
+  for (const Place& p : places_of(scene)) {
     const double a = rate_at(scene.spec(), p.inside);
     result.rows.push_back({p.z, a, band_at(p.inside, a, directions, estimate, quantile)});
   }
   const Scene<double> start(parameters.scene_with(parameters.start()));
-  for (const RatePlace& p : places_of(start))
+  for (const Place& p : places_of(start))
     result.start.push_back({p.z, rate_at(start.spec(), p.inside), std::nullopt});
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Entry& entry = parameters[i].entry;

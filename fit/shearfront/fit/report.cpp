@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTail = 0.975;
+constexpr double kUpper = 0.975;
 
 /// Observations predicted in their own quantity; empty if the forward model has no solution.
 std::vector<double> predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
@@ -111,7 +111,7 @@ bool hold_near_bounds(const Coordinates& coordinates, const VectorXd& u, const C
 void set_errors(Minimum& minimum, const std::vector<bool>& held, Estimate& estimate) {
   const Observations& observations = minimum.spec.observations;
   const Objective& objective = minimum.objective;
-  minimum.quantile = boost::math::quantile(boost::math::normal(), kTail);
+  minimum.quantile = boost::math::quantile(boost::math::normal(), kUpper);
   estimate.sigma_is_given = observations.has_sigma();
   estimate.sigma = 1;
   if (!estimate.sigma_is_given) {
@@ -120,7 +120,7 @@ void set_errors(Minimum& minimum, const std::vector<bool>& held, Estimate& estim
     estimate.sigma = noise.sigma;
     estimate.freedom = noise.freedom;
     if (noise.freedom > 0)
-      minimum.quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kTail);
+      minimum.quantile = boost::math::quantile(boost::math::students_t(noise.freedom), kUpper);
   }
   minimum.errors =
       covariance(objective.rows(), observations, minimum.at, objective.loss(), estimate.sigma, held);

@@ -192,10 +192,10 @@ class NloptSearch {
   /// round. The Jacobian is renewed as the search moves on.
   void run_preconditioned() {
     constexpr std::size_t kFirst = 20, kNext = 30;
-    constexpr double kRough = 1e-3, kFine = 1e-4, kStep = 0.1;
+    constexpr double kRough = 1e-3, kFine = 1e-4, kLongest = 0.1;
     const auto n = static_cast<std::size_t>(best_.u.size()) + 1;
     run(*algorithm_, space_, {std::max(spec_.tolerance, kRough), spec_.tolerance, kFirst * n, 0});
-    double step = kStep;
+    double step = kLongest;
     while (!allowance_.must_stop() && best_.misfit > rounding_misfit(*objective_)) {
       const Objective::Evaluation& at = objective_->evaluate(best_.u, true);
       if (!at.is_valid) return;
@@ -207,7 +207,7 @@ class NloptSearch {
       const double moved = (space_.v(best_.u) - before).cwiseAbs().maxCoeff();
       const bool is_flat = misfit - best_.misfit <= spec_.tolerance * misfit;
       if (is_flat && step <= kRough) return;
-      step = is_flat ? step / 10 : std::clamp(moved, spec_.tolerance, kStep);
+      step = is_flat ? step / 10 : std::clamp(moved, spec_.tolerance, kLongest);
     }
   }
 
