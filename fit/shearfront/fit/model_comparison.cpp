@@ -14,7 +14,7 @@ namespace {
 
 using Criterion = std::optional<double> ComparedModel::*;
 
-bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+bool is_same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// Fills the differences from the smallest.
 void set_differences(std::vector<ComparedModel>& models, Criterion criterion, Criterion difference) {
@@ -44,7 +44,7 @@ std::string incomparable(const FitSpec& a, const FitSpec& b) {
                                                                        {"sigma", &Observation::sigma}};
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [name, member] : kFields)
-      if (const double x = rows[i].*member, y = others[i].*member; !is_same(x, y))
+      if (const double x = rows[i].*member, y = others[i].*member; !is_same_number(x, y))
         return fmt::format("its observation {} differs ({} {} instead of {})", i, name, y, x);
   if (quantity_of(a) != quantity_of(b))
     return other("its misfit is of another quantity", quantity_of(a), quantity_of(b));
