@@ -12,6 +12,7 @@
 #include "shearfront/fit/misfit/skeleton.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/solution/observe.hpp"
+#include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/checked.hpp"
 #include "support/identification.hpp"

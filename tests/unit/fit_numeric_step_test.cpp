@@ -75,25 +75,25 @@ TEST(Difference, IsOneSidedWhereOneSideHasNoSolution) {
   EXPECT_TRUE(std::isnan(difference(nowhere, u, at_u, 0, 1e-6)[0]));
 }
 
-Estimate fit_example_3(const std::string& method, double resolution, Quantity quantity) {
+Estimate fit_example_3_by_tracking(double resolution, Quantity quantity) {
   const support::Identification problem = support::example_3();
   FitSpec spec = support::fit_of(problem, support::exact_data(problem, quantity));
-  spec.forward.method = method;
-  spec.forward.options.resolution = resolution;
+  spec.forward.method = Method::of<FrontTrackingSolver>({.resolution = resolution});
+  spec.forward.method.prefer_smooth(spec.scene);
   return fit(spec);
 }
 
 TEST(NumericDerivatives, ServeFrontTracking) {
   const support::Identification problem = support::example_3();
   // The tracker's M is second order in the resolution.
-  EXPECT_LE(problem.error(fit_example_3("front-tracking", 0.01, Quantity::cumulative)), 4e-3);
-  EXPECT_LE(problem.error(fit_example_3("front-tracking", 0.0025, Quantity::cumulative)), 3e-4);
-  EXPECT_LE(problem.error(fit_example_3("front-tracking", 0.01, Quantity::point)), 4e-3);
+  EXPECT_LE(problem.error(fit_example_3_by_tracking(0.01, Quantity::cumulative)), 4e-3);
+  EXPECT_LE(problem.error(fit_example_3_by_tracking(0.0025, Quantity::cumulative)), 3e-4);
+  EXPECT_LE(problem.error(fit_example_3_by_tracking(0.01, Quantity::point)), 4e-3);
   // The misfit of points has a kink wherever a front passes one of them, and a search may stall there, by
   // chance of the last bits of the resolution's polygon: the median of three counts.
   std::vector<double> errors;
   for (const double resolution : {0.003, 0.0025, 0.0024})
-    errors.push_back(problem.error(fit_example_3("front-tracking", resolution, Quantity::point)));
+    errors.push_back(problem.error(fit_example_3_by_tracking(resolution, Quantity::point)));
   std::sort(errors.begin(), errors.end());
   EXPECT_LE(errors[1], 3e-4);
 }
@@ -101,8 +101,9 @@ TEST(NumericDerivatives, ServeFrontTracking) {
 TEST(NumericDerivatives, EndWhereASearchWithoutThemEnds) {
   const support::Identification problem = support::example_3();
   FitSpec spec = support::fit_of(problem, support::exact_data(problem, Quantity::cumulative));
-  spec.forward.method = "engquist-osher";
-  spec.forward.options.cells = 100;
+  EngquistOsherSolver::Options options;
+  options.cells = 100;
+  spec.forward.method = Method::of<EngquistOsherSolver>(options);
   const Estimate with = fit(spec);
   spec.search.algorithm = "nlopt:nelder-mead";
   const Estimate without = fit(spec);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kHeights = 201;
 /// Relative step of central differences: error of order step^2 and rounding / step, both below 1e-9.
-constexpr double kStep = 1e-5;
+constexpr double kDifference = 1e-5;
 /// A part of log(s a) smaller than this per unit of log p is rounding, not dependence.
 constexpr double kNoPart = 1e-8;
 
@@ -76,7 +76,7 @@ std::vector<Direction> directions_of(const Parameters& parameters, const Estimat
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (estimate.scene->is_layered() && parameters[i].entry.field == "shear_rate.breaks") continue;
     const auto k = static_cast<Eigen::Index>(i);
-    const double value = values[k], step = kStep * std::max(std::abs(value), 1e-300);
+    const double value = values[k], step = kDifference * std::max(std::abs(value), 1e-300);
     Eigen::VectorXd above = values, below = values;
     above[k] += step;
     below[k] -= step;

@@ -127,12 +127,15 @@ using track_detail::AnyTracking;
 template <class Grid, class Observer>
 class TrackingOn final : public AnyTracking {
  public:
-  TrackingOn(const Scene<double>& scene, const TrackOptions& options, Progress progress, LayerStack<double> stack)
+  TrackingOn(const Scene<double>& scene, const TrackOptions& options, Progress progress,
+             LayerStack<double> stack)
       : bed_(std::make_shared<const Bed>(scene, options, std::move(stack))),
         limits_{options.max_collisions, std::move(progress)},
         tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends) {}
 
-  [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override { return std::make_unique<TrackingOn>(*this); }
+  [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override {
+    return std::make_unique<TrackingOn>(*this);
+  }
   Status advance(double t) override {
     if (bed_->scene.spec().is_periodic && !std::isfinite(t)) {
       refused_ = "a periodic bed has no steady state; ask for a finite time";
@@ -154,6 +157,7 @@ class TrackingOn final : public AnyTracking {
     if constexpr (requires(const Observer& observer) { observer.collisions(); }) {
       const Observer record = tracker_.record();
       for (const auto& c : record.collisions()) {
+        if (c.incoming.empty()) continue;  // where fronts begin at time 0
         all.push_back({c.t, c.z, c.boundary, c.incoming.size(), c.outgoing.size()});
         if (c.boundary == CollisionView<double>::kNoBoundary) all.back().boundary.reset();
       }
@@ -188,7 +192,9 @@ class TrackingOn final : public AnyTracking {
   /// What never changes; the tracker refers to it.
   struct Bed {
     Bed(const Scene<double>& of, const TrackOptions& options, LayerStack<double> stack)
-        : scene(of), setup(of, std::move(stack), options.resolution, options.grid), reconstruct(options.reconstruct) {}
+        : scene(of),
+          setup(of, std::move(stack), options.resolution, options.grid),
+          reconstruct(options.reconstruct) {}
     Scene<double> scene;
     TrackingSetup<double, Grid> setup;
     Reconstruction reconstruct;
@@ -202,10 +208,11 @@ class TrackingOn final : public AnyTracking {
 };
 
 template <class Grid>
-std::unique_ptr<AnyTracking> tracking_on(const Scene<double>& scene, const TrackOptions& options, Progress progress,
-                                         LayerStack<double> stack) {
+std::unique_ptr<AnyTracking> tracking_on(const Scene<double>& scene, const TrackOptions& options,
+                                         Progress progress, LayerStack<double> stack) {
   const auto keeping = [&]<class Observer>(Observer) -> std::unique_ptr<AnyTracking> {
-    return std::make_unique<TrackingOn<Grid, Observer>>(scene, options, std::move(progress), std::move(stack));
+    return std::make_unique<TrackingOn<Grid, Observer>>(scene, options, std::move(progress),
+                                                        std::move(stack));
   };
   if (options.history) return keeping(History<double>{});
   if (options.fronts) return keeping(SegmentRecord<double>{});
@@ -225,9 +232,10 @@ Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Prog
     LayerStack<double> stack = layers_of(scene, options);
     why = refusal_of(scene, stack, options);
     if (why.empty())
-      tracking_ = LevelGrid<double>::refusal(stack).empty()
-                      ? tracking_on<LevelGrid<double>>(scene, options, std::move(progress), std::move(stack))
-                      : tracking_on<UnimodalGrid<double>>(scene, options, std::move(progress), std::move(stack));
+      tracking_ =
+          LevelGrid<double>::refusal(stack).empty()
+              ? tracking_on<LevelGrid<double>>(scene, options, std::move(progress), std::move(stack))
+              : tracking_on<UnimodalGrid<double>>(scene, options, std::move(progress), std::move(stack));
   }
   if (!tracking_) throw InputError("method", "\"front-tracking\"", "must suit the scene: " + why);
 }
