@@ -79,7 +79,7 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       const auto tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.003});
       ASSERT_EQ(tracked.samples.size(), 78u) << tracked.summary.message;
       const auto error = [&](std::size_t cells) {
-        const auto grid = solve<GodunovSolver>(scene, request, {.cells = cells});
+        const auto grid = solve<GodunovSolver>(scene, request, {{.cells = cells}});
         EXPECT_EQ(grid.samples.size(), 78u) << grid.summary.message;
         double largest = 0;
         for (std::size_t i = 0; i < grid.samples.size(); ++i)

@@ -138,7 +138,7 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
     const auto exact = heights<ExactSolver>(scene, times);
     const FrontTrackingSolver::Options options{.resolution = 0.005};
     const auto tracked = heights<FrontTrackingSolver>(scene, times, options);
-    const auto on_grid = heights<GodunovSolver>(scene, {0.3, 1.1}, {.cells = 1600});
+    const auto on_grid = heights<GodunovSolver>(scene, {0.3, 1.1}, {{.cells = 1600}});
     ASSERT_EQ(exact.size(), times.size());
     ASSERT_EQ(tracked.size(), times.size());
     ASSERT_EQ(on_grid.size(), 2u);

@@ -299,7 +299,7 @@ TEST(GeneralErrors, OfGodunovFallWithTheCells) {
       SolverRequest request;
       request.times = {0.3};
       request.profiles = true;
-      const auto result = solve<GodunovSolver>(scene, request, {.cells = cells});
+      const auto result = solve<GodunovSolver>(scene, request, {{.cells = cells}});
       ASSERT_EQ(result.profiles.size(), 1u) << result.summary.message;
       const Profile<double>& profile = result.profiles[0];
       const auto errors = errors_against(solution, profile, 0.3);

@@ -146,7 +146,7 @@ Profile<double> solved(const Scene<double>& scene, double t, const Resolution& r
   SolverRequest request;
   request.times = {t};
   request.profiles = true;
-  if (!tracked) return solve<GodunovSolver>(scene, request, {.cells = resolution.cells}).profiles.at(0);
+  if (!tracked) return solve<GodunovSolver>(scene, request, {{.cells = resolution.cells}}).profiles.at(0);
   FrontTrackingSolver::Options options{.resolution = resolution.track};
   options.reconstruct = lines;
   return solve<FrontTrackingSolver>(scene, request, options).profiles.at(0);

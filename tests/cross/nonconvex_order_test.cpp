@@ -26,15 +26,15 @@ Scene<double> bed(const Cubic<double>& flux, bool is_layered) {
   return Scene<double>(spec);
 }
 
-struct Problem {
+struct OrderCase {
   const char* name;
   Cubic<double> flux;
   bool is_layered;
   double t;
-  friend std::ostream& operator<<(std::ostream& out, const Problem& p) { return out << p.name; }
+  friend std::ostream& operator<<(std::ostream& out, const OrderCase& p) { return out << p.name; }
 };
 const Cubic<double> kScaled{0.9, CubicScaling::quadratic_extremum};
-const std::vector<Problem> kProblems{{"quadratic for comparison, one layer, t = 0.3", {0}, false, 0.3},
+const std::vector<OrderCase> kProblems{{"quadratic for comparison, one layer, t = 0.3", {0}, false, 0.3},
                                      {"one layer, t = 0.3", {0.9}, false, 0.3},
                                      {"one layer, t = 1", {0.9}, false, 1},
                                      {"two layers, t = 1", {0.9}, true, 1},
@@ -42,7 +42,7 @@ const std::vector<Problem> kProblems{{"quadratic for comparison, one layer, t = 
 
 /// L1 distances between front tracking and the finite volumes on 250, 500, ... up to `most` cells.
 template <class Solver>
-std::vector<double> distances(const Problem& problem, std::size_t most) {
+std::vector<double> distances(const OrderCase& problem, std::size_t most) {
   const Scene<double> scene = bed(problem.flux, problem.is_layered);
   const SolverRequest request{{problem.t}, {}, false, false, true};
   // Its own distance from the truth: below 1e-5.
@@ -61,7 +61,7 @@ std::vector<double> distances(const Problem& problem, std::size_t most) {
 // At the corners of a fan, and where a fan ends in a shock of its own speed, a monotone scheme loses a
 // logarithm (Harabetian 1988 for fans): N e(N) grows by about the same amount from each N to 2 N.
 template <class Solver>
-void check_order(const Problem& problem, std::size_t most) {
+void check_order(const OrderCase& problem, std::size_t most) {
   SCOPED_TRACE(std::string(Solver::kName) + ", " + problem.name);
   const std::vector<double> error = distances<Solver>(problem, most);
   constexpr double kPerDoubling = 0.3;
@@ -81,7 +81,7 @@ TEST(NonConvexOrder, OneUpTo2000Cells) {
   }
 }
 
-class NonConvexOrderTo16000 : public testing::TestWithParam<Problem> {};
+class NonConvexOrderTo16000 : public testing::TestWithParam<OrderCase> {};
 TEST_P(NonConvexOrderTo16000, EngquistOsher) { check_order<EngquistOsherSolver>(GetParam(), 16000); }
 TEST_P(NonConvexOrderTo16000, Godunov) { check_order<GodunovSolver>(GetParam(), 16000); }
 INSTANTIATE_TEST_SUITE_P(Slow, NonConvexOrderTo16000, testing::ValuesIn(kProblems));

@@ -35,7 +35,7 @@ Timeline<double> seen_on_a_grid(const Scene<double>& scene, std::size_t n_cells,
   SolverRequest request;
   request.times = spaced(end, n_times);
   request.profiles = true;
-  auto result = solve<GodunovSolver>(scene, request, {.cells = n_cells});
+  auto result = solve<GodunovSolver>(scene, request, {{.cells = n_cells}});
   return observed_events(scene, {request.times, std::move(result.profiles)});
 }
 

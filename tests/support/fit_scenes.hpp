@@ -12,7 +12,7 @@
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 
-namespace shearfront::testing {
+namespace shearfront::support {
 
 inline SceneSpec<double> small_above_large(std::vector<double> breaks, std::vector<double> values) {
   SceneSpec<double> scene;
@@ -84,4 +84,4 @@ struct Parts {
   fit::Objective::Evaluation at;
 };
 
-}  // namespace shearfront::testing
+}  // namespace shearfront::support

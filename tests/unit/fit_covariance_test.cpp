@@ -12,7 +12,7 @@
 namespace shearfront::fit {
 namespace {
 
-using namespace shearfront::testing;
+using namespace shearfront::support;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shearfront/solver/all.hpp"
 #include "support/identification.hpp"
 #include "support/random_scene.hpp"
 

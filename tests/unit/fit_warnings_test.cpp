@@ -10,7 +10,7 @@
 namespace shearfront::fit {
 namespace {
 
-using namespace shearfront::testing;
+using namespace shearfront::support;
 const std::vector<double> kHeights{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 
 FitSpec layers(const SceneSpec<double>& truth, std::vector<double> times, double sigma,

@@ -83,7 +83,10 @@ class SceneReader {
   /// "packed" of older files: one flux with two signs.
   void old_flux(TableReader& table) {
     const bool is_large = table.choice("grains", Need::optional, {"small", "large"}) == "large";
-    spec_.fluxes.back() = is_large ? Flux<S>(Lwr<S>{}) : Flux<S>(Quadratic<S>{});
+    if (is_large)
+      spec_.fluxes.emplace_back(Lwr<S>{});
+    else
+      spec_.fluxes.emplace_back(Quadratic<S>{});
     table.finish();
     remark(table.path("model"), quoted_text(kOldFlux), quoted_text(is_large ? Lwr<S>::kName : Quadratic<S>::kName));
   }
