@@ -8,7 +8,7 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr std::size_t kHeights = 201;
+constexpr std::size_t kRateHeights = 201;
 /// Relative step of central differences: error of order step^2 and rounding / step, both below 1e-9.
 constexpr double kDifference = 1e-5;
 /// A part of log(s a) smaller than this per unit of log p is rounding, not dependence.
@@ -33,12 +33,12 @@ double quantile_of(const Estimate& estimate, const Parameters& parameters) {
 }
 
 /// Where a row stands and where its s a is taken: for layers their ends and their middle.
-struct Place {
+struct RatePlace {
   double z = 0, inside = 0;
 };
-std::vector<Place> places_of(const Scene<double>& scene) {
+std::vector<RatePlace> places_of(const Scene<double>& scene) {
   std::vector<double> knots = scene.knots();
-  std::vector<Place> places;
+  std::vector<RatePlace> places;
   if (scene.is_layered()) {
     knots.push_back(scene.top());
     double below = scene.bottom();
@@ -49,15 +49,15 @@ std::vector<Place> places_of(const Scene<double>& scene) {
     }
     return places;
   }
-  for (std::size_t i = 0; i < kHeights; ++i)
-    knots.push_back(std::lerp(scene.bottom(), scene.top(), static_cast<double>(i) / (kHeights - 1)));
+  for (std::size_t i = 0; i < kRateHeights; ++i)
+    knots.push_back(std::lerp(scene.bottom(), scene.top(), static_cast<double>(i) / (kRateHeights - 1)));
   std::sort(knots.begin(), knots.end());
   for (const double z : knots) places.push_back({z, z});
   return places;
 }
 
 /// One unknown, a step up and down.
-struct Direction {
+struct RateDirection {
   std::size_t index = 0;
   double value = 0, step = 0;
   SceneSpec<double> above, below;
@@ -68,11 +68,11 @@ struct Direction {
   }
 };
 
-std::vector<Direction> directions_of(const Parameters& parameters, const Estimate& estimate) {
+std::vector<RateDirection> directions_of(const Parameters& parameters, const Estimate& estimate) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i)
     values[static_cast<Eigen::Index>(i)] = estimate.parameters[i].estimate;
-  std::vector<Direction> directions;
+  std::vector<RateDirection> directions;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (estimate.scene->is_layered() && parameters[i].entry.field == "shear_rate.breaks") continue;
     const auto k = static_cast<Eigen::Index>(i);
@@ -85,10 +85,10 @@ std::vector<Direction> directions_of(const Parameters& parameters, const Estimat
   return directions;
 }
 
-std::optional<Interval> band_at(double z, double rate, const std::vector<Direction>& directions,
+std::optional<Interval> band_at(double z, double rate, const std::vector<RateDirection>& directions,
                                 const Estimate& estimate, double quantile) {
   std::vector<std::pair<Eigen::Index, double>> parts;  // slopes times standard errors
-  for (const Direction& d : directions) {
+  for (const RateDirection& d : directions) {
     const double slope = d.slope(z);
     if (slope == 0) continue;
     const auto& error = estimate.parameters[d.index].std_error;
@@ -108,14 +108,14 @@ std::optional<Interval> band_at(double z, double rate, const std::vector<Directi
 RateBand rate_band(const Parameters& parameters, const Estimate& estimate) {
   RateBand result;
   const Scene<double>& scene = *estimate.scene;
-  const std::vector<Direction> directions = directions_of(parameters, estimate);
+  const std::vector<RateDirection> directions = directions_of(parameters, estimate);
   const double quantile = quantile_of(estimate, parameters);
-  for (const Place& p : places_of(scene)) {
+  for (const RatePlace& p : places_of(scene)) {
     const double a = rate_at(scene.spec(), p.inside);
     result.rows.push_back({p.z, a, band_at(p.inside, a, directions, estimate, quantile)});
   }
   const Scene<double> start(parameters.scene_with(parameters.start()));
-  for (const Place& p : places_of(start))
+  for (const RatePlace& p : places_of(start))
     result.start.push_back({p.z, rate_at(start.spec(), p.inside), std::nullopt});
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Entry& entry = parameters[i].entry;
