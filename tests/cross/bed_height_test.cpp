@@ -27,7 +27,7 @@ using support::Grains, support::SceneMaker;
 
 constexpr double kSteady = std::numeric_limits<double>::infinity();
 
-SceneSpec<double> may() { return testing::small_above_large({0.29}, {2.4, 0.31}); }
+SceneSpec<double> may() { return support::small_above_large({0.29}, {2.4, 0.31}); }
 
 template <class AnySolver>
 std::vector<double> heights(const Scene<double>& scene, const std::vector<double>& times,
@@ -53,7 +53,7 @@ std::vector<double> integrals(const Scene<double>& scene, const std::vector<doub
 // Until a wave meets the interface or a wall, the fan from z0 has the width 2 s a t and phi runs linearly in
 // it from 0 to 1: H = 1 - 2 a t (1 - int_0^1 c_rcp(0) / c_rcp(x) dx).
 TEST(BedHeight, SinksInStepWithTheFan) {
-  const SceneSpec<double> spec = testing::small_above_large({}, {0.8});
+  const SceneSpec<double> spec = support::small_above_large({}, {0.8});
   const PackingPolynomial<double> law;
   double mean = 0;  // by Simpson's rule
   const int n = 2000;
@@ -67,7 +67,7 @@ TEST(BedHeight, SinksInStepWithTheFan) {
 
 // The same for the entropy: int_0^1 e(x) dx = 1/2.
 TEST(BedHeight, EntropyGrowsInStepWithTheFan) {
-  const Scene<double> scene(testing::small_above_large({}, {0.8}));
+  const Scene<double> scene(support::small_above_large({}, {0.8}));
   const auto found = integrals<ExactSolver>(scene, {0.125, 0.5}, entropy_function());
   EXPECT_NEAR(found[0], 2 * 0.8 * 0.125 / 2, 1e-10);
   EXPECT_NEAR(found[1], 2 * 0.8 * 0.5 / 2, 1e-10);
@@ -191,8 +191,8 @@ ObservationPlan every_tenth() {
 }
 
 TEST(BedHeightFit, FindsBothRatesAndTheirInterface) {
-  const auto data = testing::observed(may(), every_tenth(), 0, 1, false);
-  const auto spec = testing::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {1.5, 0.6, 0.4});
+  const auto data = support::observed(may(), every_tenth(), 0, 1, false);
+  const auto spec = support::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {1.5, 0.6, 0.4});
   const fit::Estimate estimate = fit::fit(spec);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NEAR(estimate.parameters[0].estimate, 2.4, 1e-9);
@@ -202,8 +202,8 @@ TEST(BedHeightFit, FindsBothRatesAndTheirInterface) {
 
 // Heights of another solver, and the law of solid fraction unknown as well.
 TEST(BedHeightFit, FindsTheSameThroughFrontTracking) {
-  const auto data = testing::observed(may(), every_tenth(), 0, 1, false);
-  auto spec = testing::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {2.2, 0.35, 0.3});
+  const auto data = support::observed(may(), every_tenth(), 0, 1, false);
+  auto spec = support::fit_of(may(), data, {"shear_rate.values", "shear_rate.breaks"}, {2.2, 0.35, 0.3});
   spec.forward.method = Method::of<FrontTrackingSolver>();
   const fit::Estimate estimate = fit::fit(spec);
   EXPECT_NEAR(estimate.parameters[0].estimate, 2.4, 0.02);
@@ -214,9 +214,9 @@ TEST(BedHeightFit, FindsTheSameThroughFrontTracking) {
 TEST(BedHeightFit, FindsThePackingOfOneKindOfGrains) {
   SceneSpec<double> truth = may();
   truth.close_packing = PackingPolynomial<double>{0.6};
-  const auto data = testing::observed(truth, every_tenth(), 0, 1, false);
+  const auto data = support::observed(truth, every_tenth(), 0, 1, false);
   const fit::Estimate estimate =
-      fit::fit(testing::fit_of(truth, data, {"shear_rate.values", "close_packing.pure"}, {1.8, 0.5, 0.64}));
+      fit::fit(support::fit_of(truth, data, {"shear_rate.values", "close_packing.pure"}, {1.8, 0.5, 0.64}));
   EXPECT_NEAR(estimate.parameters[0].estimate, 2.4, 1e-8);
   EXPECT_NEAR(estimate.parameters[1].estimate, 0.31, 1e-10);
   EXPECT_NEAR(estimate.parameters[2].estimate, 0.6, 1e-9);
@@ -224,10 +224,10 @@ TEST(BedHeightFit, FindsThePackingOfOneKindOfGrains) {
 
 TEST(BedHeightFit, OtherDataDoNotSayHowHighTheBedIs) {
   ObservationPlan plan{{0.5, 1}, {0.25, 0.75}, Quantity::point, 0};
-  auto spec = testing::fit_of(may(), testing::observed(may(), plan, 0, 1, false), {"shear_rate.values"});
+  auto spec = support::fit_of(may(), support::observed(may(), plan, 0, 1, false), {"shear_rate.values"});
   spec.misfit.quantity = "bed-height";
   EXPECT_THROW((void)fit::fit(spec), InputError);
-  spec = testing::fit_of(may(), testing::observed(may(), every_tenth(), 0, 1, false), {"shear_rate.values"});
+  spec = support::fit_of(may(), support::observed(may(), every_tenth(), 0, 1, false), {"shear_rate.values"});
   for (const char* quantity : {"point", "bin", "cumulative"}) {
     spec.misfit.quantity = quantity;
     EXPECT_THROW((void)fit::fit(spec), InputError) << quantity;
@@ -237,8 +237,8 @@ TEST(BedHeightFit, OtherDataDoNotSayHowHighTheBedIs) {
 // 95 % intervals under noise of 2e-4: how often they hold the truth. 200 replicates, 3 parameters; the
 // binomial deviation of a rate is 1.5 %.
 TEST(SlowBedHeightFit, IntervalsCover) {
-  const Observations exact = testing::observed(may(), every_tenth(), 0, 1, false);
-  auto spec = testing::fit_of(may(), exact, {"shear_rate.values", "shear_rate.breaks"}, {2.4, 0.31, 0.29});
+  const Observations exact = support::observed(may(), every_tenth(), 0, 1, false);
+  auto spec = support::fit_of(may(), exact, {"shear_rate.values", "shear_rate.breaks"}, {2.4, 0.31, 0.29});
   const double truth[] = {2.4, 0.31, 0.29};
   constexpr int n = 200;
   int covered[3] = {};
