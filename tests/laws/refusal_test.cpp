@@ -31,10 +31,15 @@ void for_scenes(std::uint64_t seed, int n, Check&& check) {
       if (maker.integer(0, 1) == 0) spec.solid_fraction.reset();
       if (maker.integer(0, 1) == 0) spec.outside_bottom.reset(), spec.outside_top.reset();
       if (maker.integer(0, 3) == 0) {  // those with a closed form
+        spec.fluxes = {Quadratic<double>{}};
+        spec.flux_breaks.clear();
+        spec.solid_fraction.reset();
+        spec.outside_bottom.reset(), spec.outside_top.reset();
+        spec.is_periodic = false;
         spec.temperature.reset();
         spec.shear_rate = Piecewise<double>{{}, {1}};
         spec.initial_breaks.clear();
-        spec.initial_values.resize(1);
+        spec.initial_values = {maker.uniform(0.1, 0.9)};
       }
     }
     if (!find_complaints(spec).empty()) continue;

@@ -135,7 +135,7 @@ std::string settings(const Method& method) {
   for (const Option& option : method.options()) {
     if (const bool* flag = std::get_if<bool>(&option.value)) {
       if (*flag) all += fmt::format(" --{}", option.info.name);
-    } else if (!is_unset(option)) {
+    } else if (!is_unset(option) && !option.info.is_budget) {
       all += fmt::format(" --{} {}", option.info.name, text_of(option));
     }
   }

@@ -50,7 +50,7 @@ struct TrackOptions {
                      {},
                      "as many as the resolution asks for"},
           self.layers);
-    visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}}, self.max_collisions);
+    visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true}, self.max_collisions);
   }
 };
 
