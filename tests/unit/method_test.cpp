@@ -169,7 +169,7 @@ TEST(OptionsOfSolvers, RefuseWhatIsNotAllowedByTheirKey) {
     return message_of([&] { set_option(method, option, text, "--" + std::string(option)); });
   };
   EXPECT_EQ(refusal("resolution", "0"), "--resolution = 0; must be > 0 and <= 1");
-  EXPECT_EQ(refusal("resolution", "nan"), "--resolution = nan; must be > 0 and <= 1");
+  EXPECT_EQ(refusal("resolution", "nan"), "--resolution = \"nan\"; must be a number > 0 and <= 1");
   EXPECT_EQ(refusal("resolution", "fine"), "--resolution = \"fine\"; must be a number > 0 and <= 1");
   EXPECT_EQ(refusal("layers", "0"), "--layers = 0; must be a whole number from 1 to 1000000");
   EXPECT_EQ(refusal("layers", "2.5"), "--layers = 2.5; must be a whole number from 1 to 1000000");
