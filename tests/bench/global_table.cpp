@@ -18,7 +18,8 @@ void row(Quantity quantity, const char* algorithm, std::size_t starts) {
   std::vector<std::size_t> evaluations;
   std::vector<double> seconds;
   for (int k = 0; k < kProblems; ++k) {
-    const auto complaint = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
+    const auto complaint =
+        support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
     FitSpec spec = support::fit_of(complaint, support::exact_data(complaint, quantity));
     spec.search.algorithm = algorithm;
     spec.search.starts = starts;

@@ -44,7 +44,8 @@ std::vector<Case> read_cases(const std::string& path) {
       if (cases.empty() || std::find(kKinds.begin(), kKinds.end(), section.kind) == kKinds.end())
         refuse("unknown section or no case");
       if (section.kind == "file" && equals == "=") {
-        std::ifstream shared(std::filesystem::path(path).parent_path() / "fixtures" / fixture, std::ios::binary);
+        std::ifstream shared(std::filesystem::path(path).parent_path() / "fixtures" / fixture,
+                             std::ios::binary);
         if (fixture.empty() || !shared) refuse("no such fixture");
         section.text.assign(std::istreambuf_iterator<char>(shared), {});
       }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/fit/fit.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
 #include "shearfront/solution/mixing.hpp"
@@ -154,9 +154,8 @@ TEST(BedHeight, AllSolversAgreeOnRandomBeds) {
 
 // The integral of phi itself is the amount of grains, that of 1 the solid, whatever the flux.
 TEST(BedHeight, IntegralsOfTheShareAndOfOneAreConserved) {
-  for (const Flux<double>& flux :
-       {Flux<double>(Cubic<double>{0.4}), Flux<double>(Lwr<double>{}),
-        Flux<double>(Lwr<double>{}), Flux<double>(Quadratic<double>{})}) {
+  for (const Flux<double>& flux : {Flux<double>(Cubic<double>{0.4}), Flux<double>(Lwr<double>{}),
+                                   Flux<double>(Lwr<double>{}), Flux<double>(Quadratic<double>{})}) {
     SCOPED_TRACE(support::name_of(flux));
     SceneMaker maker(support::seed_of(9200));
     SceneSpec<double> spec = support::draw(maker, flux, 3, 4);

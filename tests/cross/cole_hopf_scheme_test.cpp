@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
+#include "shearfront/digits/real110.hpp"
 #include "support/checked.hpp"
 #include "support/closeness.hpp"
 #include "support/crank_nicolson.hpp"

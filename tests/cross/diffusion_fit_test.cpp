@@ -158,15 +158,14 @@ FitSpec bins(double D, const ForwardSpec& forward) {
   const Scene<double> scene(spec);
   ObservationPlan plan{{0.25, 0.5, 1, 1.5, 2, 3, 4, 6}, {}, Quantity::bin, 0.05};
   for (int i = 0; i < 20; ++i) plan.depths.push_back(0.025 + 0.05 * i);
-  FitSpec fit{
-      "",
-      scene,
-      observe(plan, scene, solve(scene, forward.method, request_of(plan, scene))),
-      {{"diffusion.D", "shear_rate.values"}, {3 * D, 1.5, 0.5}, {}, {}, Shape::none},
-      forward,
-      {},
-      {},
-      {}};
+  FitSpec fit{"",
+              scene,
+              observe(plan, scene, solve(scene, forward.method, request_of(plan, scene))),
+              {{"diffusion.D", "shear_rate.values"}, {3 * D, 1.5, 0.5}, {}, {}, Shape::none},
+              forward,
+              {},
+              {},
+              {}};
   return fit;
 }
 
@@ -186,8 +185,7 @@ TEST(DiffusionFit, UsesEveryPoint) {
   ObservationPlan plan{{0.25, 1, 3}, {}, Quantity::point, 0};
   for (int i = 0; i < 20; ++i) plan.depths.push_back(0.025 + 0.05 * i);
   spec.observations =
-      observe(plan, spec.scene,
-              solve(spec.scene, spec.forward.method, request_of(plan, spec.scene)));
+      observe(plan, spec.scene, solve(spec.scene, spec.forward.method, request_of(plan, spec.scene)));
   add_noise(spec.observations, 0.01, 1);
   const Estimate estimate = fit(spec);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;

@@ -222,7 +222,9 @@ TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
       if (S::guarantees().diffusion == has_diffusion) return;
       EXPECT_TRUE(is_refused) << S::kName;
       const bool can_be_solved = !has_diffusion || CrankNicolsonSolver::refusal(scene, {}).empty();
-      const std::string other = !can_be_solved ? "no method" : has_diffusion ? "crank-nicolson" : "front-tracking";
+      const std::string other = !can_be_solved  ? "no method"
+                                : has_diffusion ? "crank-nicolson"
+                                                : "front-tracking";
       EXPECT_NE(result.summary.message.find(other), std::string::npos) << S::kName << result.summary.message;
     });
   }

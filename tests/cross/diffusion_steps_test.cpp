@@ -135,7 +135,8 @@ TEST(DiffusionSteps, SolveTheEquationsOfTheScheme) {
       v[0] = v[1], v[n + 1] = v[n];
       rule->evaluate(v.data(), fluxes);
       for (std::size_t j = 0; j < n; ++j)
-        ASSERT_NEAR(run.states()[j] - before[j] + run.step() * (fluxes.value[j + 1] - fluxes.value[j]), 0, 1e-12)
+        ASSERT_NEAR(run.states()[j] - before[j] + run.step() * (fluxes.value[j + 1] - fluxes.value[j]), 0,
+                    1e-12)
             << i << ", cell " << j;
     }
   }

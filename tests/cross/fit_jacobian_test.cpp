@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/forward.hpp"
-#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"

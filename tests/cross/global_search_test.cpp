@@ -15,7 +15,8 @@ constexpr double kClose = 1e-6;
 int found(Quantity quantity, int first, int last) {
   int n = 0;
   for (int k = first; k < last; ++k) {
-    const auto complaint = support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
+    const auto complaint =
+        support::random_identification(static_cast<std::uint64_t>(1000 + k), 2 + k % 4, 10);
     FitSpec spec = support::fit_of(complaint, support::exact_data(complaint, quantity));
     spec.search.algorithm = "global";
     const Estimate estimate = fit(spec);

@@ -129,12 +129,10 @@ TEST_P(ThesisCases, TrackerFindsTheFluxOfTheTable) {
     EXPECT_LE(tracked.fastest_up, 1e-15);
     EXPECT_LE(tracked.fastest_down, 1e-15);
   };
-  const LayerStack<double> small({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
+  const LayerStack<double> small({0, 0.5, 1}, {1, 1}, 1, {true}, {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
   check(track<UnimodalGrid<double>>(small, c.phi_l / c.c_l, c.phi_r / c.c_r), c.expected);
   check(track<LevelGrid<double>>(small, c.phi_l / c.c_l, c.phi_r / c.c_r), c.expected);
-  const LayerStack<double> large({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Lwr<double>{}}, {}, {c.c_r, c.c_l}});
+  const LayerStack<double> large({0, 0.5, 1}, {1, 1}, 1, {true}, {{Lwr<double>{}}, {}, {c.c_r, c.c_l}});
   check(track<UnimodalGrid<double>>(large, c.phi_r / c.c_r, c.phi_l / c.c_l), -c.expected);
   check(track<LevelGrid<double>>(large, c.phi_r / c.c_r, c.phi_l / c.c_l), -c.expected);
 }
@@ -143,8 +141,7 @@ TEST_P(ThesisCases, TrackerFindsTheFluxOfTheTable) {
 TEST_P(ThesisCases, WavesGoWhereTheNameSays) {
   const support::ThesisCase& c = GetParam();
   const std::string name = c.name;
-  const LayerStack<double> stack({0, 0.5, 1}, {1, 1}, 1, {true},
-                                 {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
+  const LayerStack<double> stack({0, 0.5, 1}, {1, 1}, 1, {true}, {{Quadratic<double>{}}, {}, {c.c_l, c.c_r}});
   const Tracked tracked = track<UnimodalGrid<double>>(stack, c.phi_l / c.c_l, c.phi_r / c.c_r);
   const bool keeps_l = tracked.flux_below == support::small_grains_flux(c.phi_l, c.c_l);
   if (name.find("waves go down") != std::string::npos) {

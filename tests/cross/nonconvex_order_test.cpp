@@ -35,10 +35,10 @@ struct OrderCase {
 };
 const Cubic<double> kScaled{0.9, CubicScaling::quadratic_extremum};
 const std::vector<OrderCase> kProblems{{"quadratic for comparison, one layer, t = 0.3", {0}, false, 0.3},
-                                     {"one layer, t = 0.3", {0.9}, false, 0.3},
-                                     {"one layer, t = 1", {0.9}, false, 1},
-                                     {"two layers, t = 1", {0.9}, true, 1},
-                                     {"two layers, scaled, t = 0.5", kScaled, true, 0.5}};
+                                       {"one layer, t = 0.3", {0.9}, false, 0.3},
+                                       {"one layer, t = 1", {0.9}, false, 1},
+                                       {"two layers, t = 1", {0.9}, true, 1},
+                                       {"two layers, scaled, t = 0.5", kScaled, true, 0.5}};
 
 /// L1 distances between front tracking and the finite volumes on 250, 500, ... up to `most` cells.
 template <class Solver>

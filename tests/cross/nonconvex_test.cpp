@@ -79,7 +79,8 @@ TEST(NonConvex, CompoundWaveOfARiemannProblem) {
 TEST(NonConvex, TwoLayersKeepEveryGuarantee) {
   const PolygonStack<double> grid({0, 0.4, 1}, {polygon_of(2.4, 60), polygon_of(0.31, 60)});
   Tracker<PolygonStack<double>> tracker(
-      grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}}, Ends<double>{});
+      grid, {{0, 0.4, 0}, {1, 0.5, 0}, {1, 0.8, grid.nearest(1, 1)}, {1, 1, grid.nearest(1, 0.25)}},
+      Ends<double>{});
   const double mass = tracker.mass();
   support::Checked checked({""}, 10);
   while (tracker.step()) {

@@ -100,7 +100,8 @@ TEST(SlowAnyScene, FrontTrackingAgreesWithGodunov) {
     const auto distance = [&](support::OptionNumbers numbers) {
       const auto cells = support::options_of<GodunovSolver>(numbers);
       const auto fronts = support::options_of<FrontTrackingSolver>(numbers);
-      if (!GodunovSolver::refusal(scene, cells).empty() || !FrontTrackingSolver::refusal(scene, fronts).empty())
+      if (!GodunovSolver::refusal(scene, cells).empty() ||
+          !FrontTrackingSolver::refusal(scene, fronts).empty())
         return std::optional<double>();
       const SolverResult on_cells = solve<GodunovSolver>(scene, request(), cells);
       const SolverResult tracked = solve<FrontTrackingSolver>(scene, request(), fronts);

@@ -71,8 +71,8 @@ TEST(ClosePacking, PolynomialOfTheSource) {
   for (const double x : {0.0, 0.1, 0.375, 0.5, 0.9, 1.0}) {
     const Real110 y(x);
     const Real110 p = Real110("-0.4903") * pow(y, 5) + Real110("1.2388") * pow(y, 4) -
-                     Real110("0.9450") * pow(y, 3) + Real110("0.0434") * y * y + Real110("0.1531") * y +
-                     Real110("0.633");
+                      Real110("0.9450") * pow(y, 3) + Real110("0.0434") * y * y + Real110("0.1531") * y +
+                      Real110("0.633");
     EXPECT_NEAR(PackingPolynomial<double>{}.value(x), to_double(p), 3e-16);
   }
   EXPECT_NEAR(PackingPolynomial<double>{}.value(1), 0.633, 1e-15);

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/diffusion/cole_hopf_burgers.hpp"
 #include "shearfront/diffusion/cole_hopf_kink.hpp"
 #include "shearfront/diffusion/cole_hopf_steady.hpp"
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
+#include "shearfront/digits/real110.hpp"
 #include "support/checked.hpp"
 #include "support/closeness.hpp"
 

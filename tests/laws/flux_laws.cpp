@@ -85,7 +85,8 @@ TYPED_TEST(FluxLaws, SecantIsTheSlopeOfTheChord) {
           EXPECT_NEAR(flux.secant(p, q), flux.derivative(p), 1e-14 * steepest);
         } else {
           const Real110 rise = flux50.value(Real110(q)) - flux50.value(Real110(p));
-          EXPECT_NEAR(flux.secant(p, q), to_double(Real110(rise / (Real110(q) - Real110(p)))), 1e-14 * steepest)
+          EXPECT_NEAR(flux.secant(p, q), to_double(Real110(rise / (Real110(q) - Real110(p)))),
+                      1e-14 * steepest)
               << p << " " << q;
           EXPECT_NEAR(flux.secant(p, q), flux.secant(q, p), 1e-15 * steepest);
         }

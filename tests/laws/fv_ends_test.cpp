@@ -29,8 +29,8 @@ SceneSpec<double> random_ends(SceneMaker& maker, bool is_ring) {
   SceneSpec<double> spec = support::solid_data(maker, Grains::large);
   const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{},
                                          Quadratic<double>{}};
-  const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0},
-                                         Lwr<double>{}, Triangular<double>{0.5, 1.0}};
+  const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0}, Lwr<double>{},
+                                         Triangular<double>{0.5, 1.0}};
   const auto& choice = maker.integer(0, 1) == 0 ? minima : maxima;
   spec.fluxes.clear();
   const int n = maker.integer(1, 3);

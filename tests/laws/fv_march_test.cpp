@@ -15,8 +15,8 @@
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
 #include "support/grid_scenes.hpp"
-#include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
@@ -194,9 +194,9 @@ TEST(FvMarch, AgreesWithAPlainLoopOverFaceFluxes) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
     const bool is_plain = number % 4 == 0;
-    const Scene<double> scene(is_plain
-                                  ? maker.data(3, maker.order(), 5)
-                                  : support::solid_data(maker, number % 2 ? support::Grains::large : support::Grains::small));
+    const Scene<double> scene(
+        is_plain ? maker.data(3, maker.order(), 5)
+                 : support::solid_data(maker, number % 2 ? support::Grains::large : support::Grains::small));
     const std::size_t n_cells = number % 5 == 0 ? 700 : std::size_t(maker.integer(1, 90));
     const fv::Grid grid =
         number % 3 == 0 ? fv::aligned_cells(scene, n_cells) : fv::equal_cells(scene, n_cells);

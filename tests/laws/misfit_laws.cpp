@@ -26,7 +26,8 @@ class MisfitLaws : public ::testing::Test {};
 using MisfitLawsTypes = support::ModelTypes<MisfitList, SkeletonMisfit>::Type;
 TYPED_TEST_SUITE(MisfitLaws, MisfitLawsTypes, support::ModelName);
 
-constexpr Quantity kQuantities[] = {Quantity::point, Quantity::bin, Quantity::cumulative, Quantity::bed_height};
+constexpr Quantity kQuantities[] = {Quantity::point, Quantity::bin, Quantity::cumulative,
+                                    Quantity::bed_height};
 
 /// Exact data; heights of the bed by another solver than the one that predicts them.
 Observations data_of(const support::Identification& problem, Quantity quantity) {
@@ -34,7 +35,8 @@ Observations data_of(const support::Identification& problem, Quantity quantity) 
   const Scene<double> scene(problem.truth);
   const ObservationPlan plan{problem.times, {}, quantity, 0};
   const double resolution = scene.is_layered() ? 0.002 : 0.05;
-  return observe(plan, scene, solve<FrontTrackingSolver>(scene, request_of(plan, scene), {.resolution = resolution}));
+  return observe(plan, scene,
+                 solve<FrontTrackingSolver>(scene, request_of(plan, scene), {.resolution = resolution}));
 }
 
 /// Calls check(data, quantity) for all kinds of data that the misfit takes: it must take some.
@@ -106,7 +108,8 @@ void check_jacobian(const support::Identification& problem, const Observations& 
                               {problem.parameters, problem.start, {}, {}, Shape::none});
   const Coordinates coordinates(parameters);
   RunControl control(1000);
-  Objective objective(parameters, coordinates, {}, Misfit::rows(data, 0, 1), find_loss("squared", 0), control);
+  Objective objective(parameters, coordinates, {}, Misfit::rows(data, 0, 1), find_loss("squared", 0),
+                      control);
   const Eigen::VectorXd u = coordinates.coordinates(parameters.start());
   const Objective::Evaluation at = objective.evaluate(u, true);
   ASSERT_TRUE(at.is_valid);
@@ -131,7 +134,8 @@ void check_jacobian(const support::Identification& problem, const Observations& 
 
 TYPED_TEST(MisfitLaws, JacobianIsTheDerivative) {
   const support::Identification problem = support::example_5();
-  for_data<TypeParam>(problem, [&](const Observations& data, Quantity) { check_jacobian<TypeParam>(problem, data); });
+  for_data<TypeParam>(problem,
+                      [&](const Observations& data, Quantity) { check_jacobian<TypeParam>(problem, data); });
 }
 
 template <class L>

@@ -13,8 +13,8 @@
 #include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/tracker.hpp"
-#include "support/solid_scene.hpp"
 #include "support/random_scene.hpp"
+#include "support/solid_scene.hpp"
 
 namespace shearfront {
 namespace {
@@ -87,7 +87,7 @@ TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
       spec.solid_fraction = Exponential<double>{0.7, maker.uniform(0.2, 2)};
     } else {
       spec.solid_fraction = Table<double>{{0, 0.3, maker.uniform(0.4, 1), 1},
-                                   {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7), 0.5, 0.3}};
+                                          {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7), 0.5, 0.3}};
     }
     spec.initial_breaks = maker.heights(2, 0, 1);
     const Scene<double> scene(spec);

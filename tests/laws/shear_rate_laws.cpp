@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "shearfront/scene/scene.hpp"
 #include "shearfront/model/depth/all.hpp"
 #include "shearfront/model/depth/skeleton.hpp"
+#include "shearfront/scene/scene.hpp"
 #include "support/checked.hpp"
 #include "support/model_types.hpp"
 
@@ -19,7 +19,8 @@ namespace {
 template <class Model>
 class ShearRateLaws : public testing::Test {};
 
-using ShearRateLawsTypes = support::ModelTypes<DepthFunctionList<double>, SkeletonDepthFunction<double>>::Type;
+using ShearRateLawsTypes =
+    support::ModelTypes<DepthFunctionList<double>, SkeletonDepthFunction<double>>::Type;
 TYPED_TEST_SUITE(ShearRateLaws, ShearRateLawsTypes, support::ModelName);
 
 /// [0, 1] cut at the knots.

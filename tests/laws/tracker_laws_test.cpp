@@ -114,8 +114,7 @@ TEST(TrackerLaws, StepsInTimeEqualTheSweep) {
 TEST(TrackerLaws, LimitsStopARunAndSayWhy) {
   const Scene<double> scene = draw(3);
   const TrackingSetup<double> setup(scene, 1e-4);
-  Tracked limited(setup), interrupted(setup),
-      direct(setup);
+  Tracked limited(setup), interrupted(setup), direct(setup);
   EXPECT_EQ(limited.run_to_steady({100, {}}), Status::budget_reached);
   EXPECT_EQ(limited.n_collisions(), 100u);
   EXPECT_EQ(interrupted.run_to_steady({UINT64_MAX, [](double, std::uint64_t) { return false; }}),
@@ -246,7 +245,8 @@ TEST(TrackerLaws, DataNeverMoveApartAndKeepTheirOrder) {
       const auto begin = built.states.begin() + static_cast<std::ptrdiff_t>(i * n);
       return std::vector<State>(begin, begin + static_cast<std::ptrdiff_t>(n));
     };
-    Tracked a(built.grid, on_grid(pieces_u, part(0)), Ends<double>{}), b(built.grid, on_grid(pieces_v, part(1)), Ends<double>{}),
+    Tracked a(built.grid, on_grid(pieces_u, part(0)), Ends<double>{}),
+        b(built.grid, on_grid(pieces_v, part(1)), Ends<double>{}),
         c(built.grid, on_grid(pieces_w, part(2)), Ends<double>{});
     double last = l1_distance(a.profile(), b.profile());
     for (double t = 0.01; t < 100; t *= 1.5) {

@@ -50,7 +50,8 @@ SolverRequest request_of(const Bed& bed, bool is_on_grid) {
   double early = bed.trial.early, late = bed.trial.late;
   if (is_on_grid) {
     const double n = bed.trial.options.at("cells");
-    const double most = kMostUpdates / (n * n) * bed.trial.options.at("cfl") * bed.trial.height() / fastest_of(bed);
+    const double most =
+        kMostUpdates / (n * n) * bed.trial.options.at("cfl") * bed.trial.height() / fastest_of(bed);
     const double factor = std::min(1.0, most / late);
     early *= factor, late *= factor;
   }

@@ -19,7 +19,7 @@ struct Trial {
   SceneSpec<double> spec;
   /// No two numbers of the scene coincide, so that everything is differentiable with probability 1.
   bool is_generic = false;
-  double early = 0, late = 0;  ///< times, 0 < early < late, from tiny to beyond steady
+  double early = 0, late = 0;      ///< times, 0 < early < late, from tiny to beyond steady
   support::OptionNumbers options;  ///< of all solvers, drawn too
 
   [[nodiscard]] std::size_t count(std::string_view option) const {

@@ -15,7 +15,8 @@ namespace shearfront::support {
 class Checked {
  public:
   /// `names`: of what must be checked at least `least` times.
-  explicit Checked(std::initializer_list<std::string_view> names = {""}, std::size_t least = 1) : least_(least) {
+  explicit Checked(std::initializer_list<std::string_view> names = {""}, std::size_t least = 1)
+      : least_(least) {
     for (const std::string_view name : names) expect(name);
   }
   Checked(const Checked&) = delete;

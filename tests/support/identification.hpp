@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/fit/fit.hpp"
 
 /// Identification problems: Examples 3 to 6 of Buerger, Martinez, Villada (2023), and exact data for them.
 namespace shearfront::support {

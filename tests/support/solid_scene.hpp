@@ -45,8 +45,8 @@ inline double overshoot(const Scene<double>& scene, const Profile<double>& profi
   double most = 0;
   for (std::size_t i = 0; i < profile.n_cells(); ++i) {
     const double lo = profile.z()[i], hi = profile.z()[i + 1];
-    const bool is_layered =
-        !scene.spec().solid_fraction || std::holds_alternative<Piecewise<double>>(*scene.spec().solid_fraction);
+    const bool is_layered = !scene.spec().solid_fraction ||
+                            std::holds_alternative<Piecewise<double>>(*scene.spec().solid_fraction);
     most = std::max(most, profile.below()[i] - scene.solid_fraction_at(lo));
     most = std::max(most, profile.above()[i] - scene.solid_fraction_at(is_layered ? lo : hi));
   }

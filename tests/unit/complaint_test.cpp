@@ -65,12 +65,15 @@ TEST(Complaints, OfASpecificationAreReturnedOrThrown) {
 
 TEST(OldNames, AreReadAndRemarkedOn) {
   const std::string rest = kRate + "[initial]\nbreaks = []\nvalues = [0.5]\n";
-  const auto scene_of = [&](const std::string& first) { return parse_scene<double>(first + rest, "scene.toml"); };
+  const auto scene_of = [&](const std::string& first) {
+    return parse_scene<double>(first + rest, "scene.toml");
+  };
   const auto small = scene_of("[flux]\nmodel = \"packed\"\n");
   EXPECT_TRUE(std::holds_alternative<Quadratic<double>>(small.fluxes()[0]));
   EXPECT_FALSE(small.counts_rising_grains());
-  const auto large = scene_of("[flux]\nmodel = \"packed\"\ngrains = \"large\"\n[packing]\nmodel = \"piecewise\"\n"
-                              "breaks = []\nvalues = [0.6]\n");
+  const auto large = scene_of(
+      "[flux]\nmodel = \"packed\"\ngrains = \"large\"\n[packing]\nmodel = \"piecewise\"\n"
+      "breaks = []\nvalues = [0.6]\n");
   EXPECT_TRUE(std::holds_alternative<Lwr<double>>(large.fluxes()[0]));
   EXPECT_TRUE(large.counts_rising_grains());
   EXPECT_EQ(large.solid_fraction_at(0.5), 0.6);

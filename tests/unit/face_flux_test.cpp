@@ -63,8 +63,7 @@ TEST(FaceFlux, ClassicalIsGodunovBetweenEqualCells) {
 TEST(FaceFlux, GodunovFluxIsTheFluxOfAFineRun) {
   support::SceneMaker maker(support::seed_of(13000));
   const std::vector<Flux<double>> minima{Quadratic<double>{}, Cubic<double>{}, RichardsonZaki<double>{}};
-  const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0},
-                                         Lwr<double>{}};
+  const std::vector<Flux<double>> maxima{Lwr<double>{}, Triangular<double>{0.3, 1.0}, Lwr<double>{}};
   for (int number = 0; number < 200; ++number) {
     SCOPED_TRACE("problem " + std::to_string(number));
     const auto& kind = number % 2 == 0 ? minima : maxima;

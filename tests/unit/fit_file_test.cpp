@@ -76,23 +76,25 @@ TEST_F(FitFiles, DefaultsAreThoseOfTheSpecification) {
 }
 
 TEST_F(FitFiles, EveryEntryIsTaken) {
-  const FitSpec spec = parse(
-      "name = \"both rates\"\n" + kFit +
-      "start = [2.5, 0.7]\nlower = [0.01, 1e-2]\nupper = [20, inf]\nshape = \"convex\"\n"
-      "[forward]\nmethod = \"front-tracking\"\nresolution = 0.02\nmax_collisions = 1_000\ncfl = 0.9\nlayers = 50\n"
-      "grid = \"singular-mapping\"\nreconstruct = \"linear\"\n"
-      "[misfit]\nquantity = \"bin\"\nloss = \"cauchy\"\nloss_scale = 3\ntwo_stage = false\n"
-      "[search]\nalgorithm = \"ceres\"\nstarts = 0x10\nseed = 9007199254740991\nmax_evaluations = 1e4\n"
-      "tolerance = 1e-6\n"
-      "[uncertainty]\nprofile = true\nbootstrap = 200\nseed = 0\nthreads = 1\n");
+  const FitSpec spec =
+      parse("name = \"both rates\"\n" + kFit +
+            "start = [2.5, 0.7]\nlower = [0.01, 1e-2]\nupper = [20, inf]\nshape = \"convex\"\n"
+            "[forward]\nmethod = \"front-tracking\"\nresolution = 0.02\nmax_collisions = 1_000\ncfl = "
+            "0.9\nlayers = 50\n"
+            "grid = \"singular-mapping\"\nreconstruct = \"linear\"\n"
+            "[misfit]\nquantity = \"bin\"\nloss = \"cauchy\"\nloss_scale = 3\ntwo_stage = false\n"
+            "[search]\nalgorithm = \"ceres\"\nstarts = 0x10\nseed = 9007199254740991\nmax_evaluations = 1e4\n"
+            "tolerance = 1e-6\n"
+            "[uncertainty]\nprofile = true\nbootstrap = 200\nseed = 0\nthreads = 1\n");
   EXPECT_EQ(spec.name, "both rates");
   EXPECT_EQ(spec.unknown.start, (std::vector<double>{2.5, 0.7}));
   EXPECT_EQ(spec.unknown.lower, (std::vector<double>{0.01, 0.01}));
   EXPECT_EQ(spec.unknown.upper, (std::vector<double>{20, std::numeric_limits<double>::infinity()}));
   EXPECT_EQ(spec.unknown.shape, Shape::convex);
-  EXPECT_EQ(settings(spec.forward.method),
-            "--method front-tracking --resolution 0.02 --grid singular-mapping --reconstruct linear --layers 50 "
-            "--max-collisions 1000");
+  EXPECT_EQ(
+      settings(spec.forward.method),
+      "--method front-tracking --resolution 0.02 --grid singular-mapping --reconstruct linear --layers 50 "
+      "--max-collisions 1000");
   EXPECT_EQ(quantity_of(spec), "bin");
   EXPECT_EQ(loss_of(spec), "cauchy");
   EXPECT_EQ(spec.misfit.loss_scale, 3);
@@ -158,7 +160,7 @@ TEST_F(FitFiles, AFitAndASceneAreToldApart) {
 TEST_F(FitFiles, ARefusalOfTheFitIsLocatedInItsFile) {
   write(folder_ / "fit.toml", kFit + "start = [3,\n  4]\n");
   const FileError error = located(InputError(Complaints{{"unknown.start[1]", "4", "must be less"},
-                                                      {"search.algorithm", "\"x\"", "must be y"}}),
+                                                        {"search.algorithm", "\"x\"", "must be y"}}),
                                   file());
   EXPECT_EQ(std::string(error.what()), file() + ":1:1: search.algorithm = \"x\"; must be y\n" + file() +
                                            ":6:3: unknown.start[1] = 4; must be less");

@@ -23,16 +23,19 @@ class FitOptions : public testing::Test {
   FitOptions() {
     std::string pattern = (fs::temp_directory_path() / "shearfront-fit-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
-    std::ofstream(folder_ / "scene.toml") << "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.5]\nvalues = [2, 1]\n"
-                                             "[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n";
+    std::ofstream(folder_ / "scene.toml")
+        << "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.5]\nvalues = [2, 1]\n"
+           "[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n";
     std::ofstream(folder_ / "data.csv") << "t,z,M\n0.2,0.5,0.05\n";
   }
   ~FitOptions() override { fs::remove_all(folder_); }
 
   [[nodiscard]] Method method(const std::string& forward) const {
     const std::string text =
-        "scene = \"scene.toml\"\nobservations = \"data.csv\"\n[unknown]\nparameters = [\"shear_rate.scale\"]\n"
-        "[forward]\n" + forward;
+        "scene = \"scene.toml\"\nobservations = \"data.csv\"\n[unknown]\nparameters = "
+        "[\"shear_rate.scale\"]\n"
+        "[forward]\n" +
+        forward;
     return parse_fit(text, (folder_ / "fit.toml").string()).spec.forward.method;
   }
   [[nodiscard]] std::string refusal(const std::string& forward) const {
@@ -83,7 +86,8 @@ TEST_F(FitOptions, AreThoseOfTheCommandLine) {
       const std::string choice = "method = \"" + solver + "\"\n";
       Method expected = method(choice);
       set_option(expected, option.name, texts.command_line, option.name);
-      EXPECT_EQ(settings(method(choice + key_of(option.name) + " = " + texts.file + "\n")), settings(expected));
+      EXPECT_EQ(settings(method(choice + key_of(option.name) + " = " + texts.file + "\n")),
+                settings(expected));
       EXPECT_NE(settings(expected).find("--" + option.name), std::string::npos);
       checked.count(option.name);
     }
@@ -91,14 +95,16 @@ TEST_F(FitOptions, AreThoseOfTheCommandLine) {
 
 TEST_F(FitOptions, OfOtherSolversAreCheckedAndChangeNothing) {
   EXPECT_EQ(settings(method("method = \"exact\"\ncells = 50\n")), settings(method("method = \"exact\"\n")));
-  EXPECT_NE(refusal("method = \"exact\"\ncells = 0\n").find("forward.cells = 0; must be a whole number from 1 to"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("method = \"exact\"\ncells = 0\n").find("forward.cells = 0; must be a whole number from 1 to"),
+      std::string::npos);
 }
 
 TEST_F(FitOptions, ThatNoSolverHasAreUnknown) {
   const std::string why = refusal("method = \"exact\"\nresolutoin = 0.1\n");
   EXPECT_NE(why.find("forward.resolutoin: unknown key"), std::string::npos) << why;
-  for (const OptionText& option : all_options()) EXPECT_NE(why.find(key_of(option.name)), std::string::npos) << why;
+  for (const OptionText& option : all_options())
+    EXPECT_NE(why.find(key_of(option.name)), std::string::npos) << why;
 }
 
 }  // namespace

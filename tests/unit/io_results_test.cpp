@@ -75,15 +75,16 @@ TEST_F(Results, EventsAsJson) {
   summary.status = Status::steady;
   summary.message = "a \"quoted\" \\ message\n";
   summary.collisions = 18446744073709551615U;
-  EXPECT_EQ(written([&](OutputFile& f) { write_events_json(f, "s\xff", "exact", text_of(timeline, 0), summary); }),
-            "{\n  \"scene\": \"s\xEF\xBF\xBD\",\n  \"method\": \"exact\",\n  \"mass\": 0.5,\n  "
-            "\"steady_height\": 0,\n"
-            "  \"t0\": 0.5,\n  \"t1\": null,\n  \"t_star\": null,\n  \"interfaces\": [\n"
-            "    {\"z\": 0.29, \"first\": 0.25, \"last\": null}\n  ],\n"
-            "  \"summary\": {\"collisions\": 18446744073709551615, \"fronts_max\": 0, \"levels\": 0, "
-            "\"cell_updates\": 0, "
-            "\"wall_s\": 0, "
-            "\"status\": \"steady\", \"message\": \"a \\\"quoted\\\" \\\\ message\\n\"}\n}\n");
+  EXPECT_EQ(
+      written([&](OutputFile& f) { write_events_json(f, "s\xff", "exact", text_of(timeline, 0), summary); }),
+      "{\n  \"scene\": \"s\xEF\xBF\xBD\",\n  \"method\": \"exact\",\n  \"mass\": 0.5,\n  "
+      "\"steady_height\": 0,\n"
+      "  \"t0\": 0.5,\n  \"t1\": null,\n  \"t_star\": null,\n  \"interfaces\": [\n"
+      "    {\"z\": 0.29, \"first\": 0.25, \"last\": null}\n  ],\n"
+      "  \"summary\": {\"collisions\": 18446744073709551615, \"fronts_max\": 0, \"levels\": 0, "
+      "\"cell_updates\": 0, "
+      "\"wall_s\": 0, "
+      "\"status\": \"steady\", \"message\": \"a \\\"quoted\\\" \\\\ message\\n\"}\n}\n");
 }
 
 TEST_F(Results, EventsWithManyDigits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/track/level_grid.hpp"
+#include "shearfront/digits/real110.hpp"
 
 #include <gtest/gtest.h>
 
@@ -88,8 +88,8 @@ TEST(LevelGrid, SpeedsOfNearlyParallelFrontsNextToOneHalfDifferByTheirStates) {
         {0, near_half()}, {0, near_half()}, {1, near_half()}, {1, 0.5}};
     const auto stack = stack_of({a, b});
     const auto built = LevelGrid<double>::exact_levels(stack, 0.1, wanted);
-    const LayerStack<Real110> stack50({Real110(0), Real110(0.5), Real110(1)}, {Real110(a), Real110(b)}, Real110(1),
-                                     {true});
+    const LayerStack<Real110> stack50({Real110(0), Real110(0.5), Real110(1)}, {Real110(a), Real110(b)},
+                                      Real110(1), {true});
     std::vector<LayerState<Real110>> wanted50;
     for (const auto& w : wanted) wanted50.push_back({w.layer, Real110(w.phi)});
     const auto built50 = LevelGrid<Real110>::exact_levels(stack50, Real110(0.1), wanted50);
@@ -103,7 +103,7 @@ TEST(LevelGrid, SpeedsOfNearlyParallelFrontsNextToOneHalfDifferByTheirStates) {
           const auto& grid50 = built50.grid;
           const double expected =
               to_double(Real110(grid50.rate(layer) * (grid50.phi(layer, built50.states[i]) -
-                                                     grid50.phi(layer, built50.states[j]))));
+                                                      grid50.phi(layer, built50.states[j]))));
           const double rounded = built.grid.speed(layer, l, middle) - built.grid.speed(layer, middle, r);
           const double drop = built.grid.speed_drop(layer, l, middle, r, rounded);
           EXPECT_NEAR(drop, expected, 1e-13 * std::abs(expected) + 1e-22)

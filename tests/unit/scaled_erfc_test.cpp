@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/numeric/scaled_erfc.hpp"
+#include "shearfront/digits/real110.hpp"
 
 #include <gtest/gtest.h>
 

@@ -74,7 +74,8 @@ Result periodic_wave(const Scene<double>& scene, const Wave<double>& wave, const
   const double factor = rate * f.bend;
   const auto form = std::make_shared<PeriodicBurgers<double>>(scene.diffusivity_at(scene.bottom()),
                                                               factor * wave.amplitude, wave_number);
-  const double bottom = scene.bottom(), origin = wave.origin, mean = wave.mean, speed = factor * (wave.mean - f.m);
+  const double bottom = scene.bottom(), origin = wave.origin, mean = wave.mean,
+               speed = factor * (wave.mean - f.m);
   return [form, bottom, origin, mean, factor, speed](double z, double t) {
     const double shift = origin + speed * (std::isfinite(t) ? t : 0);
     const auto at = form->at(z - shift, t), below = form->at(bottom - shift, t);
@@ -99,14 +100,14 @@ std::optional<Polynomial> polynomial_of(const Flux<double>& flux) {
 }  // namespace
 
 Result closed_form(const Scene<double>& scene) {
-  if (!scene.has_diffusion())
-    return std::string("grains do not diffuse in this bed (no D > 0)");
+  if (!scene.has_diffusion()) return std::string("grains do not diffuse in this bed (no D > 0)");
   if (scene.fluxes().size() > 1 || scene.spec().solid_fraction || !has_constant_coefficients(scene))
     return std::string("a closed form needs one flux, c = 1, and constant s a(z), T(z) and D(z)");
   const double rate = scene.scale() * scene.rate_at(scene.bottom());
   const Flux<double>& flux = scene.fluxes()[0];
   const auto& start = scene.spec().initial_state;
-  const auto wave = start ? std::visit([](const auto& m) { return shearfront::wave<double>(m); }, *start) : std::nullopt;
+  const auto wave =
+      start ? std::visit([](const auto& m) { return shearfront::wave<double>(m); }, *start) : std::nullopt;
   const auto polynomial = polynomial_of(flux);
   if (wave && polynomial) return periodic_wave(scene, *wave, *polynomial, rate);
   const int sign = unit_parabola_sign<double>(flux);

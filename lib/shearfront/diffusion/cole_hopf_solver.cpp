@@ -13,7 +13,8 @@ namespace {
 
 class ColeHopfField final : public Field {
  public:
-  ColeHopfField(const Scene<double>& scene, diffusion::ClosedForm form) : scene_(scene), form_(std::move(form)) {}
+  ColeHopfField(const Scene<double>& scene, diffusion::ClosedForm form)
+      : scene_(scene), form_(std::move(form)) {}
 
   double t = 0;
 
@@ -26,7 +27,8 @@ class ColeHopfField final : public Field {
     constexpr unsigned kMostHalvings = 12;
     constexpr double kTolerance = 1e-11;
     return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-        [&](double z) { return g.value(form_(z, t).phi); }, scene_.bottom(), scene_.top(), kMostHalvings, kTolerance);
+        [&](double z) { return g.value(form_(z, t).phi); }, scene_.bottom(), scene_.top(), kMostHalvings,
+        kTolerance);
   }
 
  private:
@@ -48,7 +50,8 @@ class ColeHopfRun final : public Run {
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message = status_ == Status::ok ? "exact to rounding" : "interrupted at t = " + number_text(field_.t);
+    summary.message =
+        status_ == Status::ok ? "exact to rounding" : "interrupted at t = " + number_text(field_.t);
     return summary;
   }
 

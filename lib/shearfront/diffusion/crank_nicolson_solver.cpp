@@ -50,7 +50,8 @@ void follow(diffusion::Refinement& refinement, diffusion::Options& options) {
 
 class CrankNicolsonRun final : public Run {
  public:
-  CrankNicolsonRun(const Scene<double>& scene, const CrankNicolsonSolver::Options& options, const Watch& watch)
+  CrankNicolsonRun(const Scene<double>& scene, const CrankNicolsonSolver::Options& options,
+                   const Watch& watch)
       : scene_(scene), has_fixed_steps_(options.time_step > 0) {
     diffusion::Options own = engine_options(options, watch.progress);
     const auto cells = static_cast<std::size_t>(options.cells);
@@ -115,8 +116,8 @@ struct Row {
 };
 
 /// One run through all rows, by the steps of `repeated` if there are some.
-Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_places, const diffusion::Problem& problem,
-                          const std::vector<diffusion::Tangent>& tangents,
+Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_places,
+                          const diffusion::Problem& problem, const std::vector<diffusion::Tangent>& tangents,
                           const CrankNicolsonSolver::Options& options, const Plan* repeated, Plan& made) {
   diffusion::CrankNicolson engine(problem, engine_options(options, {}), tangents);
   Linearisation result;
@@ -131,9 +132,11 @@ Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_place
     const auto& steps = engine.steps();
     made.parts.emplace_back(steps.begin() + static_cast<std::ptrdiff_t>(before), steps.end());
     const auto values = diffusion::profile_of(problem, engine.states()).at(row.heights);
-    for (std::size_t i = 0; i < values.size(); ++i) result.samples[row.places[i]] = {values[i].phi, values[i].M};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result.samples[row.places[i]] = {values[i].phi, values[i].M};
     for (std::size_t k = 0; k < tangents.size(); ++k) {
-      const auto slopes = diffusion::profile_tangent(problem, engine.states(), engine.tangent(k)).at(row.heights);
+      const auto slopes =
+          diffusion::profile_tangent(problem, engine.states(), engine.tangent(k)).at(row.heights);
       for (std::size_t i = 0; i < slopes.size(); ++i)
         result.derivatives[row.places[i] * tangents.size() + k] = {slopes[i].phi, slopes[i].M};
     }
@@ -172,7 +175,8 @@ std::unique_ptr<Run> CrankNicolsonSolver::start(const Scene<double>& scene, cons
   return std::make_unique<CrankNicolsonRun>(scene, options, watch);
 }
 
-std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const Options& options, const Entry& entry) {
+std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const Options& options,
+                                                    const Entry& entry) {
   if (options.cell_tolerance > 0) return "cells that follow the fronts have no derivatives";
   return diffusion::has_problem_tangent(entry) ? "" : entry.name() + " changes the flux or the grid";
 }

@@ -27,7 +27,7 @@ struct CrankNicolsonSolver {
 
   struct Options {
     std::uint64_t cells = 400;
-    double time_step = 0;       ///< 0: chosen by the tolerance
+    double time_step = 0;  ///< 0: chosen by the tolerance
     double tolerance = 1e-5;
     double cell_tolerance = 0;  ///< 0: equal cells
     bool monotone = false;
@@ -37,15 +37,19 @@ struct CrankNicolsonSolver {
       visit(OptionInfo{"cells", "number of cells", {2, 1e7}}, self.cells);
       visit(OptionInfo{"time-step", "fixed time step", {0, 1e300, true}, {}, "chosen by the tolerance"},
             self.time_step);
-      visit(OptionInfo{"tolerance", "aim for the error that time steps make in phi", {0, 1, true}}, self.tolerance);
-      visit(OptionInfo{"cell-tolerance",
-                       "halve cells, beginning with the number given, where phi bends by more than this from one to "
-                       "the next",
-                       {1e-6, 0.1},
-                       {},
-                       "equal cells"},
-            self.cell_tolerance);
-      visit(OptionInfo{"monotone", "fitted fluxes, which do not wiggle where cells are coarse (first order there)"},
+      visit(OptionInfo{"tolerance", "aim for the error that time steps make in phi", {0, 1, true}},
+            self.tolerance);
+      visit(
+          OptionInfo{
+              "cell-tolerance",
+              "halve cells, beginning with the number given, where phi bends by more than this from one to "
+              "the next",
+              {1e-6, 0.1},
+              {},
+              "equal cells"},
+          self.cell_tolerance);
+      visit(OptionInfo{"monotone",
+                       "fitted fluxes, which do not wiggle where cells are coarse (first order there)"},
             self.monotone);
     }
   };
@@ -58,9 +62,11 @@ struct CrankNicolsonSolver {
   }
   static std::string refusal(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
-  static std::string derivative_refusal(const Scene<double>& scene, const Options& options, const Entry& entry);
-  static Linearisation linearise(const Scene<double>& scene, const Options& options, const std::vector<Place>& places,
-                                 const std::vector<std::size_t>& entries, std::any& memory);
+  static std::string derivative_refusal(const Scene<double>& scene, const Options& options,
+                                        const Entry& entry);
+  static Linearisation linearise(const Scene<double>& scene, const Options& options,
+                                 const std::vector<Place>& places, const std::vector<std::size_t>& entries,
+                                 std::any& memory);
 };
 static_assert(DifferentiableSolver<CrankNicolsonSolver>);
 

@@ -42,8 +42,7 @@ class ExtendedFlux {
   }
 
  private:
-  static constexpr bool kIsEntire =
-      may_leave_tangents && is_quadratic_polynomial<Model>();
+  static constexpr bool kIsEntire = may_leave_tangents && is_quadratic_polynomial<Model>();
 
   [[nodiscard]] double clamp(double phi) const { return std::clamp(phi, range_.lowest, range_.highest); }
 

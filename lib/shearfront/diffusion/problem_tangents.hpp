@@ -21,7 +21,8 @@ namespace shearfront::diffusion {
 /// derivative (tests). Where a break is at the edge of a cell the derivatives to both sides differ, and this
 /// is their mean. Preconditions: refusal(scene) is empty; has_problem_tangent() of all wanted. Cost: four problem_of
 /// for each.
-[[nodiscard]] std::vector<Tangent> problem_tangents(const Scene<double>& scene, const std::vector<std::size_t>& wanted,
+[[nodiscard]] std::vector<Tangent> problem_tangents(const Scene<double>& scene,
+                                                    const std::vector<std::size_t>& wanted,
                                                     std::size_t n_cells);
 
 }  // namespace shearfront::diffusion

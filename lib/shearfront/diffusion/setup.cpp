@@ -104,14 +104,14 @@ void set_initial(const Scene<double>& scene, Problem& problem) {
 }  // namespace
 
 std::string refusal(const Scene<double>& scene) {
-  if (!scene.has_diffusion())
-    return "grains do not diffuse in this bed (no D > 0)";
+  if (!scene.has_diffusion()) return "grains do not diffuse in this bed (no D > 0)";
   if (scene.spec().solid_fraction) return "solid fraction and diffusion together are not covered";
   if (scene.spec().outside_bottom || scene.spec().outside_top)
     return "states beyond open ends are not covered with diffusion; boundary.neumann and boundary.periodic "
            "are";
-  if (scene.fluxes().size() > 1 && std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
-                                               [](const Flux<double>& flux) { return unit_parabola_sign<double>(flux) == 0; }))
+  if (scene.fluxes().size() > 1 &&
+      std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
+                  [](const Flux<double>& flux) { return unit_parabola_sign<double>(flux) == 0; }))
     return "with diffusion, layers may have the fluxes phi (phi - 1) and phi (1 - phi) only";
   return "";
 }

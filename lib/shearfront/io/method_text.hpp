@@ -12,9 +12,9 @@ namespace shearfront {
 /// One option and the solvers that have it.
 struct OptionText {
   std::string name, sentence;
-  std::string kind;      ///< what to give: "N" (a whole number), "X" (a number), "a|b"; empty: a flag
-  std::string allowed;   ///< "> 0 and <= 1"; empty for flags and names
-  std::string initial;   ///< the default
+  std::string kind;     ///< what to give: "N" (a whole number), "X" (a number), "a|b"; empty: a flag
+  std::string allowed;  ///< "> 0 and <= 1"; empty for flags and names
+  std::string initial;  ///< the default
   std::vector<std::string> solvers;
 };
 

@@ -19,10 +19,10 @@ namespace shearfront {
 namespace {
 
 using detail::Column;
+using detail::ComplaintReport;
 using detail::CsvField;
 using detail::ObservationColumns;
 using detail::Position;
-using detail::ComplaintReport;
 using detail::TextSource;
 
 constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent

@@ -88,7 +88,8 @@ class SceneReader {
     else
       spec_.fluxes.emplace_back(Quadratic<S>{});
     table.finish();
-    remark(table.path("model"), quoted_text(kOldFlux), quoted_text(is_large ? Lwr<S>::kName : Quadratic<S>::kName));
+    remark(table.path("model"), quoted_text(kOldFlux),
+           quoted_text(is_large ? Lwr<S>::kName : Quadratic<S>::kName));
   }
   /// [solid_fraction], which older files call [packing].
   void solid_fraction(TableReader& root) {
@@ -96,7 +97,8 @@ class SceneReader {
     const toml::node* old = root.node(kOldSolidFraction);
     if (!old) return;
     if (root.node("solid_fraction"))
-      root.add(*old, root.path(kOldSolidFraction), "must not stand beside solid_fraction, whose old name it is");
+      root.add(*old, root.path(kOldSolidFraction),
+               "must not stand beside solid_fraction, whose old name it is");
     else
       remark("", "[" + std::string(kOldSolidFraction) + "]", "[solid_fraction]");
     solid_fraction_table_ = kOldSolidFraction;
@@ -207,7 +209,8 @@ class SceneReader {
       if (complaint.key.starts_with("solid_fraction")) complaint.key.replace(0, 14, solid_fraction_table_);
       const std::string table = table_of(complaint.key);
       if (report_.is_spoiled(complaint.key)) continue;
-      if (complaint.kind == Complaint::Kind::wrong_length && report_.is_spoiled(TableReader::lengths(table))) continue;
+      if (complaint.kind == Complaint::Kind::wrong_length && report_.is_spoiled(TableReader::lengths(table)))
+        continue;
       const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
       if (is_unknown && complaint.key != "shear_rate.scale") continue;
       const TomlSource::Found found = source_.find(complaint.key);

@@ -43,7 +43,8 @@ TextSource::TextSource(std::string name, std::string text) : name_(std::move(nam
   if (byte == 0)
     report.add(position(where), {"NUL byte", "", "must not occur in a text file", Complaint::Kind::syntax});
   else
-    report.add(position(where), {fmt::format("byte 0x{:02x}", byte), "", "must be UTF-8 text", Complaint::Kind::syntax});
+    report.add(position(where),
+               {fmt::format("byte 0x{:02x}", byte), "", "must be UTF-8 text", Complaint::Kind::syntax});
   report.throw_if_any();
 }
 

@@ -22,7 +22,8 @@ toml::table parse(const TextSource& text) {
         text.text().substr(place, 1).find_first_of("\r\n") == 0)
       what = "in string: must end with a quotation mark on the same line";
     ComplaintReport report(text.name());
-    report.add(TomlSource::position(error.source()), {"syntax error", "", printable(what), Complaint::Kind::syntax});
+    report.add(TomlSource::position(error.source()),
+               {"syntax error", "", printable(what), Complaint::Kind::syntax});
     report.throw_if_any();
     throw;
   }
@@ -136,7 +137,8 @@ void TableReader::wrong_type(const toml::node& node, const std::string& key, std
   report_->spoil(key);
   const toml::array* array = node.as_array();
   if (array && is_array_of_tables(*array))
-    report_->add(TomlSource::position(*array->get(0)), {key, "(an array of tables)", std::string(what), Complaint::Kind::wrong_type});
+    report_->add(TomlSource::position(*array->get(0)),
+                 {key, "(an array of tables)", std::string(what), Complaint::Kind::wrong_type});
   else
     add(node, key, what, around, Complaint::Kind::wrong_type);
 }

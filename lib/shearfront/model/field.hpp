@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/model/complaint.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/numeric/scalar.hpp"
-#include "shearfront/model/complaint.hpp"
 
 /// Self-description of the numeric entries of a model. A model lists its fields once, in
 ///     template <class Self, class Visit> static void fields(Self& self, Visit&& visit)
@@ -70,7 +70,7 @@ void check_breaks(const std::string& key, const std::vector<S>& breaks, const S&
            "must be inside the domain (" + number_text(bottom) + ", " + number_text(top) + ")"});
     } else if (i > 0 && is_finite(breaks[i - 1]) && !(breaks[i] > breaks[i - 1])) {
       complaints.push_back({element(), number_text(breaks[i]),
-                          "must be greater than the break before it (" + number_text(breaks[i - 1]) + ")"});
+                            "must be greater than the break before it (" + number_text(breaks[i - 1]) + ")"});
     }
   }
 }
@@ -87,13 +87,13 @@ void check_points(const std::string& prefix, const std::vector<S>& z, std::size_
   for (std::size_t i = 1; i < z.size(); ++i)
     if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1]))
       complaints.push_back({prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),
-                          "must be greater than the entry before it (" + number_text(z[i - 1]) + ")"});
+                            "must be greater than the entry before it (" + number_text(z[i - 1]) + ")"});
   if (!z.empty() && z.front() > bottom)
     complaints.push_back({prefix + "z[0]", number_text(z.front()),
-                        "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});
+                          "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});
   if (z.size() > 1 && z.back() < top)
     complaints.push_back({prefix + "z[" + std::to_string(z.size() - 1) + "]", number_text(z.back()),
-                        "must not lie below the top of the domain (" + number_text(top) + ")"});
+                          "must not lie below the top of the domain (" + number_text(top) + ")"});
 }
 
 }  // namespace shearfront

@@ -26,7 +26,8 @@ StatePair solve_between(const Grid& grid, std::size_t below, std::size_t above, 
   const State b = grid.bottom_state(below), a = grid.bottom_state(above);
   const State rank =
       std::max(l > b ? rank_l : grid.flux_rank(below, b), r < a ? rank_r : grid.flux_rank(above, a));
-  return {rank_l == rank ? l : grid.falling_state(below, rank), rank_r == rank ? r : grid.rising_state(above, rank)};
+  return {rank_l == rank ? l : grid.falling_state(below, rank),
+          rank_r == rank ? r : grid.rising_state(above, rank)};
 }
 
 /// solve_between() for the interface above layer `below`.

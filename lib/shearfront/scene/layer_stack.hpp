@@ -18,7 +18,7 @@ template <Real Scalar>
 struct LayerMaterial {
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};
   std::vector<std::size_t> flux_index;  ///< per layer; empty: the first flux everywhere
-  std::vector<Scalar> solid_fraction;          ///< c per layer; empty: 1 everywhere
+  std::vector<Scalar> solid_fraction;   ///< c per layer; empty: 1 everywhere
 };
 
 /// A stack of layers with constant shear rate, solid fraction and flux: layer k occupies
@@ -40,8 +40,8 @@ class LayerStack {
         material_(std::move(material)) {
     const auto fits = [&](std::size_t n) { return n == 0 || n == shear_rates_.size(); };
     SHEARFRONT_EXPECTS(!shear_rates_.empty() && boundaries_.size() == shear_rates_.size() + 1 &&
-                           is_break_.size() + 1 == shear_rates_.size() && fits(material_.solid_fraction.size()) &&
-                           fits(material_.flux_index.size()),
+                           is_break_.size() + 1 == shear_rates_.size() &&
+                           fits(material_.solid_fraction.size()) && fits(material_.flux_index.size()),
                        "sizes of a layer stack");
   }
 

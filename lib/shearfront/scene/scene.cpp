@@ -40,8 +40,8 @@ bool rises(const Flux<S>& flux) {
 template <Real S, class Function>
 S mean_of(const Function& f, const S& lo, const S& hi) {
   const S half = (hi - lo) / S(2), middle = lo + half;
-  return boost::math::quadrature::gauss<S, 7>::integrate([&](const S& x) { return f(S(middle + half * x)); }, S(-1),
-                                                         S(1)) /
+  return boost::math::quadrature::gauss<S, 7>::integrate([&](const S& x) { return f(S(middle + half * x)); },
+                                                         S(-1), S(1)) /
          S(2);
 }
 
@@ -49,7 +49,8 @@ S mean_of(const Function& f, const S& lo, const S& hi) {
 
 template <Real S>
 Scene<S>::Scene(SceneSpec<S> spec) : spec_(std::move(spec)) {
-  if (Complaints complaints = find_complaints(spec_); !complaints.empty()) throw InputError(std::move(complaints));
+  if (Complaints complaints = find_complaints(spec_); !complaints.empty())
+    throw InputError(std::move(complaints));
 }
 
 template <Real S>
@@ -110,8 +111,9 @@ bool Scene<S>::jumps_at(const S& z) const {
         },
         function);
   };
-  return std::binary_search(spec_.flux_breaks.begin(), spec_.flux_breaks.end(), z) || jumps(spec_.shear_rate) ||
-         (spec_.solid_fraction && jumps(*spec_.solid_fraction)) || (spec_.temperature && jumps(*spec_.temperature));
+  return std::binary_search(spec_.flux_breaks.begin(), spec_.flux_breaks.end(), z) ||
+         jumps(spec_.shear_rate) || (spec_.solid_fraction && jumps(*spec_.solid_fraction)) ||
+         (spec_.temperature && jumps(*spec_.temperature));
 }
 
 template <Real S>
@@ -196,7 +198,9 @@ S Scene<S>::steady_height() const {
   if (is_plain()) return bottom() + m;
   const bool is_above = rises<S>(fluxes().front());
   // What the bed holds if the jump is at z, less what it does hold; monotone in z.
-  const auto excess = [&](const S& z) { return S(amount(bottom(), z, !is_above) + amount(z, top(), is_above) - m); };
+  const auto excess = [&](const S& z) {
+    return S(amount(bottom(), z, !is_above) + amount(z, top(), is_above) - m);
+  };
   S lo = bottom(), hi = top();
   for (int i = 0; i < std::numeric_limits<S>::digits + 8 && lo < hi; ++i) {
     const S z = lo + (hi - lo) / S(2);

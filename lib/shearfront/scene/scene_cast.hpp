@@ -92,8 +92,8 @@ template <Real To, Real From>
     to.diffusion->follows_shear_rate = from.diffusion->follows_shear_rate;
   }
   if (from.initial_state)
-    to.initial_state = std::visit(
-        [](const auto& model) -> InitialState<To> { return model_cast<To>(model); }, *from.initial_state);
+    to.initial_state = std::visit([](const auto& model) -> InitialState<To> { return model_cast<To>(model); },
+                                  *from.initial_state);
   if (from.close_packing)
     to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
                                   *from.close_packing);

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "shearfront/model/close_packing/all.hpp"
+#include "shearfront/model/depth/all.hpp"
+#include "shearfront/model/field.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/model/start/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
-#include "shearfront/model/field.hpp"
-#include "shearfront/model/depth/all.hpp"
 
 namespace shearfront {
 
@@ -26,9 +26,9 @@ struct OutsideState {
 /// Diffusion of the grains: D(z) = D profile(z), in units of height^2 / time.
 template <Real Scalar>
 struct Diffusion {
-  Scalar D{0};                                  ///< 0: none
+  Scalar D{0};                                   ///< 0: none
   std::optional<DepthFunction<Scalar>> profile;  ///< 1 if not given
-  bool follows_shear_rate = false;              ///< profile(z) = a(z), without the scale s
+  bool follows_shear_rate = false;               ///< profile(z) = a(z), without the scale s
 };
 
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
@@ -40,9 +40,9 @@ struct SceneSpec {
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
   std::vector<Scalar> flux_breaks;                        ///< heights between them; one less
   DepthFunction<Scalar> shear_rate;
-  Scalar scale{1};                                  ///< s, 1/time if a is dimensionless
-  std::optional<DepthFunction<Scalar>> solid_fraction;      ///< c(z); 1 if not given
-  std::optional<DepthFunction<Scalar>> temperature;  ///< T(z); 1 if not given
+  Scalar scale{1};                                      ///< s, 1/time if a is dimensionless
+  std::optional<DepthFunction<Scalar>> solid_fraction;  ///< c(z); 1 if not given
+  std::optional<DepthFunction<Scalar>> temperature;     ///< T(z); 1 if not given
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
   std::optional<Diffusion<Scalar>> diffusion;

@@ -53,9 +53,10 @@ template <Real S>
   const auto time = [&](const std::optional<S>& t) -> std::optional<std::string> {
     return t && is_finite(*t) ? std::optional(text(*t)) : std::nullopt;
   };
-  TimelineText all{time(timeline.t0), time(timeline.t1), time(timeline.t_star), {}, text(timeline.mass),
-                   text(timeline.steady_height)};
-  for (const auto& at : timeline.interfaces) all.interfaces.push_back({text(at.z), time(at.first), time(at.last)});
+  TimelineText all{time(timeline.t0),   time(timeline.t1),           time(timeline.t_star), {},
+                   text(timeline.mass), text(timeline.steady_height)};
+  for (const auto& at : timeline.interfaces)
+    all.interfaces.push_back({text(at.z), time(at.first), time(at.last)});
   return all;
 }
 

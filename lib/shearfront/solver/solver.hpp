@@ -84,7 +84,8 @@ struct Linearisation {
 ///             solver: what can solve the scene instead is found by asking all (solver/method.hpp)
 ///   start     precondition: refusal is empty. The scene must outlive the run
 template <class S>
-concept Solver = requires(const Scene<double>& scene, const typename S::Options& options, const Watch& watch) {
+concept Solver = requires(const Scene<double>& scene, const typename S::Options& options,
+                          const Watch& watch) {
   { S::kName } -> std::convertible_to<std::string_view>;
   { S::kDescription } -> std::convertible_to<std::string_view>;
   { S::kScenes } -> std::convertible_to<std::string_view>;  ///< which scenes it solves, for `shearfront list`
@@ -100,11 +101,11 @@ concept Solver = requires(const Scene<double>& scene, const typename S::Options&
 ///                       `entries` (none: samples only). `memory` is what the solver likes to keep from one call to the
 ///                       next, with numbers near by; empty at first. Preconditions: both refusals are empty
 template <class S>
-concept DifferentiableSolver =
-    Solver<S> && requires(const Scene<double>& scene, const typename S::Options& options, const Entry& entry,
-                          const std::vector<Place>& places, const std::vector<std::size_t>& entries, std::any& memory) {
-      { S::derivative_refusal(scene, options, entry) } -> std::same_as<std::string>;
-      { S::linearise(scene, options, places, entries, memory) } -> std::same_as<Linearisation>;
-    };
+concept DifferentiableSolver = Solver<S> &&
+    requires(const Scene<double>& scene, const typename S::Options& options, const Entry& entry,
+             const std::vector<Place>& places, const std::vector<std::size_t>& entries, std::any& memory) {
+  { S::derivative_refusal(scene, options, entry) } -> std::same_as<std::string>;
+  { S::linearise(scene, options, places, entries, memory) } -> std::same_as<Linearisation>;
+};
 
 }  // namespace shearfront

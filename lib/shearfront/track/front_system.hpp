@@ -15,10 +15,10 @@
 #include "shearfront/riemann/interface.hpp"
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/track/agenda.hpp"
-#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/meeting_point.hpp"
 #include "shearfront/track/observers.hpp"
+#include "shearfront/track/pieces.hpp"
 
 namespace shearfront {
 

@@ -12,8 +12,8 @@
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/timeline.hpp"
-#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/level_grid.hpp"
+#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/track.hpp"
 #include "shearfront/track/tracker.hpp"
 
@@ -132,8 +132,10 @@ struct TrackingSetup {
 
  private:
   [[nodiscard]] std::string refusal(const Scalar& resolution) const {
-    if constexpr (requires { Grid::refusal(stack); }) return Grid::refusal(stack);
-    else return Grid::refusal(stack, resolution);
+    if constexpr (requires { Grid::refusal(stack); })
+      return Grid::refusal(stack);
+    else
+      return Grid::refusal(stack, resolution);
   }
   [[nodiscard]] typename Grid::Built build(GridKind kind, const Scalar& resolution,
                                            const std::vector<LayerState<Scalar>>& states) const {

@@ -50,7 +50,8 @@ struct TrackOptions {
                      {},
                      "as many as the resolution asks for"},
           self.layers);
-    visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true}, self.max_collisions);
+    visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true},
+          self.max_collisions);
   }
 };
 
@@ -59,7 +60,7 @@ struct Collision {
   double t, z;
   std::optional<std::size_t> boundary;  ///< where they met: 0 the bottom, then the interfaces, then the top;
                                         ///< none inside a layer
-  std::size_t incoming, outgoing;  ///< how many
+  std::size_t incoming, outgoing;       ///< how many
 };
 
 namespace track_detail {

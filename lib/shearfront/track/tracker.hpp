@@ -12,10 +12,10 @@
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
-#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/front_list.hpp"
 #include "shearfront/track/front_system.hpp"
 #include "shearfront/track/observers.hpp"
+#include "shearfront/track/pieces.hpp"
 #include "shearfront/track/snapshot.hpp"
 
 namespace shearfront {
@@ -62,9 +62,10 @@ class Tracker {
       : system_(grid, pieces, ends, std::move(observer)), changes_(ends.changes) {}
   /// What a TrackingSetup holds, which must outlive the tracker.
   template <class Setup>
-  explicit Tracker(const Setup& setup, Observer observer = {})
-    requires requires { setup.ends; }
-      : Tracker(setup.grid, setup.pieces, setup.ends, std::move(observer)) {}
+  explicit Tracker(const Setup& setup, Observer observer = {}) requires requires {
+    setup.ends;
+  } : Tracker(setup.grid, setup.pieces, setup.ends, std::move(observer)) {
+  }
 
   /// Runs to time t, events at t included. Precondition: t >= time().
   /// Returns ok, or steady if nothing will ever happen again. After budget_reached or interrupted the fronts

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -26,7 +26,8 @@ struct Linear {
     visit(FieldInfo{"ground"}, self.ground);
     visit(FieldInfo{"slope"}, self.slope);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
     for (const Scalar& z : {bottom, top})
       if (!(value(z) > 0))
         complaints.push_back(

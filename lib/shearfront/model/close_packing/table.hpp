@@ -33,10 +33,12 @@ struct PackingTable {
       return std::string(key) + "[" + std::to_string(i) + "]";
     };
     if (share.size() < 2)
-      return complaints.push_back(wrong_length(prefix + "share", share.size(), "must have at least 2 entries"));
+      return complaints.push_back(
+          wrong_length(prefix + "share", share.size(), "must have at least 2 entries"));
     if (values.size() != share.size())
-      complaints.push_back(wrong_length(prefix + "values", values.size(),
-                                        "must have as many entries as share (" + std::to_string(share.size()) + ")"));
+      complaints.push_back(
+          wrong_length(prefix + "values", values.size(),
+                       "must have as many entries as share (" + std::to_string(share.size()) + ")"));
     for (std::size_t i = 1; i < share.size(); ++i)
       if (is_finite(share[i]) && is_finite(share[i - 1]) && !(share[i] > share[i - 1]))
         add(element("share", i), number_text(share[i]),

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/model/flux/model.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/flux/model.hpp"
 
 namespace shearfront {
 

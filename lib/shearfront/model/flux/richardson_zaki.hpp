@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/model/flux/model.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/model/flux/model.hpp"
 
 namespace shearfront {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
 #include "shearfront/model/start/model.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
 #include "shearfront/model/start/model.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -53,7 +53,8 @@ struct SineInitial {
   [[nodiscard]] Scalar size() const { return amplitude < 0 ? Scalar(-amplitude) : amplitude; }
   [[nodiscard]] Scalar angle(const Scalar& z) const {
     using std::atan;
-    return Scalar(8) * atan(Scalar(1)) * ((z - origin) / wavelength);  // 2 pi: every file sees this header, few need Boost
+    return Scalar(8) * atan(Scalar(1)) *
+           ((z - origin) / wavelength);  // 2 pi: every file sees this header, few need Boost
   }
 };
 

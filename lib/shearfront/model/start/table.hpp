@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/model/field.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
@@ -26,7 +26,8 @@ struct TableInitial {
     visit(FieldInfo{"z"}, self.z);
     visit(FieldInfo{"values"}, self.values);
   }
-  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top, Complaints& complaints) const {
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
     check_points(prefix, z, values.size(), bottom, top, complaints);
   }
   [[nodiscard]] Scalar lowest() const { return *std::min_element(values.begin(), values.end()); }
