@@ -132,10 +132,13 @@ void set_option(Method& method, std::string_view name, std::string_view text, co
 
 std::string settings(const Method& method) {
   std::string all = fmt::format("--method {}", method.name());
-  for (const Option& option : method.options()) {
+  const std::vector<Option> options = method.options(), defaults = Method(method.name()).options();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const Option& option = options[i];
+    if (option.info.is_budget && text_of(option) == text_of(defaults[i])) continue;
     if (const bool* flag = std::get_if<bool>(&option.value)) {
       if (*flag) all += fmt::format(" --{}", option.info.name);
-    } else if (!is_unset(option) && !option.info.is_budget) {
+    } else if (!is_unset(option)) {
       all += fmt::format(" --{} {}", option.info.name, text_of(option));
     }
   }
