@@ -63,14 +63,23 @@ TEST(AnyFlux, TrackerKeepsTheLaws) {
     }
 }
 
+/// Pieces of a few coarse cells, where errors do not fall at once.
+bool has_thin_pieces(const SceneSpec<double>& spec) {
+  std::vector<double> ends = spec.initial_breaks;
+  ends.insert(ends.begin(), spec.bottom);
+  ends.push_back(spec.top);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (ends[i + 1] - ends[i] < 0.05) return true;
+  return false;
+}
+
 TEST(AnyFlux, TrackerAgreesWithGodunov) {
   SceneMaker maker(support::seed_of(8102));
   for (const Flux<double>& flux : unimodal_fluxes())
     for (int number = 0; number < 2; ++number) {
       SCOPED_TRACE(name_of(flux) + ", scene " + std::to_string(number));
       SceneSpec<double> spec = draw(maker, flux, 2 + number, 2);
-      // Pieces of a few coarse cells say nothing about the order.
-      while (spec.initial_breaks[1] - spec.initial_breaks[0] < 0.05) spec = draw(maker, flux, 2 + number, 2);
+      while (has_thin_pieces(spec)) spec = draw(maker, flux, 2 + number, 2);
       const Scene<double> scene(spec);
       const double height = std::visit([](const auto& f) { return f.range().highest; }, flux);
       SolverRequest request;
@@ -81,22 +90,17 @@ TEST(AnyFlux, TrackerAgreesWithGodunov) {
       const auto error = [&](std::size_t cells) {
         const auto grid = solve<GodunovSolver>(scene, request, {{.cells = cells}});
         EXPECT_EQ(grid.samples.size(), 78u) << grid.summary.message;
-        double sum = 0, largest = 0;
-        for (std::size_t i = 0; i < grid.samples.size(); ++i) {
-          const double off = std::abs(grid.samples[i].M - tracked.samples[i].M) / height;
-          sum += off;
-          largest = std::max(largest, off);
-        }
-        EXPECT_LT(largest, cells < 800 ? 1e-2 : 6e-3);
-        return sum / static_cast<double>(grid.samples.size());
+        double largest = 0;
+        for (std::size_t i = 0; i < grid.samples.size(); ++i)
+          largest = std::max(largest, std::abs(grid.samples[i].M - tracked.samples[i].M) / height);
+        return largest;
       };
       const double coarse_error = error(200), fine_error = error(800);
       // M of first order on the grid, of order 1/2 at contacts; 1e-5 from the tracker.
       const bool has_contacts = std::holds_alternative<Triangular<double>>(flux);
       EXPECT_LT(fine_error, has_contacts ? 6e-3 : 4e-3);
       const double fall = has_contacts ? 0.6 : 0.45;
-      // Means over the places: the largest error is at a shock and depends on where in its cell that is. That of a coarse
-      // grid may still by chance be small; then twice the refinement, twice the fall.
+      // The largest error of a coarse grid may by chance be small; then twice the refinement, twice the fall.
       if (!(fine_error < fall * coarse_error + 2e-5)) {
         EXPECT_LT(error(3200), fall * fall * coarse_error + 2e-5);
       }
