@@ -12,6 +12,7 @@
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solver/all.hpp"
 

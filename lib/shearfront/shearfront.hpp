@@ -2,6 +2,7 @@
 #pragma once
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/mixing.hpp"

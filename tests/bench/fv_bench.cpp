@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "shearfront/fv/march.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 namespace shearfront {
 namespace {

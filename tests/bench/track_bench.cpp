@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 #include "support/random_scene.hpp"
@@ -125,7 +126,7 @@ SceneSpec<double> step_of(const Flux<double>& flux) {
 SceneSpec<double> jumps_of(const Flux<double>& flux) {
   support::SceneMaker maker(2);
   SceneSpec<double> spec = step_of(flux);
-  const double highest = std::visit([](const auto& f) { return f.range().highest; }, flux);
+  const double highest = flux.range().highest;
   spec.initial_breaks.clear();
   spec.initial_values.clear();
   for (int i = 0; i <= 1000; ++i) {

@@ -11,6 +11,7 @@
 
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/fit/fit.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"
 #include "shearfront/solution/mixing.hpp"

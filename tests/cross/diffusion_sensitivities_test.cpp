@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront::diffusion {

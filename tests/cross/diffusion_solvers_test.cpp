@@ -11,6 +11,7 @@
 
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"

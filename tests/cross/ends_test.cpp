@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "shearfront/track/setup.hpp"

@@ -7,6 +7,7 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/riemann/in_layer.hpp"
 #include "shearfront/riemann/interface.hpp"
 #include "shearfront/track/level_grid.hpp"
@@ -69,7 +70,7 @@ TEST(InterfaceOfAnyTwoFluxes, TrackerIsSupplyAndDemand) {
     kinds.emplace(support::name_of(p.below.flux), support::name_of(p.above.flux));
     const auto difference = [&](double u) {
       const auto value = [&](const support::InterfaceSide& side) {
-        const auto [lowest, highest] = std::visit([](const auto& f) { return f.range(); }, side.flux);
+        const auto [lowest, highest] = side.flux.range();
         return side.value(lowest + (highest - lowest) * u);
       };
       return value(p.below) - value(p.above);

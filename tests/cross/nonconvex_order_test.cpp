@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracles/verify.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 #include "support/flux_scenes.hpp"

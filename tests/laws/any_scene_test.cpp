@@ -33,8 +33,7 @@ void for_scenes(std::uint64_t stream, int n, Check&& check) {
   for (int number = 0; number < n;) {
     SceneSpec<double> spec = support::any_scene(maker, 4);
     if (!find_complaints(spec).empty()) continue;
-    SCOPED_TRACE("scene " + std::to_string(number++) + ", flux " +
-                 std::visit([](const auto& f) { return std::string(f.kName); }, spec.fluxes[0]));
+    SCOPED_TRACE("scene " + std::to_string(number++) + ", flux " + std::string(spec.fluxes[0].name()));
     check(maker, Scene<double>(std::move(spec)));
   }
 }
@@ -47,8 +46,7 @@ void expect_in_range(const Scene<double>& scene, const Profile<double>& profile)
     const double lo = profile.z()[i], hi = profile.z()[i + 1];
     if (!(hi > lo)) continue;
     // The flux in the middle, c at the ends.
-    const StateRange<double> states =
-        std::visit([](const auto& f) { return f.range(); }, scene.flux_at(lo + (hi - lo) / 2));
+    const StateRange<double> states = scene.flux_at(lo + (hi - lo) / 2).range();
     const double c_lo = scene.solid_fraction_at(is_layered ? lo + (hi - lo) / 2 : lo);
     const double c_hi = scene.solid_fraction_at(is_layered ? lo + (hi - lo) / 2 : hi);
     const double slack = 1e-15 * std::max(states.highest, -states.lowest);
@@ -128,8 +126,7 @@ TEST(AnyScene, SchemesOfFirstOrderContract) {
   for_scenes(7603, 100, [&](support::SceneMaker& maker, const Scene<double>& scene) {
     SceneSpec<double> other = scene.spec();
     double highest = 1e300;
-    for (const auto& flux : other.fluxes)
-      highest = std::min(highest, std::visit([](const auto& f) { return f.range().highest; }, flux));
+    for (const auto& flux : other.fluxes) highest = std::min(highest, flux.range().highest);
     for (double& share : other.initial_values) share += (highest - share) * maker.uniform(0, 1);
     const Scene<double> higher(std::move(other));
     const auto check = [&]<class S>(const S&) {

@@ -13,6 +13,7 @@
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/solver.hpp"
 #include "shearfront/fit/forward.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/all.hpp"

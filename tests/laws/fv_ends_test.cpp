@@ -11,6 +11,7 @@
 
 #include "shearfront/fv/cell_profile.hpp"
 #include "shearfront/fv/run.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/solid_scene.hpp"

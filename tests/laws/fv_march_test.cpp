@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shearfront/fv/run.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/cell_states.hpp"
 #include "support/grid_scenes.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shearfront/fv/run.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/solid_scene.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/any_scene.hpp"
@@ -44,8 +45,7 @@ void for_scenes(std::uint64_t seed, int n, Check&& check) {
     }
     if (!find_complaints(spec).empty()) continue;
     const Scene<double> scene(std::move(spec));
-    SCOPED_TRACE("scene " + std::to_string(number++) + ", flux " +
-                 std::visit([](const auto& f) { return std::string(f.kName); }, scene.fluxes()[0]));
+    SCOPED_TRACE("scene " + std::to_string(number++) + ", flux " + std::string(scene.fluxes()[0].name()));
     check(scene);
   }
 }

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "support/random_scene.hpp"
 
@@ -23,9 +24,7 @@ inline std::vector<Flux<double>> unimodal_fluxes() {
   return all;
 }
 
-inline std::string name_of(const Flux<double>& flux) {
-  return std::visit([](const auto& f) { return std::string(f.kName); }, flux);
-}
+inline std::string name_of(const Flux<double>& flux) { return std::string(flux.name()); }
 
 /// A few layers, a few jumps, states in the range of the flux.
 inline SceneSpec<double> draw(SceneMaker& maker, const Flux<double>& flux, int n_layers, int n_jumps) {
@@ -33,7 +32,7 @@ inline SceneSpec<double> draw(SceneMaker& maker, const Flux<double>& flux, int n
   spec.fluxes = {flux};
   spec.shear_rate = maker.layers(n_layers, maker.order());
   spec.initial_breaks = maker.heights(n_jumps, 0, 1);
-  const auto [lowest, highest] = std::visit([](const auto& f) { return f.range(); }, flux);
+  const auto [lowest, highest] = flux.range();
   for (int i = 0; i <= n_jumps; ++i) {
     const double u = maker.integer(0, 2) == 0 ? maker.integer(0, 1) : maker.uniform(0, 1);
     spec.initial_values.push_back(u == 1 ? highest : lowest + (highest - lowest) * u);

@@ -29,13 +29,10 @@ inline SceneSpec<double> any_scene(SceneMaker& maker, int n_layers) {
   if (maker.integer(0, 2) == 0) spec.solid_fraction = random_profile(maker, 0.3, 0.7);
   if (maker.integer(0, 2) == 0) spec.temperature = random_profile(maker, 0.5, 2);
   double lowest = -1e300, highest = 1e300;
-  for (const auto& flux : spec.fluxes)
-    std::visit(
-        [&](const auto& f) {
-          lowest = std::max(lowest, f.range().lowest);
-          highest = std::min(highest, f.range().highest);
-        },
-        flux);
+  for (const auto& flux : spec.fluxes) {
+    lowest = std::max(lowest, flux.range().lowest);
+    highest = std::min(highest, flux.range().highest);
+  }
   const auto state = [&] {
     const double u = maker.integer(0, 3) == 0 ? maker.integer(0, 1) : maker.uniform(0, 1);
     return u == 1 ? highest : lowest + (highest - lowest) * u;

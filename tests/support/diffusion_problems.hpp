@@ -9,6 +9,7 @@
 
 #include "shearfront/diffusion/cole_hopf_uniform.hpp"
 #include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/model/flux/all.hpp"
 
 /// Complaints with diffusion whose solutions are known, and errors of computed ones.
 namespace shearfront::diffusion::support {

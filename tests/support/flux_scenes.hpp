@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "support/random_scene.hpp"
 
@@ -56,8 +57,7 @@ inline SceneSpec<double> random_flux_scene(SceneMaker& make, FluxShape shape) {
   if (make.integer(0, 1) == 1) spec.solid_fraction = layers(0.3, 1);
   if (make.integer(0, 1) == 1) spec.temperature = layers(0.25, 4);
   double jam = 1e300;
-  for (const auto& flux : spec.fluxes)
-    jam = std::min(jam, std::visit([](const auto& f) { return f.range().highest; }, flux));
+  for (const auto& flux : spec.fluxes) jam = std::min(jam, flux.range().highest);
   for (double& share : spec.initial_values) share *= jam;
   return spec;
 }
@@ -69,9 +69,7 @@ inline std::vector<double> godunov_any_scene(const Scene<double>& scene, double 
   std::vector<double> share(n), c(n), rate(n), peak(n), flux(n + 1, 0.0);
   std::vector<const Flux<double>*> model(n);
   double fastest = 0;
-  const auto value = [&](std::size_t j, double x) {
-    return rate[j] * c[j] * std::visit([&](const auto& f) { return double(f.value(x)); }, *model[j]);
-  };
+  const auto value = [&](std::size_t j, double x) { return rate[j] * c[j] * model[j]->value(x); };
   bool concave = false;
   for (std::size_t j = 0; j < n; ++j) {
     const double z = scene.bottom() + (static_cast<double>(j) + 0.5) * h;
@@ -79,14 +77,11 @@ inline std::vector<double> godunov_any_scene(const Scene<double>& scene, double 
     c[j] = scene.solid_fraction_at(z);
     rate[j] = scene.scale() * scene.rate_at(z);
     share[j] = scene.initial_share(z);
-    std::visit(
-        [&](const auto& f) {
-          peak[j] = f.extrema().front();
-          concave = f.curvature() == Curvature::concave;
-          for (const double x : {f.range().lowest, f.range().highest})
-            fastest = std::max(fastest, rate[j] * std::abs(double(f.derivative(x))));
-        },
-        *model[j]);
+    const Flux<double>& f = *model[j];
+    peak[j] = f.extrema().front();
+    concave = f.curvature() == Curvature::concave;
+    for (const double x : {f.range().lowest, f.range().highest})
+      fastest = std::max(fastest, rate[j] * std::abs(f.derivative(x)));
   }
   const auto steps = static_cast<std::size_t>(std::ceil(t * fastest / (0.9 * h)));
   const double dt = t / static_cast<double>(steps);

@@ -12,31 +12,21 @@
 /// Riemann problems at an interface between any two fluxes of one kind, and a Godunov run of them.
 namespace shearfront::support {
 
-inline bool has_minimum(const Flux<double>& flux) {
-  return std::visit([](const auto& f) { return f.value(f.extrema()[0]) < 0; }, flux);
-}
+inline bool has_minimum(const Flux<double>& flux) { return flux.value(flux.extrema()[0]) < 0; }
 
 /// One side of an interface: rate times flux, the initial state.
 struct InterfaceSide {
   Flux<double> flux;
   double rate, state;
 
-  [[nodiscard]] double value(double x) const {
-    return rate * std::visit([&](const auto& f) { return double(f.value(x)); }, flux);
-  }
-  [[nodiscard]] double extremum() const {
-    return std::visit([](const auto& f) { return f.extrema()[0]; }, flux);
-  }
+  [[nodiscard]] double value(double x) const { return rate * flux.value(x); }
+  [[nodiscard]] double extremum() const { return flux.extrema()[0]; }
   [[nodiscard]] double steepest() const {
-    return rate * std::visit(
-                      [](const auto& f) {
-                        const auto [lowest, highest] = f.range();
-                        double most = 0;
-                        for (int i = 0; i <= 64; ++i)
-                          most = std::max(most, std::abs(f.derivative(lowest + (highest - lowest) * i / 64)));
-                        return most;
-                      },
-                      flux);
+    const auto [lowest, highest] = flux.range();
+    double most = 0;
+    for (int i = 0; i <= 64; ++i)
+      most = std::max(most, std::abs(flux.derivative(lowest + (highest - lowest) * i / 64)));
+    return rate * most;
   }
 };
 struct InterfaceProblem {
@@ -51,7 +41,7 @@ inline InterfaceProblem random_interface(SceneMaker& maker, const std::vector<Fl
   Flux<double> second = any();
   while (has_minimum(second) != has_minimum(first)) second = any();
   const auto side = [&](const Flux<double>& flux) {
-    const auto [lowest, highest] = std::visit([](const auto& f) { return f.range(); }, flux);
+    const auto [lowest, highest] = flux.range();
     InterfaceSide made{flux, maker.uniform(0.1, 4), maker.uniform(lowest, highest)};
     const int kind = maker.integer(0, 5);
     if (kind == 0) made.state = lowest;

@@ -13,9 +13,8 @@
 namespace shearfront::diffusion::support {
 
 inline std::pair<double, double> range_of(const Problem& p) {
-  return std::visit(
-      [](const auto& flux) { return std::pair<double, double>(flux.range().lowest, flux.range().highest); },
-      p.flux);
+  const auto [lowest, highest] = p.flux.range();
+  return {lowest, highest};
 }
 
 inline Problem random_problem(shearfront::support::SceneMaker& maker, Ends ends, bool constant_rate = false) {

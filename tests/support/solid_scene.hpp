@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "support/random_scene.hpp"

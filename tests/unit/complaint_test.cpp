@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shearfront/io/scene_file.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 
 namespace shearfront {
@@ -69,12 +70,12 @@ TEST(OldNames, AreReadAndRemarkedOn) {
     return parse_scene<double>(first + rest, "scene.toml");
   };
   const auto small = scene_of("[flux]\nmodel = \"packed\"\n");
-  EXPECT_TRUE(std::holds_alternative<Quadratic<double>>(small.fluxes()[0]));
+  EXPECT_TRUE(small.fluxes()[0].as<Quadratic<double>>());
   EXPECT_FALSE(small.counts_rising_grains());
   const auto large = scene_of(
       "[flux]\nmodel = \"packed\"\ngrains = \"large\"\n[packing]\nmodel = \"piecewise\"\n"
       "breaks = []\nvalues = [0.6]\n");
-  EXPECT_TRUE(std::holds_alternative<Lwr<double>>(large.fluxes()[0]));
+  EXPECT_TRUE(large.fluxes()[0].as<Lwr<double>>());
   EXPECT_TRUE(large.counts_rising_grains());
   EXPECT_EQ(large.solid_fraction_at(0.5), 0.6);
   EXPECT_EQ(large.spec().remarks,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shearfront/fv/march.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "support/random_scene.hpp"
 #include "support/thesis_cases.hpp"
 

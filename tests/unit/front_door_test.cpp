@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/shearfront.hpp"
 #include "shearfront/track/setup.hpp"
 

@@ -4,9 +4,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/noise.hpp"
 
 namespace shearfront::fit {
@@ -16,7 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Null directions are known this well, relative to their entries.
 constexpr double kCancelled = 1e-4;
 
@@ -123,7 +122,7 @@ LossEffect effect_of(const Loss& loss, const Objective::Evaluation& at, double n
     n += 1;
   }
   const double freedom = n - fitted;
-  if (!(slope > 0) || !(freedom > 0)) return {kNaN, kNaN};
+  if (!(slope > 0) || !(freedom > 0)) return {kUnknown, kUnknown};
   slope /= n;
   return {slope, psi2 / freedom / (slope * slope)};
 }
@@ -149,7 +148,7 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   result.matrix = MatrixXd::Zero(n, n);
   result.null_directions = MatrixXd::Zero(n, parts.null.cols());
   result.determined.assign(static_cast<std::size_t>(n), false);
-  result.misfit_scale = VectorXd::Constant(n, kNaN);
+  result.misfit_scale = VectorXd::Constant(n, kUnknown);
   result.matrix(parts.free, parts.free) = cov;
   if (parts.null.cols() > 0) result.null_directions(parts.free, Eigen::all) = parts.null;
   for (Index a = 0; a < n_free; ++a) {
@@ -174,8 +173,8 @@ MatrixXd parameter_covariance(const Covariance& covariance, const MatrixXd& deri
       is_determined = is_determined && !(std::abs(changes.sum()) > kCancelled * changes.cwiseAbs().sum());
     }
     if (is_free && is_determined) continue;
-    cov.row(a).setConstant(kNaN);
-    cov.col(a).setConstant(kNaN);
+    cov.row(a).setConstant(kUnknown);
+    cov.col(a).setConstant(kUnknown);
   }
   return cov;
 }

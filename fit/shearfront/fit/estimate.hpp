@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "shearfront/solution/summary.hpp"
 
 namespace shearfront::fit {
+
+/// Stands for a number that the data do not give.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
 /// the best point found (Status::interrupted).

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 /// A bound nearer than this share of the way leaves too little to look at.
 constexpr double kNearestBound = 0.25;
 /// Relative half width of an interval that is rounding, not noise: searches end at 1e-10.
-constexpr double kRounding = 1e-8;
+constexpr double kLeastWidth = 1e-8;
 /// A rise at the end itself between these needs no second look.
 constexpr double kLeastGood = 0.85, kMostGood = 1.2;
 /// Refits end when the misfit changes by less than this share of the rise looked for.
@@ -115,7 +115,7 @@ std::vector<std::optional<IntervalCheck>> check_intervals(const Minimum& minimum
     const double scale = minimum.errors.misfit_scale[j];
     if (!estimate.parameters[k].ci95 || !(scale > 0) || !std::isfinite(scale)) continue;
     const double half_width = minimum.quantile * std::sqrt(minimum.errors.matrix(j, j));
-    if (!(half_width > kRounding * std::max(1.0, std::abs(minimum.u[j])))) continue;
+    if (!(half_width > kLeastWidth * std::max(1.0, std::abs(minimum.u[j])))) continue;
     IntervalCheck check;
     check.low = checker.towards(j, -1, check.failure);
     check.high = checker.towards(j, 1, check.failure);

@@ -24,7 +24,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLevel = 0.95;
 /// Distance of the first bracket where there is no standard error: 10 % of a positive parameter.
 constexpr double kFirstStep = 0.1;
@@ -44,9 +43,9 @@ double quantile_of(const Estimate& estimate) {
 
 /// Where one side of a profile ends.
 struct End {
-  double place = kNaN;  ///< coordinate; NaN: open
-  double edge = kNaN;   ///< open because the model has no solution beyond this coordinate
-  std::string failure;  ///< why it has none
+  double place = kUnknown;  ///< coordinate; NaN: open
+  double edge = kUnknown;   ///< open because the model has no solution beyond this coordinate
+  std::string failure;      ///< why it has none
 };
 
 /// The profile of one coordinate to one side of the minimum, by the distance from it.
@@ -80,7 +79,7 @@ class Side {
         outside = 0.5 * (inside + edge);
         continue;
       }
-      if (above >= 0) return {from_ + direction_ * crossing(inside, below, outside, above), kNaN, {}};
+      if (above >= 0) return {from_ + direction_ * crossing(inside, below, outside, above), kUnknown, {}};
       inside = outside;
       below = above;
       // The root of the misfit is nearly a straight line.
@@ -88,7 +87,7 @@ class Side {
       if (outside >= edge) outside = 0.5 * (inside + edge);
     }
     if (std::isinf(edge)) return {};
-    return {kNaN, from_ + direction_ * inside, failure_};
+    return {kUnknown, from_ + direction_ * inside, failure_};
   }
   [[nodiscard]] bool found_lower() const { return found_lower_; }
 
@@ -252,7 +251,7 @@ class Profiler {
 
   /// Of the parameter where coordinate j is `place`.
   [[nodiscard]] double value(Index j, double place) const {
-    if (std::isnan(place)) return kNaN;
+    if (std::isnan(place)) return kUnknown;
     VectorXd at = u_;
     at[j] = place;
     return coordinates_.values(at)[j];

@@ -5,7 +5,6 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "shearfront/fit/interval_check.hpp"
@@ -20,7 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUpper = 0.975;
 
 /// Observations predicted in their own quantity; empty if the forward model has no solution.
@@ -32,7 +30,7 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   });
   const Forward forward(parameters, spec.forward, rows.field, rows.points);
   const Prediction at = forward.predict(values, false);
-  std::vector<double> predicted(spec.observations.rows.size(), kNaN);
+  std::vector<double> predicted(spec.observations.rows.size(), kUnknown);
   if (!at.is_valid()) return predicted;
   const VectorXd r = rows.residuals(at.values);
   // Rows may stand in another order than the data; in its own quantity each has one observation.
@@ -67,7 +65,7 @@ void set_error_bars(const Minimum& minimum, Estimate& estimate) {
       parameter_covariance(minimum.errors, minimum.objective.coordinates().derivative(minimum.u));
   const auto n = minimum.u.size();
   const double quantile = minimum.quantile;
-  estimate.correlation = MatrixXd::Constant(n, n, kNaN);
+  estimate.correlation = MatrixXd::Constant(n, n, kUnknown);
   const auto has_error = [&](Index a) {
     return !estimate.parameters[static_cast<std::size_t>(a)].at_bound && cov(a, a) > 0 &&
            std::isfinite(cov(a, a));
@@ -158,7 +156,7 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     ParameterEstimate& parameter = estimate.parameters.emplace_back();
     parameter.name = p.name();
     parameter.start = p.start;
-    parameter.estimate = kNaN;
+    parameter.estimate = kUnknown;
   }
   if (!best.is_valid) {
     if (estimate.status == Status::ok) {

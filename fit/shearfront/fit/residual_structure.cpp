@@ -12,7 +12,6 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Of the range of the data: exact solutions agree to rounding, those of implicit schemes to what their
 /// iteration leaves.
 constexpr double kRounding = 1e-7;
@@ -162,9 +161,9 @@ std::optional<ResidualStructure> residual_structure(const Observations& observat
   take(runs.is_tested(), runs.z_score());
   if (n_tests == 0) return {};
   ResidualStructure structure;
-  structure.lag1_height = height.is_tested() ? height.correlation() : kNaN;
-  structure.lag1_time = time.is_tested() ? time.correlation() : kNaN;
-  structure.runs_z_score = runs.is_tested() ? runs.z_score() : kNaN;
+  structure.lag1_height = height.is_tested() ? height.correlation() : kUnknown;
+  structure.lag1_time = time.is_tested() ? time.correlation() : kUnknown;
+  structure.runs_z_score = runs.is_tested() ? runs.z_score() : kUnknown;
   structure.is_structured =
       worst > boost::math::quantile(boost::math::complement(boost::math::normal(), kLevel / (2 * n_tests)));
   return structure;

@@ -85,16 +85,10 @@ Result periodic_wave(const Scene<double>& scene, const Wave<double>& wave, const
 }
 
 std::optional<Polynomial> polynomial_of(const Flux<double>& flux) {
-  return std::visit(
-      []<class F>(const F& f) -> std::optional<Polynomial> {
-        if constexpr (is_quadratic_polynomial<F>()) {
-          const auto range = f.range();
-          return Polynomial{f.extrema().front(), (f.derivative(range.highest) - f.derivative(range.lowest)) /
-                                                     (range.highest - range.lowest)};
-        }
-        return std::nullopt;
-      },
-      flux);
+  if (!flux.is_quadratic_polynomial()) return {};
+  const auto [lowest, highest] = flux.range();
+  return Polynomial{flux.extrema().front(),
+                    (flux.derivative(highest) - flux.derivative(lowest)) / (highest - lowest)};
 }
 
 }  // namespace
@@ -110,7 +104,7 @@ Result closed_form(const Scene<double>& scene) {
       start ? std::visit([](const auto& m) { return shearfront::wave<double>(m); }, *start) : std::nullopt;
   const auto polynomial = polynomial_of(flux);
   if (wave && polynomial) return periodic_wave(scene, *wave, *polynomial, rate);
-  const int sign = unit_parabola_sign<double>(flux);
+  const int sign = unit_parabola_sign(flux);
   if (sign == 0) return std::string("no closed form is known for this flux with diffusion from this start");
   if (start)
     if (const auto step = std::visit([](const auto& m) { return logistic_step<double>(m); }, *start))

@@ -39,12 +39,8 @@ CrankNicolson::CrankNicolson(const Problem& problem, Options options, std::vecto
   std::copy(problem.initial.begin(), problem.initial.end(), phi_.begin() + 1);
   set_ghosts(phi_);
   scale_ = largest_magnitude(phi_.data(), n_ + 2);
-  std::visit(
-      [&](const auto& flux) {
-        const auto [lowest, highest] = flux.range();
-        limit_ = 10 * std::max({scale_, std::abs(lowest), std::abs(highest)});
-      },
-      problem.flux);
+  const auto [lowest, highest] = problem.flux.range();
+  limit_ = 10 * std::max({scale_, std::abs(lowest), std::abs(highest)});
   for (const Tangent& parameter : parameters_) {
     tangents_.push_back(parameter.initial);
     tangents_.back().resize(n_);

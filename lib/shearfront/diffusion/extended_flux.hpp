@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/flux.hpp"
 
 namespace shearfront::diffusion {
 

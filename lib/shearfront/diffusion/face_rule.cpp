@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "shearfront/diffusion/extended_flux.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/numeric/contract.hpp"
 
 namespace shearfront::diffusion {
@@ -164,13 +165,10 @@ class MeanRule final : public FaceRule {
 }  // namespace
 
 std::unique_ptr<FaceRule> FaceRule::make(const Problem& problem, Scheme scheme) {
-  return std::visit(
-      [&]<class Model>(const Model& flux) -> std::unique_ptr<FaceRule> {
-        if (scheme == Scheme::central)
-          return std::make_unique<MeanRule<Model, Scheme::central>>(problem, flux);
-        return std::make_unique<MeanRule<Model, Scheme::fitted>>(problem, flux);
-      },
-      problem.flux);
+  return with_model(problem.flux, [&]<class Model>(const Model& flux) -> std::unique_ptr<FaceRule> {
+    if (scheme == Scheme::central) return std::make_unique<MeanRule<Model, Scheme::central>>(problem, flux);
+    return std::make_unique<MeanRule<Model, Scheme::fitted>>(problem, flux);
+  });
 }
 
 }  // namespace shearfront::diffusion

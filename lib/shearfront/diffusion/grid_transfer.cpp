@@ -51,8 +51,7 @@ std::vector<double> transfer(std::span<const double> values, std::span<const Cel
 
 std::vector<double> transfer_means(const Problem& problem, std::span<const double> means,
                                    std::span<const CellChange> changes) {
-  const auto range =
-      std::visit([](const auto& flux) { return StateRange<double>(flux.range()); }, problem.flux);
+  const StateRange<double> range = problem.flux.range();
   return transfer(means, changes,
                   [&](std::size_t j) { return 0.5 * bounded_half_rise(problem, means, j, range); });
 }

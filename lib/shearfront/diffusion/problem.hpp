@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/flux.hpp"
 
 namespace shearfront::diffusion {
 

@@ -18,7 +18,7 @@ class Coefficients {
  public:
   explicit Coefficients(const Scene<double>& scene) : scene_(scene) {
     if (scene.fluxes().size() > 1)
-      for (const Flux<double>& flux : scene.fluxes()) signs_.push_back(unit_parabola_sign<double>(flux));
+      for (const Flux<double>& flux : scene.fluxes()) signs_.push_back(unit_parabola_sign(flux));
   }
   [[nodiscard]] double rate(double z) const {
     const double r = scene_.scale() * scene_.rate_at(z);
@@ -31,9 +31,7 @@ class Coefficients {
   std::vector<int> signs_;
 };
 
-StateRange<double> range_of(const Problem& problem) {
-  return std::visit([](const auto& flux) { return flux.range(); }, problem.flux);
-}
+StateRange<double> range_of(const Problem& problem) { return problem.flux.range(); }
 
 /// Lines through the middles of the cells.
 Profile<double> lines(const Problem& problem, std::span<const double> means,
@@ -111,7 +109,7 @@ std::string refusal(const Scene<double>& scene) {
            "are";
   if (scene.fluxes().size() > 1 &&
       std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
-                  [](const Flux<double>& flux) { return unit_parabola_sign<double>(flux) == 0; }))
+                  [](const Flux<double>& flux) { return unit_parabola_sign(flux) == 0; }))
     return "with diffusion, layers may have the fluxes phi (phi - 1) and phi (1 - phi) only";
   return "";
 }

@@ -12,15 +12,10 @@ namespace shearfront::exact {
 
 namespace {
 
-template <class AnyFlux>
-bool is_parabola(const AnyFlux& flux) {
-  return std::visit([](const auto& f) { return bool(std::remove_cvref_t<decltype(f)>::kIsParabola); }, flux);
-}
-
 /// a(z) where it alone varies in a bed of one parabola, if it is exponential.
 template <Real Scalar>
 std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scene) {
-  if (scene.fluxes().size() > 1 || !is_parabola(scene.fluxes().front()) || scene.spec().solid_fraction ||
+  if (scene.fluxes().size() > 1 || !scene.fluxes().front().is_parabola() || scene.spec().solid_fraction ||
       scene.spec().temperature)
     return {};
   return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
@@ -38,7 +33,7 @@ LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers, boo
 /// |f| at its extremum.
 template <Real Scalar>
 Scalar depth_of(const Flux<Scalar>& flux) {
-  const Scalar f = std::visit([](const auto& m) { return Scalar(m.value(m.extrema().front())); }, flux);
+  const Scalar f = flux.value(flux.extrema().front());
   return f < 0 ? Scalar(-f) : f;
 }
 
@@ -48,9 +43,9 @@ template <Real Scalar>
 CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers)
     : scene_(std::move(scene)),
       is_identity_(scene_->is_plain()),
-      is_concave_(std::visit([](const auto& f) { return f.curvature() == Curvature::concave; },
-                             scene_->fluxes().front())),
-      is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(), is_parabola<Flux<Scalar>>)),
+      is_concave_(scene_->fluxes().front().curvature() == Curvature::concave),
+      is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(),
+                                [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
       exponential_(exponential_of(*scene_)),
       layers_(layers_of(*scene_, layers, exponential_.has_value())) {
   if (is_identity_) {
@@ -67,7 +62,7 @@ template <Real Scalar>
 void CanonicalForm<Scalar>::set_layers() {
   std::vector<Scalar> depth;
   for (const Flux<Scalar>& flux : scene_->fluxes()) {
-    const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, flux);
+    const StateRange<Scalar> range = flux.range();
     lowest_.push_back(range.lowest);
     highest_.push_back(range.highest);
     width_.push_back(range.highest - range.lowest);

@@ -123,13 +123,9 @@ Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, Fin
 template <Real Scalar>
 bool has_contacts(const Scene<Scalar>& scene) {
   return std::any_of(scene.fluxes().begin(), scene.fluxes().end(), [](const Flux<Scalar>& flux) {
-    return std::visit(
-        [](const auto& f) {
-          const Scalar m = f.extrema().front();
-          return !f.kIsParabola &&
-                 (is_straight(f, f.range().lowest, m) || is_straight(f, m, f.range().highest));
-        },
-        flux);
+    if (flux.is_parabola()) return false;
+    const Scalar m = flux.extrema().front();
+    return is_straight(flux, flux.range().lowest, m) || is_straight(flux, m, flux.range().highest);
   });
 }
 

@@ -14,10 +14,8 @@ namespace shearfront {
 
 template <Real Scalar>
 std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
-  const bool is_parabolic = std::all_of(scene.fluxes().begin(), scene.fluxes().end(), [](const auto& flux) {
-    return std::visit([](const auto& f) { return bool(std::remove_cvref_t<decltype(f)>::kIsParabola); },
-                      flux);
-  });
+  const bool is_parabolic = std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
+                                        [](const auto& flux) { return flux.is_parabola(); });
   return is_parabolic ? kDefaultLayers : kDefaultGeneralLayers;
 }
 

@@ -10,11 +10,11 @@ namespace shearfront::exact {
 namespace {
 
 /// "cubic with gamma = 0.9".
-template <class Model>
-std::string description(const Model& flux) {
-  std::string text(Model::kName);
+template <Real Scalar>
+std::string description(const Flux<Scalar>& flux) {
+  std::string text(flux.name());
   const char* glue = " with ";
-  Model::fields(flux, [&](const FieldInfo& info, const auto& member) {
+  flux.fields(flux, [&](const FieldInfo& info, const auto& member) {
     if constexpr (Real<std::remove_cvref_t<decltype(member)>>) {
       text += glue + std::string(info.key) + " = " + number_text(member);
       glue = ", ";
@@ -23,8 +23,8 @@ std::string description(const Model& flux) {
   return text;
 }
 
-template <class Model>
-std::string refusal_of(const Model& flux) {
+template <Real Scalar>
+std::string refusal_of(const Flux<Scalar>& flux) {
   const auto range = flux.range();
   const std::size_t extrema = flux.extrema().size();
   if (flux.curvature() == Curvature::mixed) return description(flux) + " is neither convex nor concave";
@@ -40,13 +40,9 @@ template <Real Scalar>
 std::string refusal(const Scene<Scalar>& scene) {
   if (scene.is_plain()) return {};
   if (scene.has_diffusion()) return "grains diffuse in this bed";
-  const auto curvature = [](const Flux<Scalar>& flux) {
-    return std::visit([](const auto& f) { return f.curvature(); }, flux);
-  };
   for (const Flux<Scalar>& flux : scene.fluxes()) {
-    if (std::string text = std::visit([](const auto& f) { return refusal_of(f); }, flux); !text.empty())
-      return text;
-    if (curvature(flux) != curvature(scene.fluxes().front()))
+    if (std::string text = refusal_of(flux); !text.empty()) return text;
+    if (flux.curvature() != scene.fluxes().front().curvature())
       return std::string("a convex flux beside a concave one has no exact solution");
   }
   if (!scene.has_walls()) return std::string("open and periodic ends have no exact solution");

@@ -3,34 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace shearfront::fv {
 
 FluxShape::FluxShape(const Flux<double>& model) : flux(model) {
   constexpr int kSlopeSamples = 4096;  // both ends included, where a convex or concave f is steepest
-  std::visit(
-      [&](const auto& f) {
-        lo = f.range().lowest;
-        hi = f.range().highest;
-        turns = f.extrema();
-        is_parabola = f.kIsParabola;
-        for (int i = 0; i <= kSlopeSamples; ++i)
-          largest_slope = std::max(largest_slope, std::abs(f.derivative(lo + (hi - lo) * i / kSlopeSamples)));
-      },
-      flux);
+  lo = flux.range().lowest;
+  hi = flux.range().highest;
+  turns = flux.extrema();
+  is_parabola = flux.is_parabola();
+  for (int i = 0; i <= kSlopeSamples; ++i)
+    largest_slope = std::max(largest_slope, std::abs(flux.derivative(lo + (hi - lo) * i / kSlopeSamples)));
   turns.insert(turns.begin(), lo);
   turns.push_back(hi);
   for (const double x : turns) turn_values.push_back(value(x));
   if (has_one_extremum() && turn_values[1] > turn_values[0]) sign = -1;
   vanishes = turn_values.front() == 0 && turn_values.back() == 0;
-}
-
-double FluxShape::value(double x) const {
-  return std::visit([x](const auto& f) { return f.value(x); }, flux);
-}
-double FluxShape::derivative(double x) const {
-  return std::visit([x](const auto& f) { return f.derivative(x); }, flux);
 }
 
 FluxShape::Extent FluxShape::extent(double a, double b) const {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/flux.hpp"
 
 namespace shearfront::fv {
 
@@ -42,8 +42,8 @@ struct FluxShape {
   explicit FluxShape(const Flux<double>& flux);
 
   [[nodiscard]] bool has_one_extremum() const { return turns.size() == 3; }
-  [[nodiscard]] double value(double x) const;
-  [[nodiscard]] double derivative(double x) const;
+  [[nodiscard]] double value(double x) const { return flux.value(x); }
+  [[nodiscard]] double derivative(double x) const { return flux.derivative(x); }
   /// Where f has its extremum, if it has one.
   [[nodiscard]] double extremum() const { return turns[1]; }
   /// Least and largest f between two states.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "shearfront/fv/vectorised.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront::fv {
@@ -262,13 +262,10 @@ void March::cross_faces(const Part& part, std::size_t first, std::size_t end, co
                : parabola_by_engquist_osher(faces, extremum, crossing);
     return;
   }
-  std::visit(
-      [&]<class Model>(const Model& f) {
-        const Sides<Model> sides{f, part.flux};
-        is_godunov ? cross_by_godunov(sides, faces, crossing)
-                   : cross_by_engquist_osher(sides, faces, crossing);
-      },
-      part.flux.flux);
+  with_model(part.flux.flux, [&]<class Model>(const Model& f) {
+    const Sides<Model> sides{f, part.flux};
+    is_godunov ? cross_by_godunov(sides, faces, crossing) : cross_by_engquist_osher(sides, faces, crossing);
+  });
 }
 
 CellShares March::shares() const {

@@ -207,7 +207,7 @@ std::string refusal(const Scheme& scheme, const Scene<double>& scene, const Grid
   for (const Flux<double>& model : scene.fluxes()) {
     const FluxShape flux(model);
     const bool has_one = flux.has_one_extremum() && flux.vanishes;
-    const std::string name = "flux " + std::visit([](const auto& f) { return std::string(f.kName); }, model);
+    const std::string name = "flux " + std::string(model.name());
     if (!is_monotone(scheme.rule) && !flux.is_parabola)
       return name + " has no values for shares beyond its range, where this scheme goes";
     if (scheme.limiter && !(has_one && scene.fluxes().size() == 1 && scene.has_walls()))

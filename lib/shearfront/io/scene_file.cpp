@@ -12,6 +12,7 @@
 
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {

@@ -66,7 +66,7 @@ class LayerStack {
   /// One quadratic flux in a bed of solid fraction 1: everything but the shear rates is the same in all layers.
   [[nodiscard]] bool is_plain() const {
     return material_.fluxes.size() == 1 && material_.solid_fraction.empty() &&
-           unit_parabola_sign<Scalar>(material_.fluxes[0]) == 1;
+           unit_parabola_sign(material_.fluxes[0]) == 1;
   }
   /// Whether the interface below layer k (1 <= k < n_layers) belongs to the scene itself.
   [[nodiscard]] bool is_break(std::size_t k) const { return is_break_[k - 1]; }

@@ -21,20 +21,11 @@ bool is_constant_in_pieces(const DepthFunction<S>& function) {
   return std::visit([](const auto& model) { return model.kIsLayered; }, function);
 }
 
-template <Real S>
-StateRange<S> range_of(const Flux<S>& flux) {
-  return std::visit([](const auto& f) { return f.range(); }, flux);
-}
-
 /// Whether the flux is positive at its first extremum: a maximum.
 template <Real S>
 bool rises(const Flux<S>& flux) {
-  return std::visit(
-      [](const auto& f) {
-        const auto extrema = f.extrema();
-        return !extrema.empty() && f.value(extrema.front()) > f.value(f.range().lowest);
-      },
-      flux);
+  const auto extrema = flux.extrema();
+  return !extrema.empty() && flux.value(extrema.front()) > flux.value(flux.range().lowest);
 }
 
 template <Real S, class Function>
@@ -61,7 +52,7 @@ std::variant<Scene<S>, Complaints> Scene<S>::make(SceneSpec<S> spec) {
 
 template <Real S>
 StateRange<S> Scene<S>::range_at(const S& z) const {
-  const StateRange<S> range = range_of<S>(flux_at(z));
+  const StateRange<S> range = flux_at(z).range();
   const S c = solid_fraction_at(z);
   return {c * range.lowest, c * range.highest};
 }
@@ -73,7 +64,7 @@ bool Scene<S>::counts_rising_grains() const {
 
 template <Real S>
 bool Scene<S>::is_plain() const {
-  return fluxes().size() == 1 && unit_parabola_sign<S>(fluxes()[0]) == 1 && !spec_.solid_fraction &&
+  return fluxes().size() == 1 && unit_parabola_sign(fluxes()[0]) == 1 && !spec_.solid_fraction &&
          !spec_.temperature && has_walls() && !has_diffusion();
 }
 
@@ -216,7 +207,7 @@ S Scene<S>::amount(const S& lo, const S& hi, bool is_highest) const {
     const S begin = i == 0 ? lo : std::max(lo, flux_breaks()[i - 1]);
     const S end = i + 1 == fluxes().size() ? hi : std::min(hi, flux_breaks()[i]);
     if (!(begin < end)) continue;
-    const StateRange<S> range = range_of<S>(fluxes()[i]);
+    const StateRange<S> range = fluxes()[i].range();
     sum += solid(begin, end) * (is_highest ? range.highest : range.lowest);
   }
   return sum.value();

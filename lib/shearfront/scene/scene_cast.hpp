@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/scene.hpp"
 
 namespace shearfront {
@@ -76,7 +77,7 @@ template <Real To, Real From>
   to.remarks = from.remarks;
   to.fluxes.clear();
   for (const Flux<From>& flux : from.fluxes)
-    to.fluxes.push_back(std::visit([](const auto& f) -> Flux<To> { return model_cast<To>(f); }, flux));
+    to.fluxes.push_back(with_model(flux, [](const auto& f) -> Flux<To> { return model_cast<To>(f); }));
   to.flux_breaks = numbers_cast<To>(from.flux_breaks);
   const auto profile = [](const DepthFunction<From>& model) {
     return std::visit([](const auto& m) -> DepthFunction<To> { return model_cast<To>(m); }, model);

@@ -70,12 +70,8 @@ class Checker {
     const std::size_t before = complaints_.size();
     for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
       const std::string prefix = flux_prefix(spec_, i);
-      std::visit(
-          [&](const auto& flux) {
-            flux.fields(flux, field(prefix));
-            flux.check(prefix, complaints_);
-          },
-          spec_.fluxes[i]);
+      spec_.fluxes[i].fields(spec_.fluxes[i], field(prefix));
+      spec_.fluxes[i].check(prefix, complaints_);
       if (i == 0) continue;
       const Scalar& z = spec_.flux_breaks[i - 1];
       check_number(prefix + "above", Range::any, z, complaints_);
@@ -114,8 +110,7 @@ class Checker {
           if (domain_ok_) model.check("initial.", spec_.bottom, spec_.top, complaints_);
           if (complaints_.size() > before || !flux_ok_) return;
           for (std::size_t i = 0; i < spec_.fluxes.size(); ++i) {
-            const StateRange<Scalar> range =
-                std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[i]);
+            const StateRange<Scalar> range = spec_.fluxes[i].range();
             const Scalar lowest = model.lowest(), highest = model.highest();
             if (lowest >= range.lowest && highest <= range.highest) continue;
             return add("initial.model", std::string(model.kName),
@@ -193,7 +188,7 @@ class Checker {
     for (std::size_t i = 0; i < values.size(); ++i) in_range(prefix, i, values[i], 0);
   }
   void in_range(const std::string& prefix, std::size_t i, const Scalar& phi, std::size_t flux) {
-    const StateRange<Scalar> range = std::visit([](const auto& f) { return f.range(); }, spec_.fluxes[flux]);
+    const StateRange<Scalar> range = spec_.fluxes[flux].range();
     if (phi >= range.lowest && phi <= range.highest) return;
     std::string where = spec_.fluxes.size() > 1 ? " (the states of flux[" + std::to_string(flux) + "])" : "";
     add(prefix + "values[" + std::to_string(i) + "]", number_text(phi),
@@ -228,12 +223,7 @@ class Checker {
   }
 
   [[nodiscard]] static Scalar end_flux(const Flux<Scalar>& flux, bool is_highest) {
-    return std::visit(
-        [&](const auto& f) { return Scalar(f.value(is_highest ? f.range().highest : f.range().lowest)); },
-        flux);
-  }
-  [[nodiscard]] static std::string name(const Flux<Scalar>& flux) {
-    return std::visit([](const auto& f) { return std::string(f.kName); }, flux);
+    return flux.value(is_highest ? flux.range().highest : flux.range().lowest);
   }
   /// Walls stop a flux only if there is a state without flux on either side of the extremum.
   void ends() {
@@ -251,7 +241,7 @@ class Checker {
     for (const bool is_top : {false, true}) {
       const std::size_t i = is_top ? spec_.fluxes.size() - 1 : 0;
       if ((is_top ? is_top_wall : is_bottom_wall) && !vanishes(spec_.fluxes[i]))
-        return add(flux_prefix(spec_, i) + "model", name(spec_.fluxes[i]),
+        return add(flux_prefix(spec_, i) + "model", std::string(spec_.fluxes[i].name()),
                    "must vanish at both ends of its range next to a wall; give boundary." +
                        std::string(is_top ? "top" : "bottom") + " or boundary.periodic");
     }
@@ -260,27 +250,23 @@ class Checker {
   /// to take.
   void neighbours() {
     for (std::size_t i = 0; i + 1 < spec_.fluxes.size(); ++i) {
-      const auto is_minimum = [&](const Flux<Scalar>& flux) {
-        return std::visit(
-            [](const auto& f) {
-              const auto extrema = f.extrema();
-              return extrema.size() == 1
-                         ? std::optional<bool>(f.value(extrema[0]) < f.value(f.range().lowest))
-                         : std::nullopt;
-            },
-            flux);
+      const auto is_minimum = [](const Flux<Scalar>& flux) -> std::optional<bool> {
+        const auto extrema = flux.extrema();
+        if (extrema.size() != 1) return {};
+        return flux.value(extrema[0]) < end_flux(flux, false);
       };
       const auto below = is_minimum(spec_.fluxes[i]), above = is_minimum(spec_.fluxes[i + 1]);
       const std::string key = flux_prefix(spec_, i + 1) + "model";
       if (!below || !above)
-        return add(key, name(spec_.fluxes[i + 1]), "must have one extremum, like the flux beside it");
+        return add(key, std::string(spec_.fluxes[i + 1].name()),
+                   "must have one extremum, like the flux beside it");
       if (*below != *above)
-        return add(key, name(spec_.fluxes[i + 1]),
+        return add(key, std::string(spec_.fluxes[i + 1].name()),
                    "must have a " + std::string(*below ? "minimum" : "maximum") +
                        " like the flux below it: a minimum facing a maximum is not covered");
       for (const bool is_highest : {false, true})
         if (end_flux(spec_.fluxes[i], is_highest) != 0 || end_flux(spec_.fluxes[i + 1], is_highest) != 0)
-          return add(key, name(spec_.fluxes[i + 1]),
+          return add(key, std::string(spec_.fluxes[i + 1].name()),
                      "must vanish at both ends of its range, as must every flux beside another one");
     }
   }

@@ -9,7 +9,7 @@
 #include "shearfront/model/close_packing/all.hpp"
 #include "shearfront/model/depth/all.hpp"
 #include "shearfront/model/field.hpp"
-#include "shearfront/model/flux/all.hpp"
+#include "shearfront/model/flux/flux.hpp"
 #include "shearfront/model/start/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
@@ -87,7 +87,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   };
   for (std::size_t i = 0; i < spec.fluxes.size(); ++i) {
     const std::string prefix = flux_prefix(spec, i);
-    std::visit([&](auto& flux) { flux.fields(flux, with_prefix(prefix)); }, spec.fluxes[i]);
+    spec.fluxes[i].fields(spec.fluxes[i], with_prefix(prefix));
     if (i > 0) visit(prefix + "above", Range::any, spec.flux_breaks[i - 1]);
   }
   std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);

@@ -10,7 +10,7 @@ std::string BedHeight::refusal(const Scene<double>& scene) {
   if (scene.spec().outside_bottom || scene.spec().outside_top)
     return "grains come and go at the open ends of this bed: it has no height of its own";
   for (const Flux<double>& flux : scene.fluxes()) {
-    const StateRange<double> range = std::visit([](const auto& f) { return f.range(); }, flux);
+    const StateRange<double> range = flux.range();
     if (range.lowest < 0 || range.highest > 1)
       return "the states of this bed are no shares of grains: they must lie between 0 and 1";
   }

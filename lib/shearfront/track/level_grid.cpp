@@ -242,14 +242,13 @@ void LevelGrid<S>::set_classes(const LayerStack<S>& stack) {
   boundaries_ = stack.boundaries();
   std::vector<S> capacities(stack.n_layers());
   for (std::size_t k = 0; k < capacities.size(); ++k) {
-    const S depth = std::visit([](const auto& flux) { return Scalar(flux.value(flux.extrema().front())); },
-                               stack.flux(k));
+    const S depth = stack.flux(k).value(stack.flux(k).extrema().front());
     is_reversed_ = depth > S(0);
     capacities[k] = stack.rate(k) * stack.solid_fraction(k) * (is_reversed_ ? depth : S(-depth));
   }
   if (!stack.is_plain())
     for (std::size_t k = 0; k < capacities.size(); ++k) {
-      const StateRange<S> range = std::visit([](const auto& flux) { return flux.range(); }, stack.flux(k));
+      const StateRange<S> range = stack.flux(k).range();
       ranges_.push_back({stack.solid_fraction(k) * range.lowest, stack.solid_fraction(k) * range.highest});
     }
   std::vector<S> distinct = capacities;
@@ -265,10 +264,8 @@ template <Real S>
 std::string LevelGrid<S>::refusal(const LayerStack<S>& stack) {
   std::optional<bool> is_maximum;
   for (const Flux<S>& flux : stack.fluxes()) {
-    const bool is_parabola = std::visit([](const auto& f) { return f.kIsParabola; }, flux);
-    if (!is_parabola) return "a flux is not a parabola";
-    const bool is_concave =
-        std::visit([](const auto& f) { return f.curvature() == Curvature::concave; }, flux);
+    if (!flux.is_parabola()) return "a flux is not a parabola";
+    const bool is_concave = flux.curvature() == Curvature::concave;
     if (is_maximum && *is_maximum != is_concave) return "a minimum faces a maximum";
     is_maximum = is_concave;
   }
@@ -281,8 +278,7 @@ std::vector<LayerState<S>> unit_states(const LayerStack<S>& stack, std::vector<L
                                        bool is_reversed) {
   if (stack.is_plain()) return wanted;
   for (LayerState<S>& state : wanted) {
-    const StateRange<S> range =
-        std::visit([](const auto& flux) { return flux.range(); }, stack.flux(state.layer));
+    const StateRange<S> range = stack.flux(state.layer).range();
     const S distance = is_reversed ? range.highest - state.phi : state.phi - range.lowest;
     state.phi = distance / (range.highest - range.lowest);
   }

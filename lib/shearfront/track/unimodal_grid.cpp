@@ -26,8 +26,8 @@ class Curve {
  public:
   Curve(const Flux<S>& flux, S strength, bool is_reversed)
       : flux_(flux), strength_(std::move(strength)), is_reversed_(is_reversed) {
-    const S extremum = std::visit([](const auto& f) { return f.extrema().front(); }, flux);
-    range_ = std::visit([](const auto& f) { return f.range(); }, flux);
+    const S extremum = flux.extrema().front();
+    range_ = flux.range();
     width_ = range_.highest - range_.lowest;
     middle_ = distance(extremum);
     at_extremum_ = extremum;
@@ -47,13 +47,11 @@ class Curve {
   }
   [[nodiscard]] S h(const S& y) const { return h_of_share(share(y)); }
   [[nodiscard]] S h_of_share(const S& x) const {
-    const S f = strength_ * std::visit([&](const auto& flux) { return S(flux.value(x)); }, flux_);
+    const S f = strength_ * flux_.value(x);
     return is_reversed_ ? f : S(-f);
   }
   /// dh/dy.
-  [[nodiscard]] S slope(const S& y) const {
-    return -strength_ * std::visit([&](const auto& flux) { return S(flux.derivative(share(y))); }, flux_);
-  }
+  [[nodiscard]] S slope(const S& y) const { return -strength_ * flux_.derivative(share(y)); }
   /// y between `from`, where h is not above `level`, and `to`, the extremum: Newton's method from `from`,
   /// which is near, and bracketing where that fails.
   [[nodiscard]] S solve(const S& level, const S& from, const S& to) const {
@@ -96,8 +94,7 @@ class Curve {
 
 template <Real S>
 bool has_maximum(const Flux<S>& flux) {
-  return std::visit([](const auto& f) { return f.value(f.extrema().front()) > f.value(f.range().lowest); },
-                    flux);
+  return flux.value(flux.extrema().front()) > flux.value(flux.range().lowest);
 }
 
 }  // namespace
@@ -313,10 +310,8 @@ struct Shape {
 template <Real S>
 std::string UnimodalGrid<S>::refusal(const LayerStack<S>& stack, const S& resolution) {
   for (const Flux<S>& flux : stack.fluxes()) {
-    const bool is_unimodal = std::visit([](const auto& f) { return f.extrema().size() == 1; }, flux);
-    if (!is_unimodal)
-      return "flux " + std::visit([](const auto& f) { return std::string(f.kName); }, flux) +
-             " has several extrema or none; fluxes with one are covered";
+    if (flux.extrema().size() != 1)
+      return "flux " + std::string(flux.name()) + " has several extrema or none; fluxes with one are covered";
     if (has_maximum<S>(flux) != has_maximum<S>(stack.fluxes().front())) return "a minimum faces a maximum";
   }
   // Every level is kept for every layer that differs.
@@ -348,20 +343,16 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
 
   const auto zero = std::find(grid.levels_.begin(), grid.levels_.end(), S(0));
   if (zero != grid.levels_.end()) grid.zero_rank_ = -static_cast<State>(zero - grid.levels_.begin());
-  for (Class& c : grid.classes_)
-    std::visit(
-        [&](const auto& flux) {
-          for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
-            c.slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
-          straighten(c.share, c.slope);
-          const bool is_convex =
-              flux.curvature() == (grid.is_reversed_ ? Curvature::concave : Curvature::convex);
-          Shape<S> shape(c.slope);
-          c.next = std::move(shape.next), c.previous = std::move(shape.previous);
-          if (is_convex) return;
-          c.convex_to = std::move(shape.convex_to), c.concave_to = std::move(shape.concave_to);
-        },
-        grid.fluxes_[c.flux]);
+  for (Class& c : grid.classes_) {
+    const Flux<S>& flux = grid.fluxes_[c.flux];
+    for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
+      c.slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
+    straighten(c.share, c.slope);
+    Shape<S> shape(c.slope);
+    c.next = std::move(shape.next), c.previous = std::move(shape.previous);
+    if (flux.curvature() == (grid.is_reversed_ ? Curvature::concave : Curvature::convex)) continue;
+    c.convex_to = std::move(shape.convex_to), c.concave_to = std::move(shape.concave_to);
+  }
   for (const Layer& layer : grid.layers_)
     for (const S& v : grid.classes_[layer.id].slope)
       grid.fastest_ = std::max(grid.fastest_, S(layer.rate * (v < 0 ? S(-v) : v)));

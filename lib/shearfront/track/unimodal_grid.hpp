@@ -85,9 +85,7 @@ class UnimodalGrid {
     const S rise = flux(layer, hi) - flux(layer, lo), run = phi(layer, hi) - phi(layer, lo);
     const S width = phi(layer, 2 * c.top) - phi(layer, 0);
     if (S(kLongChord) * (run < 0 ? S(-run) : run) > (width < 0 ? S(-width) : width)) return rise / run;
-    return layers_[layer].rate *
-           std::visit([&](const auto& f) { return S(f.secant(c.share[index(lo)], c.share[index(hi)])); },
-                      fluxes_[c.flux]);
+    return layers_[layer].rate * fluxes_[c.flux].secant(c.share[index(lo)], c.share[index(hi)]);
   }
   /// Bound for |speed| in all layers.
   [[nodiscard]] const S& fastest() const { return fastest_; }

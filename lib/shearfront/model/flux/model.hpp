@@ -63,16 +63,4 @@ template <class F>
   return F::kIsParabola;
 }
 
-/// +1 for phi (phi - 1), -1 for phi (1 - phi) on 0 <= phi <= 1, 0 for any other flux.
-template <class F>
-[[nodiscard]] int unit_parabola_sign(const F& flux) {
-  if constexpr (F::kIsParabola) {
-    const auto range = flux.range();
-    if (!(range.lowest == 0) || !(range.highest == 1)) return 0;
-    const auto f = flux.value((range.lowest + range.highest) / 2);
-    return f == -0.25 ? 1 : f == 0.25 ? -1 : 0;
-  }
-  return 0;
-}
-
 }  // namespace shearfront

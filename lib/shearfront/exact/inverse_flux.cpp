@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/exact/inverse_flux.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/numeric/instantiated.hpp"
+
+namespace shearfront::exact {
+
+template <Real Scalar>
+InverseFlux<Scalar>::InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
+  const auto range = flux_.range();
+  is_concave_ = flux_.curvature() == Curvature::concave;
+  width_ = range.highest - range.lowest;
+  extremum_ = flux_.extrema().front();
+  depth_ = size(flux_.value(extremum_));
+  peak_ = (is_concave_ ? range.highest - extremum_ : extremum_ - range.lowest) / width_;
+  const Scalar near = width_ / Scalar(1 << 20);
+  // A smooth flux has no slope at its extremum, up to rounding; a kink keeps those of its two sides.
+  if (size(flux_.derivative(extremum_)) * width_ <= depth_ / Scalar(1 << 16)) return;
+  for (const bool up : {true, false})
+    kink_[up] =
+        size(flux_.secant(extremum_, Scalar(up == is_concave_ ? extremum_ - near : extremum_ + near))) *
+        width_ / depth_;
+}
+
+template <Real Scalar>
+template <class Model>
+Scalar InverseFlux<Scalar>::lack_of(const Model& f, const Scalar& d, bool up) const {
+  if constexpr (Model::kIsParabola) return Scalar(4) * d * d;
+  return size(f.secant(extremum_, place(d, up))) * (width_ * d / depth_);
+}
+
+template <Real Scalar>
+template <class Model>
+Scalar InverseFlux<Scalar>::slope_of(const Model& f, const Scalar& d, bool up) const {
+  if constexpr (Model::kIsParabola) return Scalar(8) * d;
+  const Scalar x = place(d, up);
+  if (x == extremum_) return kink_[up];
+  return size(f.derivative(x)) * (width_ / depth_);
+}
+
+template <Real Scalar>
+template <class Model>
+Scalar InverseFlux<Scalar>::bend_of(const Model& f, const Scalar& d, bool up) const {
+  if constexpr (Model::kIsParabola) {
+    return Scalar(8);
+  } else if constexpr (requires { f.second_derivative(extremum_); }) {
+    return size(f.second_derivative(place(d, up))) * (width_ * width_ / depth_);
+  } else {
+    const Scalar step = Scalar(1) / Scalar(1 << 13);
+    const Scalar lo = d > step ? Scalar(d - step) : Scalar(0);
+    const Scalar hi = d + step < reach(up) ? Scalar(d + step) : reach(up);
+    return (slope_of(f, hi, up) - slope_of(f, lo, up)) / (hi - lo);
+  }
+}
+
+template <Real Scalar>
+template <class Model>
+Scalar InverseFlux<Scalar>::inverse_of(const Model& f, const Scalar& e, bool up) const {
+  using std::sqrt;
+  const Scalar root = sqrt(e);
+  if constexpr (Model::kIsParabola) return root / Scalar(2);
+  const Scalar most = reach(up);
+  Scalar d = most * root;
+  constexpr int kMostSteps = 200;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Scalar slope = slope_of(f, d, up);
+    if (!(slope > 0)) break;
+    Scalar next = d - (lack_of(f, d, up) - e) / slope;
+    if (next > most) next = most;
+    if (!(next > 0)) break;
+    // After the first step every d lies above the root: no further decrease means rounding.
+    if (n > 0 && !(next < d)) break;
+    d = next;
+  }
+  return d;
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::lack(const Scalar& d, bool up) const {
+  return with_model(flux_, [&](const auto& f) { return lack_of(f, d, up); });
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::slope(const Scalar& d, bool up) const {
+  return with_model(flux_, [&](const auto& f) { return slope_of(f, d, up); });
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::bend(const Scalar& d, bool up) const {
+  return with_model(flux_, [&](const auto& f) { return bend_of(f, d, up); });
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::inverse(const Scalar& e, bool up) const {
+  if (!(e > 0)) return Scalar(0);
+  if (!(e < 1)) return reach(up);
+  return with_model(flux_, [&](const auto& f) { return inverse_of(f, e, up); });
+}
+
+template class InverseFlux<Instantiated>;
+
+}  // namespace shearfront::exact
