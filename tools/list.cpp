@@ -124,7 +124,7 @@ int list() {
   DepthFunctionList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
-  all += indented(rates.text()) + "\nSmooth initial profiles, with diffusion (initial.model)\n";
+  all += indented(rates.text()) + "\nSmooth initial states, with diffusion (initial.model)\n";
   TextTable initial({"name", "phi(z, 0)", "entries"});
   InitialStateList<double>::for_each([&]<class P>() {
     initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});

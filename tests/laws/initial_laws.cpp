@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws of smooth initial profiles, run for every model of initial/all.hpp and for its skeleton.
+// Laws of smooth initial states, run for every model of start/all.hpp and for its skeleton.
 #include <gtest/gtest.h>
 
 #include <algorithm>
