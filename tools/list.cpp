@@ -125,7 +125,7 @@ int list() {
   DepthFunctionList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
-  all += indented(rates.text()) + "\nSmooth initial profiles, with diffusion (initial.model)\n";
+  all += indented(rates.text()) + "\nSmooth initial states, with diffusion (initial.model)\n";
   TextTable initial({"name", "phi(z, 0)", "entries"});
   InitialStateList<double>::for_each([&]<class P>() {
     initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});
@@ -144,8 +144,9 @@ int list() {
   all += indented(solvers.text());
   TextTable options({"name", "what it is", "values", "default", "solvers"});
   for (const OptionText& o : all_options())
-    options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : o.allowed,
-                 o.initial, fmt::format("{}", fmt::join(o.solvers, ", "))});
+    for (const OptionValues& some : o.values)
+      options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : some.allowed,
+                   some.initial, fmt::format("{}", fmt::join(some.solvers, ", "))});
   all += "\nOptions of solvers (in fit files with _ for -)\n" + indented(options.text());
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();

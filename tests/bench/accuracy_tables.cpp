@@ -17,10 +17,10 @@
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/io/scene_file.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/observed_events.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

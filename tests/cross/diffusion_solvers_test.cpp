@@ -15,6 +15,7 @@
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
+#include "support/checked.hpp"
 
 namespace shearfront {
 namespace {
@@ -209,6 +210,8 @@ TEST(DiffusionSolvers, TendToTheHyperbolicSolution) {
 }
 
 TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
+  support::Checked checked;
+  SolverList::for_each([&]<class S>() { checked.expect(S::kName); });
   SceneSpec<double> still = may(1);
   still.diffusion.reset();
   SceneSpec<double> packed = may(1e-2);
@@ -216,11 +219,13 @@ TEST(DiffusionSolvers, EverySolverSaysWhichBedsItTakes) {
   for (const SceneSpec<double>& spec : {still, may(0), may(1e-2), packed, kink()}) {
     const Scene<double> scene(spec);
     const bool has_diffusion = scene.has_diffusion();
+    checked.count();
     SolverList::for_each([&]<class S>() {
       const SolverResult result = solve<S>(scene, {{0.1}, {0.3}, false, false, false});
       const bool is_refused = result.summary.status == Status::unsupported;
       EXPECT_EQ(is_refused, !S::refusal(scene, {}).empty()) << S::kName << result.summary.message;
       if (S::guarantees().diffusion == has_diffusion) return;
+      checked.count(S::kName);
       EXPECT_TRUE(is_refused) << S::kName;
       const bool can_be_solved = !has_diffusion || CrankNicolsonSolver::refusal(scene, {}).empty();
       const std::string other = !can_be_solved  ? "no method"

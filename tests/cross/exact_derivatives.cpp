@@ -8,8 +8,9 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
+#include "support/checked.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -55,6 +56,7 @@ void expect_derivatives(const SceneSpec<double>& in_double, const Real110& z, co
   EXPECT_EQ(exact.value.M, solution.M(z, t));
   Spec copy = spec;
   const std::vector<Entry> all = entries(spec);
+  support::Checked checked({"shear rate", "initial state"});
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Entry& parameter = all[i];
     if (!derivative_refusal(scene, parameter).empty()) continue;
@@ -71,6 +73,7 @@ void expect_derivatives(const SceneSpec<double>& in_double, const Real110& z, co
     EXPECT_LT(abs(to_double(Real110(dphi - numeric.phi))), 1e-20 * size_phi * size_phi * size_phi)
         << label << " dphi/d " << parameter.name() << " kind " << int(path.kind) << " z " << z << " t " << t
         << " exact " << dphi << " numeric " << numeric.phi;
+    checked.count(parameter.field.starts_with("shear_rate.") ? "shear rate" : "initial state");
   }
 }
 

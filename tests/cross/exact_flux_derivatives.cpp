@@ -9,8 +9,8 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

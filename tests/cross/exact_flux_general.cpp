@@ -12,10 +12,11 @@
 #include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/fv/godunov_solver.hpp"
 #include "shearfront/model/flux/all.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
+#include "support/checked.hpp"
 #include "support/flux_scenes.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -28,6 +29,7 @@ TEST(GeneralLaw, BranchesInvertTheFlux) {
     const exact::InverseFlux<double> law(flux);
     for (const bool up : {true, false}) {
       double before = -1;
+      support::Checked checked({""}, 50);
       for (int i = 0; i <= 64; ++i) {
         const double e = std::pow(i / 64.0, 3), d = law.inverse(e, up);
         EXPECT_NEAR(law.lack(d, up), e, 4e-16 + 4e-16 * law.slope(d, up)) << i << up;
@@ -37,6 +39,7 @@ TEST(GeneralLaw, BranchesInvertTheFlux) {
         const double h = 1e-6;
         if (d > h && d + h < law.reach(up)) {
           EXPECT_NEAR(law.slope(d, up), (law.lack(d + h, up) - law.lack(d - h, up)) / (2 * h), 1e-6);
+          checked.count();
         }
       }
       EXPECT_EQ(law.state(law.inverse(1, up), up), up ? 1 : 0);
@@ -54,6 +57,7 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
   SceneMaker make(support::seed_of(5301));
   double worst_M = 0, worst_p = 0;
   int jumps = 0;
+  support::Checked checked({""}, 500);
   for (int n = 0; n < 100; ++n) {
     const Scene<double> scene(make.data(make.integer(1, 8), make.order(), 8));
     const exact::CanonicalForm<double> form(std::make_shared<const Scene<double>>(scene), 1);
@@ -68,6 +72,7 @@ TEST(GeneralMedium, AgreesWithTheQuadraticOne) {
       const double M = std::min(a.value, wall);
       worst_M = std::max(worst_M, std::abs(M - std::min(b.value, wall)));
       if (M == wall) continue;  // either may leave out what a wall does better
+      checked.count();
       if (std::abs(a.p - b.p) > 1e-3)
         ++jumps;  // within rounding of a shock
       else
@@ -258,6 +263,7 @@ bool snap(SceneSpec<double>& spec) {
 }
 
 TEST_P(GeneralScenes, GodunovConverges) {
+  support::Checked checked({"small", "falls"}, 3);
   for (int n = 0; n < 6; ++n) {
     SCOPED_TRACE("scene " + std::to_string(n));
     SceneSpec<double> spec = support::random_flux_scene(make_, GetParam());
@@ -274,8 +280,10 @@ TEST_P(GeneralScenes, GodunovConverges) {
         error += std::abs(M - solution.M(double(j + 1) / double(cells), t)) / double(cells);
       }
       EXPECT_LT(error, 3.0 / double(cells));
+      checked.count("small");
       if (before > 1e-9) {             // not at rest
         EXPECT_LT(error, before / 2);  // four times the cells
+        checked.count("falls");
       }
       before = error;
     }

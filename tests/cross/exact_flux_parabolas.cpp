@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parabolas (lwr, packed) are affine images of the quadratic flux: so are their exact solutions.
+// Parabolas (lwr) are affine images of the quadratic flux: so are their exact solutions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +8,8 @@
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/model/flux/all.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/flux_scenes.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

@@ -6,8 +6,9 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/layer_stack.hpp"
-#include "shearfront/scene/scene_cast.hpp"
+#include "support/checked.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -81,7 +82,8 @@ TEST(ExactLaws, PhiIsTheSlopeAndHTheRateOfM) {
 }
 
 TEST(ExactLaws, FluxIsContinuousAcrossInterfaces) {
-  for_random_scenes(60, [](SceneMaker& make, const SceneSpec<double>& spec) {
+  support::Checked checked({""}, 30);
+  for_random_scenes(60, [&](SceneMaker& make, const SceneSpec<double>& spec) {
     const auto* a = std::get_if<Piecewise<double>>(&spec.shear_rate);
     if (a == nullptr) return;
     const ExactSolution<Real110> solution(scene_cast<Real110>(Scene<double>(spec)));
@@ -93,6 +95,7 @@ TEST(ExactLaws, FluxIsContinuousAcrossInterfaces) {
       // phi at the interface is the state above it.
       EXPECT_LT(abs(to_double(Real110(solution.phi(b + d, t) - solution.phi(b, t)))), 1e-9)
           << "z " << b << " t " << t;
+      checked.count();
     }
   });
 }
@@ -121,7 +124,8 @@ TEST(ExactLaws, DoubleAgreesWith50Digits) {
 
 TEST(ExactLaws, ReflectionSymmetry) {
   // z -> bottom + top - z, phi -> 1 - phi, a reversed: M(z) -> height part below minus what lies above.
-  for_random_scenes(150, [](SceneMaker& make, const SceneSpec<double>& spec) {
+  support::Checked checked({""}, 50);
+  for_random_scenes(150, [&](SceneMaker& make, const SceneSpec<double>& spec) {
     const auto* a = std::get_if<Piecewise<double>>(&spec.shear_rate);
     if (a == nullptr) return;
     SceneSpec<Real110> mirror = scene_cast<Real110>(Scene<double>(spec)).spec();
@@ -140,6 +144,7 @@ TEST(ExactLaws, ReflectionSymmetry) {
     mirror.bottom = bottom;
     mirror.top = bottom + 1;
     const ExactSolution<Real110> one(scene_cast<Real110>(Scene<double>(spec))), two{Scene<Real110>(mirror)};
+    checked.count();
     for (int k = 0; k < 5; ++k) {
       const Real110 z(make.uniform(0, 1)), t(any_time(make));
       // int_0^z phi = int_{1-z}^1 (1 - phi~) = z - (m~ - M~(1 - z)).
@@ -165,11 +170,13 @@ TEST(ExactLaws, ScaleIsATimeUnit) {
 }
 
 TEST(ExactLaws, SteadyAfterTheSteadyTime) {
-  for_random_scenes(150, [](SceneMaker&, const SceneSpec<double>& spec) {
+  support::Checked checked({""}, 100);
+  for_random_scenes(150, [&](SceneMaker&, const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     const ExactSolution<double> solution(scene);
     const double t = *exact_timeline(scene).t_star * (1 + 1e-12);
     if (t == 0) return;
+    checked.count();
     for (int i = 0; i <= 20; ++i) {
       const double z = i / 20.0;
       EXPECT_NEAR(solution.M(z, t), solution.M(z, infinity<double>()), 1e-15) << "z " << z;

@@ -13,8 +13,8 @@
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront::fit {
 namespace {

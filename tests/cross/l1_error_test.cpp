@@ -2,8 +2,8 @@
 // The exactly integrated L1 error: closed forms, plain quadrature, and 50 digits.
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/digits/real110.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/solve.hpp"
+#include "support/scene_cast.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
+#include "support/checked.hpp"
 #include "support/random_scene.hpp"
 
 namespace shearfront {
@@ -91,6 +92,7 @@ TEST(TrackerAgainstExactOrder, FirstInPhiSecondInMAndSecondWithLines) {
 }
 
 TEST(TrackerAgainstExactTimes, FirstAndLastWavesAtWallsAndInterfaces) {
+  support::Checked checked({"walls", "first", "last"}, 20);
   const double resolution = 0.01;
   for (int number = 0; number < 200; number += 2) {
     SCOPED_TRACE("scene " + std::to_string(number));
@@ -100,18 +102,20 @@ TEST(TrackerAgainstExactTimes, FirstAndLastWavesAtWallsAndInterfaces) {
     Tracked tracker(setup);
     tracker.run_to_steady();
     const Timeline<double> tracked = tracked_timeline(tracker, scene, setup.stack);
-    const auto near = [&](const std::optional<double>& a, const std::optional<double>& b, double slack) {
+    const auto near = [&](const std::optional<double>& a, const std::optional<double>& b, double slack,
+                          const char* what) {
       ASSERT_EQ(a.has_value(), b.has_value());
       if (a) {
         EXPECT_NEAR(*a, *b, slack * *b);
+        checked.count(what);
       }
     };
-    near(tracked.t0, exact.t0, 1.2 * resolution);
-    near(tracked.t1, exact.t1, 1.2 * resolution);
+    near(tracked.t0, exact.t0, 1.2 * resolution, "walls");
+    near(tracked.t1, exact.t1, 1.2 * resolution, "walls");
     ASSERT_EQ(tracked.interfaces.size(), exact.interfaces.size());
     for (std::size_t i = 0; i < exact.interfaces.size(); ++i) {
-      near(tracked.interfaces[i].first, exact.interfaces[i].first, 1.2 * resolution);
-      near(tracked.interfaces[i].last, exact.interfaces[i].last, resolution);
+      near(tracked.interfaces[i].first, exact.interfaces[i].first, 1.2 * resolution, "first");
+      near(tracked.interfaces[i].last, exact.interfaces[i].last, resolution, "last");
     }
     EXPECT_DOUBLE_EQ(tracked.mass, exact.mass);
   }

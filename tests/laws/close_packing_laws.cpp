@@ -10,6 +10,7 @@
 #include "shearfront/model/close_packing/all.hpp"
 #include "shearfront/model/close_packing/skeleton.hpp"
 #include "shearfront/solution/bed_height.hpp"
+#include "support/checked.hpp"
 #include "support/model_types.hpp"
 
 namespace shearfront {
@@ -48,6 +49,7 @@ TYPED_TEST(ClosePackingLaws, PacksAtLeastAsCloselyAsOneKindOfGrainsAndLeavesGaps
 TYPED_TEST(ClosePackingLaws, IsContinuousAndBendsOnlyAtItsKinks) {
   for (const auto& law : TypeParam::samples()) {
     const double h = 1e-4;
+    support::Checked checked({""}, 900);
     for (int i = 1; i < 999; ++i) {
       const double x = i / 1000.0 + 3e-5;
       const auto kinks = law.kinks();
@@ -57,6 +59,7 @@ TYPED_TEST(ClosePackingLaws, IsContinuousAndBendsOnlyAtItsKinks) {
       EXPECT_NEAR(below, above, 4 * h) << x;
       if (!is_near) {
         EXPECT_NEAR(below - 2 * at + above, 0, 1e-6) << x;
+        checked.count();
       }
     }
     for (const double k : law.kinks()) {
@@ -76,6 +79,13 @@ TEST(ClosePacking, PolynomialOfTheSource) {
     EXPECT_NEAR(PackingPolynomial<double>{}.value(x), to_double(p), 3e-16);
   }
   EXPECT_NEAR(PackingPolynomial<double>{}.value(1), 0.633, 1e-15);
+  // docs/theory/reference-values.md: largest at 0.375, by 0.0345.
+  double x = 0;
+  for (int i = 0; i <= 10000; ++i)
+    if (PackingPolynomial<double>{}.value(i / 10000.0) > PackingPolynomial<double>{}.value(x))
+      x = i / 10000.0;
+  EXPECT_NEAR(x, 0.375, 5e-4);
+  EXPECT_NEAR(PackingPolynomial<double>{}.value(x) - 0.633, 0.0345, 5e-5);
 }
 
 TEST(ClosePacking, UpperBoundIsReachedWhenAllGapsAreFull) {

@@ -15,10 +15,10 @@
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/solver/all.hpp"
 #include "support/model_types.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

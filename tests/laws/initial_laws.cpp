@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws of smooth initial profiles, run for every model of initial/all.hpp and for its skeleton.
+// Laws of smooth initial states, run for every model of start/all.hpp and for its skeleton.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(DiffusiveScenes, DiffusivityFollowsWhatItIsToldTo) {
   EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.1), 1.5);
   EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.9), 0.5);
   spec.diffusion->follows_shear_rate = false;
-  spec.diffusion->profile = Table<double>{{0, 1}, {1, 2}};
+  spec.diffusion->variation = Table<double>{{0, 1}, {1, 2}};
   EXPECT_EQ(Scene<double>(spec).diffusivity_at(0.5), 0.75);
 }
 

@@ -10,8 +10,8 @@
 #include "shearfront/solution/mixing.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
-#include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/setup.hpp"
+#include "shearfront/track/solid_profile.hpp"
 #include "shearfront/track/tracker.hpp"
 #include "support/random_scene.hpp"
 #include "support/solid_scene.hpp"
@@ -119,7 +119,7 @@ TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
     const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
     Tracker<LevelGrid<double>> tracker(setup);
     tracker.advance_to(0.3);
-    const Profile<double> layers = tracker.profile(), smooth = packed_profile(tracker, scene, setup.stack);
+    const Profile<double> layers = tracker.profile(), smooth = solid_profile(tracker, scene, setup.stack);
     ASSERT_EQ(layers.n_cells(), smooth.n_cells());
     for (std::size_t i = 0; i < layers.z().size(); ++i) {
       EXPECT_NEAR(smooth.cumulative()[i], layers.cumulative()[i], 1e-14);

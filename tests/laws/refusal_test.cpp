@@ -57,6 +57,7 @@ TEST(Refusals, ASolverRefusesASceneOrSolvesIt) {
   SolverList::for_each([&]<class S>() {
     checked.expect(std::string(S::kName) + " refuses");
     checked.expect(std::string(S::kName) + " solves");
+    checked.expect(std::string(S::kName) + " runs");
   });
   for_scenes(7501, 600, [&](const Scene<double>& scene) {
     checked.count();
@@ -76,6 +77,7 @@ TEST(Refusals, ASolverRefusesASceneOrSolvesIt) {
       ASSERT_TRUE(status == Status::ok || status == Status::steady) << name << ": " << run->summary().message;
       EXPECT_TRUE(run->summary().usable()) << name << ": " << run->summary().message;
       EXPECT_NEAR(run->field().at(scene.bottom()).M, 0, 1e-12) << name;
+      checked.count(name + " runs");
     });
   });
 }

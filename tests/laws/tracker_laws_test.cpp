@@ -7,10 +7,11 @@
 
 #include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
+#include "support/checked.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -50,8 +51,10 @@ TEST(TrackerLaws, EveryEventKeepsMassRangeOrderJumpConditionsAndEntropy) {
     }
     EXPECT_TRUE(tracker.is_steady());
     const Profile<double> steady = tracker.profile();
+    support::Checked checked;
     for (std::size_t i = 0; i < steady.n_cells(); ++i) {
       if (steady.z()[i + 1] - steady.z()[i] < 1e-12) continue;
+      checked.count();
       EXPECT_EQ(steady.below()[i], steady.z()[i + 1] <= scene.bottom() + mass + 1e-12 ? 1.0 : 0.0);
     }
   }
@@ -146,6 +149,7 @@ TEST(TrackerLaws, RestartFromAStateEqualsTheDirectRun) {
 }
 
 TEST(TrackerLaws, ObserversSeeAllAndDoNotSteer) {
+  support::Checked checked;
   for (int number = 0; number < 10; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw(number);
@@ -166,6 +170,7 @@ TEST(TrackerLaws, ObserversSeeAllAndDoNotSteer) {
       born += c.outgoing.size();
       // A collision takes over the outermost states.
       if (!c.incoming.empty() && !c.outgoing.empty() && c.boundary == CollisionView<double>::kNoBoundary) {
+        checked.count();
         EXPECT_EQ(c.incoming.front().below, c.outgoing.front().below);
         EXPECT_EQ(c.incoming.back().above, c.outgoing.back().above);
       }

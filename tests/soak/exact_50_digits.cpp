@@ -6,8 +6,8 @@
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "soak/laws.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront::soak {
 namespace {

@@ -6,10 +6,10 @@
 #include "oracles/verify.hpp"
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "soak/laws.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront::soak {
 namespace {

@@ -39,6 +39,28 @@ struct ExactDifferences {
   }
 };
 
+namespace exact_side_by_side_detail {
+
+/// What each derivative is multiplied by: its entry, of heights the height of the bed; 0 where it is refused. Asking
+/// for a refusal takes as long as there are entries: once per scene, not per point.
+template <Real Scalar>
+std::vector<Scalar> units(const Scene<Scalar>& scene) {
+  std::vector<Scalar> all;
+  SceneSpec<Scalar> spec = scene.spec();
+  const auto places = entry_places(spec);
+  const auto named = entries(spec);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const bool is_height = named[i].field.ends_with(".breaks") || named[i].field.ends_with(".z");
+    all.push_back(!derivative_refusal(scene, named[i]).empty() ? Scalar(0)
+                  : is_height                                  ? Scalar(scene.top() - scene.bottom())
+                  : named[i].field == "initial.values"         ? Scalar(1)
+                                                               : *places[i]);
+  }
+  return all;
+}
+
+}  // namespace exact_side_by_side_detail
+
 /// Everything the exact engine says about a scene, at some points.
 template <Real Scalar>
 struct ExactRun {
@@ -46,9 +68,11 @@ struct ExactRun {
   Timeline<Scalar> timeline;
   std::vector<typename Derivatives<Scalar>::At> values;
   std::vector<exact::Path<Scalar>> paths;
+  std::vector<Scalar> units;
 
   /// Without `timeline` only the points are evaluated.
-  ExactRun(const Scene<Scalar>& of, const std::vector<Point>& points, bool with_timeline = true) : scene(of) {
+  ExactRun(const Scene<Scalar>& of, const std::vector<Point>& points, bool with_timeline = true)
+      : scene(of), units(exact_side_by_side_detail::units(of)) {
     if (with_timeline) timeline = exact_timeline(scene);
     const ExactSolution<Scalar> solution(scene);
     const Derivatives<Scalar> derivatives(solution);
@@ -61,21 +85,10 @@ struct ExactRun {
 
 namespace exact_side_by_side_detail {
 
-/// Every derivative times its entry, of heights times the height of the bed.
 template <Real Scalar>
-std::vector<Scalar> scaled(const Scene<Scalar>& scene, const std::vector<Scalar>& derivatives) {
+std::vector<Scalar> scaled(const std::vector<Scalar>& units, const std::vector<Scalar>& derivatives) {
   std::vector<Scalar> all;
-  SceneSpec<Scalar> spec = scene.spec();
-  const auto places = entry_places(spec);
-  const auto named = entries(spec);
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    if (!derivative_refusal(scene, named[i]).empty()) continue;
-    const bool is_height = named[i].field.ends_with(".breaks") || named[i].field.ends_with(".z");
-    const Scalar unit = is_height                            ? Scalar(scene.top() - scene.bottom())
-                        : named[i].field == "initial.values" ? Scalar(1)
-                                                             : *places[i];
-    all.push_back(derivatives[i] * unit);
-  }
+  for (std::size_t i = 0; i < units.size(); ++i) all.push_back(units[i] * derivatives[i]);
   return all;
 }
 
@@ -125,8 +138,8 @@ template <Real A, Real B>
     }
     out.phi = std::max(out.phi, relative_error(B(mine.value.phi), theirs.value.phi));
     out.H = std::max(out.H, relative_error(B(mine.value.H), theirs.value.H));
-    out.dM = std::max(out.dM, difference(scaled(run.scene, mine.M), scaled(oracle.scene, theirs.M)));
-    out.dphi = std::max(out.dphi, difference(scaled(run.scene, mine.phi), scaled(oracle.scene, theirs.phi)));
+    out.dM = std::max(out.dM, difference(scaled(run.units, mine.M), scaled(oracle.units, theirs.M)));
+    out.dphi = std::max(out.dphi, difference(scaled(run.units, mine.phi), scaled(oracle.units, theirs.phi)));
   }
   return out;
 }

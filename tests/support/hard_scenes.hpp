@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "shearfront/digits/real110.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 /// Scenes that are hard for a computer, by name: what the stability table and the tests of hard cases run.
 namespace shearfront::support {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "shearfront/numeric/type_list.hpp"
 
@@ -27,5 +28,18 @@ template <class... Model, class Skeleton>
 struct ModelTypes<TypeList<Model...>, Skeleton> {
   using Type = testing::Types<Model..., Skeleton>;
 };
+
+/// Of a list of models those that have a property, for laws that hold for them only: Property<Model>::value.
+template <class List, template <class> class Property, class... Kept>
+struct ModelsThat;
+template <template <class> class Property, class... Kept>
+struct ModelsThat<TypeList<>, Property, Kept...> {
+  static_assert(sizeof...(Kept) > 0, "a law without a model to test");
+  using Type = testing::Types<Kept...>;
+};
+template <class Model, class... Others, template <class> class Property, class... Kept>
+struct ModelsThat<TypeList<Model, Others...>, Property, Kept...>
+    : std::conditional_t<Property<Model>::value, ModelsThat<TypeList<Others...>, Property, Kept..., Model>,
+                         ModelsThat<TypeList<Others...>, Property, Kept...>> {};
 
 }  // namespace shearfront::support

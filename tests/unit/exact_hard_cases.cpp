@@ -7,10 +7,10 @@
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/solver.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"
 #include "support/layered_spec.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

@@ -5,9 +5,9 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/closeness.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

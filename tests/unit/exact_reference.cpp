@@ -105,6 +105,9 @@ TEST(ExactReference, Example2SteadyTimeSolvesItsOwnEquation) {
   }
   EXPECT_LT(relative_error(lo, Real110("0.96684053779390567784")), 1e-19);
   EXPECT_LT(abs(to_double(Real110(lambda * ((1 - 2 * lo) + log(lo / (1 - lo))) - Real110("0.5")))), 1e-46);
+  // a(z) p (1 - p) stays what it is along a characteristic, which turns where p = 1/2.
+  const Real110 turning = Real110("0.5") - lambda * log(4 * lo * (1 - lo));
+  EXPECT_LT(relative_error(turning, Real110("0.92104017394414902808")), 1e-19);
 }
 
 /// Height of the jump of phi by more than 0.05 between lo and hi, by bisection.

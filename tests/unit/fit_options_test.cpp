@@ -80,7 +80,7 @@ Texts allowed_texts(const OptionText& option, const std::string& solver) {
 TEST_F(FitOptions, AreThoseOfTheCommandLine) {
   support::Checked checked({"cell-tolerance", "max-collisions"});  // fit files once lacked these
   for (const OptionText& option : all_options())
-    for (const std::string& solver : option.solvers) {
+    for (const std::string& solver : option.solvers()) {
       SCOPED_TRACE(solver + " --" + option.name);
       const Texts texts = allowed_texts(option, solver);
       const std::string choice = "method = \"" + solver + "\"\n";

@@ -17,7 +17,6 @@
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/skeleton.hpp"
-#include "unit/example/linear.hpp"
 
 /// The lists of models: what the program, the scene files and the laws take from them.
 namespace shearfront {
@@ -57,9 +56,9 @@ TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
 TEST(Lists, MisfitNamesAreDistinctAndPlain) { expect_good_names<fit::MisfitList>(); }
 TEST(Lists, LossNamesAreDistinctAndPlain) { expect_good_names<fit::LossList>(); }
 
-TEST(Lists, ShearRatesAreTheSameInEveryScalar) {
+TEST(Lists, ModelsAreTheSameInEveryScalar) {
   EXPECT_EQ(names_of<DepthFunctionList<double>>(), names_of<DepthFunctionList<Real110>>());
-  EXPECT_EQ(names_of<DepthFunctionList<double>>(), names_of<DepthFunctionList<Real110>>());
+  EXPECT_EQ(names_of<FluxList<double>>(), names_of<FluxList<Real110>>());
 }
 
 TEST(Lists, NamesJoinsInOrder) {
@@ -106,23 +105,6 @@ TEST(Skeletons, ShearRateWorksAsItStands) {
     EXPECT_EQ(rate.harmonic_mean(0.25, 0.75), rate.value(0.5));
     EXPECT_TRUE(rate.knots().empty());
   }
-}
-
-// The example of docs/extending.md. Reference: (hi - lo) / int dz/a by the closed form, in 50 digits.
-TEST(Skeletons, ExampleOfTheDocsIsAShearRate) {
-  for (const auto& rate : Linear<double>::samples()) {
-    Complaints complaints;
-    rate.check("shear_rate.", 0.0, 1.0, complaints);
-    EXPECT_TRUE(complaints.empty());
-    const Linear<Real110> fine{Real110(rate.ground), Real110(rate.slope)};
-    const Real110 lo(0.25), hi(0.75);
-    const Real110 integral = log(fine.value(hi) / fine.value(lo)) / fine.slope;
-    EXPECT_NEAR(rate.harmonic_mean(0.25, 0.75), to_double(Real110((hi - lo) / integral)), 1e-15);
-  }
-  Complaints complaints;
-  Linear<double>{1.0, -2.0}.check("shear_rate.", 0.0, 1.0, complaints);
-  ASSERT_EQ(complaints.size(), 1U);
-  EXPECT_EQ(complaints[0].text(), "shear_rate.slope = -2; must keep a(z) positive (a(1) = -1)");
 }
 
 TEST(Skeletons, SolverWorksAsItStands) {

@@ -16,6 +16,7 @@
 
 #include "shearfront/io/method_text.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/checked.hpp"
 
@@ -78,11 +79,10 @@ TEST(OptionsOfSolvers, AreListedOnceWithTheirSolvers) {
     EXPECT_TRUE(names.insert(option.name).second);
     EXPECT_FALSE(option.sentence.empty());
     EXPECT_FALSE(option.sentence.ends_with('.'));
-    EXPECT_FALSE(option.initial.empty());
     std::vector<std::string> solvers;
     for (const std::string& name : Method::names())
       if (Method(name).has_option(option.name)) solvers.push_back(name);
-    EXPECT_EQ(option.solvers, solvers);
+    EXPECT_EQ(option.solvers(), solvers);
     EXPECT_TRUE(std::all_of(option.name.begin(), option.name.end(),
                             [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; }));
   }
@@ -90,6 +90,52 @@ TEST(OptionsOfSolvers, AreListedOnceWithTheirSolvers) {
     Method(name).visit_options([&](const OptionInfo& info, const auto&) {
       EXPECT_TRUE(names.contains(std::string(info.name))) << name << " " << info.name;
     });
+}
+
+// Solvers that differ in what an option may be, or is by default, are told apart.
+TEST(OptionsOfSolvers, AreListedWithTheValuesOfEachSolver) {
+  const auto values_for = [](std::string_view option, const std::string& solver) {
+    std::vector<std::string> found;
+    for (const OptionText& o : all_options())
+      for (const OptionValues& some : o.values)
+        if (o.name == option &&
+            std::find(some.solvers.begin(), some.solvers.end(), solver) != some.solvers.end())
+          found.push_back(some.allowed + ", default " + some.initial);
+    return found;
+  };
+  const auto refusal = [](const std::string& solver, std::string_view option, const char* text) {
+    return message_of([&] {
+      Method method(solver);
+      set_option(method, option, text, "it");
+    });
+  };
+  support::Checked checked({"cells", "layers", "resolution"});
+  for (const std::string& solver : Method::names())
+    Method(solver).visit_options([&]<class Member>(const OptionInfo& info, const Member& member) {
+      SCOPED_TRACE(solver + " " + std::string(info.name));
+      const auto values = values_for(info.name, solver);
+      ASSERT_EQ(values.size(), 1u);
+      if (!info.unset.empty()) {
+        EXPECT_TRUE(values[0].ends_with("default " + std::string(info.unset))) << values[0];
+      }
+      if constexpr (std::is_same_v<Member, double> || std::is_same_v<Member, std::uint64_t>) {
+        // What is listed is what a refusal says, and the solver's own default.
+        const auto own = [&] {
+          if constexpr (std::is_same_v<Member, double>) return number_text(member);
+          return std::to_string(member);
+        };
+        if (info.unset.empty()) {
+          EXPECT_TRUE(values[0].ends_with("default " + own())) << values[0];
+        }
+        const std::string why = refusal(solver, info.name, "-1");
+        EXPECT_NE(why.find(values[0].substr(0, values[0].find(", default"))), std::string::npos)
+            << why << " and " << values[0];
+        checked.count(info.name);
+      }
+    });
+  EXPECT_EQ(values_for("cells", "crank-nicolson")[0], "from 2 to 10000000, default 400");
+  EXPECT_EQ(values_for("cells", "upwind")[0], "from 1 to 100000000, default 400");
+  EXPECT_NE(values_for("layers", "exact"), values_for("layers", "front-tracking"));
 }
 
 // The default is allowed, or it says what it stands for.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "shearfront/numeric/scaled_sum.hpp"
@@ -18,6 +19,21 @@ TEST(ScaledErfc, AgreesWithTheProductInMoreDigits) {
     EXPECT_LT(support::relative_error(Real110(scaled_erfc(x)), reference), 6 * unit_roundoff<double>()) << x;
     EXPECT_LT(support::relative_error(Real110(scaled_erfc(Real110(x))), reference), 1e-48) << x;
   }
+}
+
+// Against Boost's, which are other formulas.
+TEST(ErfOfManyDigits, AgreesWithBoost) {
+  const auto error = [](const Real110& x, const Real110& reference) {
+    return support::relative_error(x, reference);
+  };
+  for (const double x :
+       {-40.0, -5.0, -1.25, -1e-6, 1e-300, 1e-9, 0.3, 1.0, 1.2, 2.0, 3.7, 4.9999, 5.0, 12.0}) {
+    const Real110 wide(x);
+    EXPECT_LT(error(erf_of(wide), boost::math::erf(wide)), 1e-105) << x;
+    EXPECT_LT(error(erfc_of(wide), boost::math::erfc(wide)), 1e-94) << x;
+  }
+  EXPECT_EQ(erf_of(Real110(0)), 0);
+  EXPECT_EQ(erfc_of(Real110(0)), 1);
 }
 
 TEST(ScaledErfc, FollowsTheAsymptoticSeriesFarOut) {

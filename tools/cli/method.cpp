@@ -18,13 +18,16 @@ void MethodArguments::add_to(CLI::App& app) {
   for (OptionText& option : all_options()) {
     const Given& given = given_.emplace_back(Given{std::move(option)});
     const OptionText& o = given.option;
-    std::string help = fmt::format("{}: {}", fmt::join(o.solvers, ", "), o.sentence);
+    std::string help = fmt::format("{}: {}", fmt::join(o.solvers(), ", "), o.sentence);
     if (o.kind.empty()) {
       app.add_flag("--" + o.name, *given.flag, help);
       continue;
     }
-    if (!o.allowed.empty()) help += "; " + o.allowed;
-    app.add_option("--" + o.name, *given.text, help + ", default " + o.initial)->type_name(o.kind);
+    for (const OptionValues& some : o.values) {
+      help += fmt::format("{}{}, default {}", some.allowed.empty() ? "" : "; ", some.allowed, some.initial);
+      if (o.values.size() > 1) help += fmt::format(" ({})", fmt::join(some.solvers, ", "));
+    }
+    app.add_option("--" + o.name, *given.text, help)->type_name(o.kind);
   }
 }
 
@@ -41,7 +44,7 @@ Method MethodArguments::with(std::string_view solver) const {
     if (method.has_option(g.option.name)) {
       set_option(method, g.option.name, text, key);
     } else {
-      Method other(g.option.solvers.front());
+      Method other(g.option.values.front().solvers.front());
       set_option(other, g.option.name, text, key);
     }
   }

@@ -12,7 +12,7 @@ namespace shearfront::diffusion {
 namespace {
 
 /// Breaks enter piecewise linearly, with a kink wherever one passes the edge of a cell or the middle of it;
-/// a smooth initial profile is integrated over cells, which costs digits for shorter steps.
+/// a smooth initial state is integrated over cells, which costs digits for shorter steps.
 double step_of(const Entry& entry, double value, double cell) {
   if (entry.range == Range::positive) return 1e-3 * value;
   const std::string& field = entry.field;

@@ -19,7 +19,7 @@ Profile<double> cell_profile(const Scene<double>& scene, const Grid& grid, const
     for_pieces(knots, grid.edges[j], grid.edges[j + 1], [&](double lo, double hi) {
       // A chord of c has the mean of c only where c is linear.
       const double c_lo = scene.solid_fraction_at(lo), c_hi = is_layered ? c_lo : scene.solid_fraction_at(hi);
-      const double mean = scene.mean_packing(lo, hi), half = (c_hi - c_lo) / 2;
+      const double mean = scene.mean_solid_fraction(lo, hi), half = (c_hi - c_lo) / 2;
       // A slope times another one, or over unequal pieces, would not have the mean of the cell.
       const bool has_slope =
           !cells.half_rise.empty() && is_layered && lo == grid.edges[j] && hi == grid.edges[j + 1];

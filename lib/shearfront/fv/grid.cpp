@@ -19,7 +19,7 @@ class Means {
     double solid = 0, mean = 0;
     std::size_t n_pieces = 0;
     for_pieces(knots_, begin, end, [&](double lo, double hi) {
-      mean = scene_.mean_packing(lo, hi);
+      mean = scene_.mean_solid_fraction(lo, hi);
       solid += (hi - lo) * mean;
       ++n_pieces;
     });

@@ -214,7 +214,8 @@ std::string refusal(const Scheme& scheme, const Scene<double>& scene, const Grid
       return "it takes one flux with one extremum that vanishes at both ends of its range, and walls";
     if (!has_one && !scene.is_uniform())
       return name +
-             " has no exact flux between cells of unequal rate or packing: it must have one extremum and "
+             " has no exact flux between cells of unequal rate or solid fraction: it must have one extremum "
+             "and "
              "vanish at both ends of its range";
   }
   return "";

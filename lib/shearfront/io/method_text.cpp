@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront {
@@ -76,21 +77,28 @@ std::string text_of(const Option& option) {
       option.value);
 }
 
-OptionText described(const Option& option) {
-  const OptionInfo& info = option.info;
-  OptionText text{std::string(info.name), std::string(info.sentence), "", "", std::string(info.unset), {}};
-  std::visit(
-      [&]<class Value>(const Value&) {
-        if constexpr (std::same_as<Value, OptionChoice>) {
-          text.kind = names_of(info, "|");
-        } else if constexpr (!std::same_as<Value, bool>) {
-          text.kind = kIsCount<Value> ? "N" : "X";
-          text.allowed = allowed<Value>(info);
-        }
+std::string kind_of(const Option& option) {
+  return std::visit(
+      [&]<class Value>(const Value&) -> std::string {
+        if constexpr (std::same_as<Value, OptionChoice>) return names_of(option.info, "|");
+        if constexpr (std::same_as<Value, bool>) return "";
+        return kIsCount<Value> ? "N" : "X";
       },
       option.value);
-  if (text.initial.empty()) text.initial = text_of(option);
-  return text;
+}
+
+/// Without its solvers.
+OptionValues values_of(const Option& option) {
+  return {std::visit(
+              [&]<class Value>(const Value&) -> std::string {
+                if constexpr (std::same_as<Value, OptionChoice> || std::same_as<Value, bool>)
+                  return "";
+                else
+                  return allowed<Value>(option.info);
+              },
+              option.value),
+          option.info.unset.empty() ? text_of(option) : std::string(option.info.unset),
+          {}};
 }
 
 /// Whether the option is left at a default that lies outside its range.
@@ -113,14 +121,33 @@ std::string allowed_text(const OptionRange& range) {
   return range.high >= kUnlimited ? low : low + " and <= " + number_text(range.high);
 }
 
+std::vector<std::string> OptionText::solvers() const {
+  std::vector<std::string> all;
+  for (const std::string& solver : Method::names())
+    for (const OptionValues& some : values)
+      if (std::find(some.solvers.begin(), some.solvers.end(), solver) != some.solvers.end())
+        all.push_back(solver);
+  return all;
+}
+
 std::vector<OptionText> all_options() {
   std::vector<OptionText> all;
   for (const std::string& name : Method::names())
     for (const Option& option : Method(name).options()) {
       auto known = std::find_if(all.begin(), all.end(),
                                 [&](const OptionText& o) { return o.name == option.info.name; });
-      if (known == all.end()) known = all.insert(all.end(), described(option));
-      known->solvers.push_back(name);
+      const std::string kind = kind_of(option);
+      if (known == all.end())
+        known = all.insert(all.end(),
+                           {std::string(option.info.name), std::string(option.info.sentence), kind, {}});
+      SHEARFRONT_EXPECTS(known->sentence == option.info.sentence && known->kind == kind,
+                         "an option that means the same to all its solvers");
+      OptionValues own = values_of(option);
+      auto values = std::find_if(known->values.begin(), known->values.end(), [&](const OptionValues& v) {
+        return v.allowed == own.allowed && v.initial == own.initial;
+      });
+      if (values == known->values.end()) values = known->values.insert(values, std::move(own));
+      values->solvers.push_back(name);
     }
   return all;
 }

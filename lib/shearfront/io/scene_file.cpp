@@ -144,7 +144,7 @@ class SceneReader {
     using List = DepthFunctionList<S>;
     const std::string what = "must be one of: " + List::names();
     const auto model = table.text("model", Need::required, what);
-    if (model && model_by_name<List>(table, *model, what, diffusion.profile.emplace()))
+    if (model && model_by_name<List>(table, *model, what, diffusion.variation.emplace()))
       table.finish();
     else
       unknown_.emplace_back("diffusion");

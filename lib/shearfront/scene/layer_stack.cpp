@@ -13,7 +13,7 @@ LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene, const std::vector<
   for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
     if (scene.fluxes().size() > 1) material.flux_index.push_back(scene.flux_index(boundaries[k]));
     if (scene.spec().solid_fraction)
-      material.solid_fraction.push_back(scene.mean_packing(boundaries[k], boundaries[k + 1]));
+      material.solid_fraction.push_back(scene.mean_solid_fraction(boundaries[k], boundaries[k + 1]));
   }
   return material;
 }

@@ -72,7 +72,7 @@ template <Real S>
 S Scene<S>::diffusivity_at(const S& z) const {
   if (!has_diffusion()) return S(0);
   const Diffusion<S>& d = *spec_.diffusion;
-  return d.D * (d.follows_shear_rate ? shear_rate_at(z) : d.profile ? value(*d.profile, z) : S(1));
+  return d.D * (d.follows_shear_rate ? shear_rate_at(z) : d.variation ? value(*d.variation, z) : S(1));
 }
 
 template <Real S>
@@ -136,7 +136,7 @@ S Scene<S>::mean_rate(const S& lo, const S& hi) const {
 }
 
 template <Real S>
-S Scene<S>::mean_packing(const S& lo, const S& hi) const {
+S Scene<S>::mean_solid_fraction(const S& lo, const S& hi) const {
   if (!spec_.solid_fraction) return S(1);
   if (is_constant_in_pieces<S>(*spec_.solid_fraction)) return value(*spec_.solid_fraction, lo);
   return mean_of([&](const S& z) { return value(*spec_.solid_fraction, z); }, lo, hi);
@@ -219,7 +219,7 @@ S Scene<S>::solid(const S& lo, const S& hi) const {
   CompensatedSum<S> sum;
   S from = lo;
   const auto add = [&](const S& to) {
-    sum += mean_packing(from, to) * (to - from);
+    sum += mean_solid_fraction(from, to) * (to - from);
     from = to;
   };
   for (const S& z : std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction))

@@ -86,7 +86,7 @@ class Scene {
   /// a layered one, else by quadrature (7 points of Gauss).
   [[nodiscard]] Scalar mean_rate(const Scalar& lo, const Scalar& hi) const;
   /// Mean of c over [lo, hi], which must not contain a knot inside.
-  [[nodiscard]] Scalar mean_packing(const Scalar& lo, const Scalar& hi) const;
+  [[nodiscard]] Scalar mean_solid_fraction(const Scalar& lo, const Scalar& hi) const;
 
   /// phi(z, 0) / c(z) of data that are constant in pieces; at a jump the value above it. Cost: O(log jumps).
   [[nodiscard]] const Scalar& initial_share(const Scalar& z) const {

@@ -26,10 +26,10 @@ class Checker {
   Complaints all() {
     domain();
     fluxes();
-    profile("shear_rate.", spec_.shear_rate);
+    depth_function("shear_rate.", spec_.shear_rate);
     check_number("shear_rate.scale", Range::positive, spec_.scale, complaints_);
-    if (spec_.solid_fraction) profile("solid_fraction.", *spec_.solid_fraction);
-    if (spec_.temperature) profile("temperature.", *spec_.temperature);
+    if (spec_.solid_fraction) depth_function("solid_fraction.", *spec_.solid_fraction);
+    if (spec_.temperature) depth_function("temperature.", *spec_.temperature);
     if (spec_.close_packing) close_packing();
     if (complaints_.empty()) scaled_rate();
     if (complaints_.empty()) scaled_solid_fraction();
@@ -87,20 +87,20 @@ class Checker {
     flux_ok_ = complaints_.size() == before;
   }
 
-  void profile(const std::string& prefix, const DepthFunction<Scalar>& profile) {
+  void depth_function(const std::string& prefix, const DepthFunction<Scalar>& function) {
     std::visit(
         [&](const auto& model) {
           model.fields(model, field(prefix));
           if (domain_ok_) model.check(prefix, spec_.bottom, spec_.top, complaints_);
         },
-        profile);
+        function);
   }
 
   [[nodiscard]] bool has_diffusion() const { return spec_.diffusion && spec_.diffusion->D > 0; }
   void diffusion() {
     check_number("diffusion.D", spec_.diffusion->D == 0 ? Range::any : Range::positive, spec_.diffusion->D,
                  complaints_);
-    if (spec_.diffusion->profile) profile("diffusion.", *spec_.diffusion->profile);
+    if (spec_.diffusion->variation) depth_function("diffusion.", *spec_.diffusion->variation);
   }
   void initial_state() {
     const std::size_t before = complaints_.size();
@@ -134,10 +134,10 @@ class Checker {
         *spec_.close_packing);
   }
 
-  [[nodiscard]] static Scalar value(const DepthFunction<Scalar>& profile, const Scalar& z) {
-    return std::visit([&](const auto& model) { return model.value(z); }, profile);
+  [[nodiscard]] static Scalar value(const DepthFunction<Scalar>& function, const Scalar& z) {
+    return std::visit([&](const auto& model) { return model.value(z); }, function);
   }
-  /// Heights at which something may be largest or smallest: between them every profile is monotone.
+  /// Heights at which something may be largest or smallest: between them every depth function is monotone.
   [[nodiscard]] std::vector<Scalar> heights() const {
     std::vector<Scalar> all = depth_knots(spec_);
     all.insert(all.begin(), {spec_.bottom, spec_.top});

@@ -23,12 +23,12 @@ struct OutsideState {
       values;  ///< between them, in the units of SceneSpec::initial_values; one more than breaks
 };
 
-/// Diffusion of the grains: D(z) = D profile(z), in units of height^2 / time.
+/// Diffusion of the grains: D(z) = D variation(z), in units of height^2 / time.
 template <Real Scalar>
 struct Diffusion {
-  Scalar D{0};                                   ///< 0: none
-  std::optional<DepthFunction<Scalar>> profile;  ///< 1 if not given
-  bool follows_shear_rate = false;               ///< profile(z) = a(z), without the scale s
+  Scalar D{0};                                     ///< 0: none
+  std::optional<DepthFunction<Scalar>> variation;  ///< 1 if not given
+  bool follows_shear_rate = false;                 ///< variation(z) = a(z), without the scale s
 };
 
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
@@ -59,14 +59,14 @@ struct SceneSpec {
 template <Real Scalar>
 [[nodiscard]] std::vector<Scalar> depth_knots(const SceneSpec<Scalar>& spec) {
   std::vector<Scalar> all;
-  const auto take = [&](const DepthFunction<Scalar>& profile) {
-    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, profile))
+  const auto take = [&](const DepthFunction<Scalar>& function) {
+    for (const Scalar& z : std::visit([](const auto& model) { return model.knots(); }, function))
       if (z > spec.bottom && z < spec.top) all.push_back(z);
   };
   take(spec.shear_rate);
   if (spec.solid_fraction) take(*spec.solid_fraction);
   if (spec.temperature) take(*spec.temperature);
-  if (spec.diffusion && spec.diffusion->profile) take(*spec.diffusion->profile);
+  if (spec.diffusion && spec.diffusion->variation) take(*spec.diffusion->variation);
   return all;
 }
 
@@ -92,19 +92,19 @@ void visit_fields(Spec& spec, Visit&& visit) {
   }
   std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);
   visit(std::string("shear_rate.scale"), Range::positive, spec.scale);
-  const auto profile = [&](auto& optional, const std::string& prefix) {
+  const auto optional_model = [&](auto& optional, const std::string& prefix) {
     if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
   };
-  profile(spec.solid_fraction, "solid_fraction.");
-  profile(spec.temperature, "temperature.");
-  profile(spec.close_packing, "close_packing.");
+  optional_model(spec.solid_fraction, "solid_fraction.");
+  optional_model(spec.temperature, "temperature.");
+  optional_model(spec.close_packing, "close_packing.");
   if (spec.diffusion) {
     // 0 stands for none; what is positive is found by its logarithm in a fit.
     visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? Range::any : Range::positive,
           spec.diffusion->D);
-    profile(spec.diffusion->profile, "diffusion.");
+    optional_model(spec.diffusion->variation, "diffusion.");
   }
-  profile(spec.initial_state, "initial.");
+  optional_model(spec.initial_state, "initial.");
   if (!spec.initial_state) {
     visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
     visit(std::string("initial.values"), Range::any, spec.initial_values);

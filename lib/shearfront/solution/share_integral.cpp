@@ -24,7 +24,7 @@ double integral_of(const Scene<double>& scene, const Piece& piece, const ShareFu
   const bool is_layered =
       !scene.spec().solid_fraction ||
       std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
-  const double mean = scene.mean_packing(piece.lo, piece.hi);
+  const double mean = scene.mean_solid_fraction(piece.lo, piece.hi);
   if (is_layered && piece.phi_lo == piece.phi_hi) return g.value(piece.phi_lo / mean) * (mean * width);
   constexpr unsigned kMostHalvings = 5;
   constexpr double kTolerance = 1e-10;

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/track/packed_profile.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
+#include "shearfront/track/solid_profile.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 
 namespace shearfront {
@@ -90,7 +90,7 @@ std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_
 template <class AnyTracker>
 Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene,
                            const LayerStack<double>& stack, Reconstruction reconstruct) {
-  if (has_smooth_packing(scene)) return packed_profile(tracker, scene, stack);
+  if (has_smooth_solid_fraction(scene)) return solid_profile(tracker, scene, stack);
   if constexpr (kIsLevelGrid<std::decay_t<decltype(tracker.grid())>>)
     if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
   return tracker.profile();

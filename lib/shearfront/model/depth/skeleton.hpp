@@ -33,7 +33,7 @@ struct SkeletonDepthFunction {
   [[nodiscard]] Scalar value(const Scalar& /*z*/) const { return rate; }
   /// (hi - lo) / int_lo^hi dz / a(z) for an interval without a knot inside.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& /*lo*/, const Scalar& /*hi*/) const { return rate; }
-  /// Heights where a or its slope jumps; a jumps only if kIsLayered.
+  /// Heights where a or its slope jumps, or a is largest or smallest; a jumps only if kIsLayered.
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
 
   // A model may also have the following; what it leaves out is found from the above, more slowly (model.hpp).

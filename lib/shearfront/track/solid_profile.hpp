@@ -13,7 +13,7 @@ namespace shearfront {
 
 /// Whether c varies inside the layers that stand for it.
 template <Real Scalar>
-[[nodiscard]] bool has_smooth_packing(const Scene<Scalar>& scene) {
+[[nodiscard]] bool has_smooth_solid_fraction(const Scene<Scalar>& scene) {
   return scene.spec().solid_fraction &&
          !std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
 }
@@ -24,10 +24,10 @@ template <Real Scalar>
 [[nodiscard]] Scalar height_holding(const Scene<Scalar>& scene, const Scalar& lo, const Scalar& hi,
                                     const Scalar& share) {
   constexpr int kMostSteps = 8;
-  const Scalar height = hi - lo, wanted = share * (scene.mean_packing(lo, hi) * height);
+  const Scalar height = hi - lo, wanted = share * (scene.mean_solid_fraction(lo, hi) * height);
   Scalar z = std::clamp(Scalar(lo + share * height), lo, hi);
   for (int i = 0; i < kMostSteps && z > lo && z < hi; ++i) {
-    const Scalar excess = scene.mean_packing(lo, z) * (z - lo) - wanted;
+    const Scalar excess = scene.mean_solid_fraction(lo, z) * (z - lo) - wanted;
     const Scalar next = std::clamp(Scalar(z - excess / scene.solid_fraction_at(z)), lo, hi);
     if (next == z) break;
     z = next;
@@ -43,7 +43,7 @@ template <Real Scalar>
 /// to rounding; pure states are 0 or c(z), to rounding where c is linear between its knots, else to the
 /// distance of c from its chords. Cost: O(fronts).
 template <class AnyTracker>
-[[nodiscard]] Profile<typename AnyTracker::Scalar> packed_profile(
+[[nodiscard]] Profile<typename AnyTracker::Scalar> solid_profile(
     const AnyTracker& tracker, const Scene<typename AnyTracker::Scalar>& scene,
     const LayerStack<typename AnyTracker::Scalar>& stack) {
   using Scalar = typename AnyTracker::Scalar;
@@ -63,7 +63,8 @@ template <class AnyTracker>
     const Scalar& hi = snapshot.z[i + 1] = std::max(snapshot.z[i + 1], lo);
     const Scalar at_lo = scene.solid_fraction_at(lo), at_hi = scene.solid_fraction_at(hi);
     // A chord of c has the mean of c only where c is linear.
-    const Scalar mean = hi > lo ? scene.mean_packing(lo, hi) : at_lo, half = (at_hi - at_lo) / Scalar(2);
+    const Scalar mean = hi > lo ? scene.mean_solid_fraction(lo, hi) : at_lo,
+                 half = (at_hi - at_lo) / Scalar(2);
     below[i] = share * std::min(at_lo, Scalar(mean - half));
     above[i] = share * std::min(at_hi, Scalar(mean + half));
   }

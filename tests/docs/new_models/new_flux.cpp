@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled by tests/docs/new_flux.cmake against a copy of lib/ in which the flux that docs/extending.md adds
-// is listed: what follows from the list by itself. Nothing here but the name knows of that flux.
+// Compiled against a copy of the library in which the flux that docs/extending.md adds is listed: what follows
+// from the list by itself. Nothing here but the name, its argument, knows of that flux.
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <vector>
 
+#include "follows.hpp"
 #include "oracles/verify.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/track/setup.hpp"
@@ -52,6 +53,11 @@ int main(int, char** argv) {
       const double coarse = distance(scene, 200), fine = distance(scene, 1600);
       std::printf("front tracking against Godunov: %.2e on 200 cells, %.2e on 1600\n", coarse, fine);
       is_good = is_good && fine >= 0 && fine < 0.005 && fine < 0.35 * coarse;
+      SceneSpec<double> queue = road(flux);  // whose states can be moved to both sides
+      queue.initial_values[1] = 0.875;
+      is_good = docs::derivatives_are_differences(queue, "exact") && is_good;
+      is_good = docs::is_recovered(road(flux), "flux.", 1.3, "exact") && is_good;
+      is_good = docs::is_recovered(road(flux), "shear_rate.values", 1.3, "exact") && is_good;
     }
   });
   return is_found && is_good ? 0 : 1;

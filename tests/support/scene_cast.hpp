@@ -79,17 +79,17 @@ template <Real To, Real From>
   for (const Flux<From>& flux : from.fluxes)
     to.fluxes.push_back(with_model(flux, [](const auto& f) -> Flux<To> { return model_cast<To>(f); }));
   to.flux_breaks = numbers_cast<To>(from.flux_breaks);
-  const auto profile = [](const DepthFunction<From>& model) {
+  const auto function = [](const DepthFunction<From>& model) {
     return std::visit([](const auto& m) -> DepthFunction<To> { return model_cast<To>(m); }, model);
   };
-  to.shear_rate = profile(from.shear_rate);
+  to.shear_rate = function(from.shear_rate);
   to.scale = number_cast<To>(from.scale);
-  if (from.solid_fraction) to.solid_fraction = profile(*from.solid_fraction);
-  if (from.temperature) to.temperature = profile(*from.temperature);
+  if (from.solid_fraction) to.solid_fraction = function(*from.solid_fraction);
+  if (from.temperature) to.temperature = function(*from.temperature);
   if (from.diffusion) {
     to.diffusion.emplace();
     to.diffusion->D = number_cast<To>(from.diffusion->D);
-    if (from.diffusion->profile) to.diffusion->profile = profile(*from.diffusion->profile);
+    if (from.diffusion->variation) to.diffusion->variation = function(*from.diffusion->variation);
     to.diffusion->follows_shear_rate = from.diffusion->follows_shear_rate;
   }
   if (from.initial_state)

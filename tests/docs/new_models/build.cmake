@@ -1,0 +1,37 @@
+# Applies the changes that docs/extending.md shows to a copy of the library and builds CMakeLists.txt against it:
+#   cmake -D source= -D work= -D generator= -D compiler= -D launcher= -D patch= -P build.cmake
+cmake_minimum_required(VERSION 3.25)
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${work} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT code EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nexit code ${code}\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${work}/copy)
+file(COPY ${source}/CMakeLists.txt ${source}/cmake ${source}/lib ${source}/fit DESTINATION ${work}/copy)
+file(READ ${source}/docs/extending.md page)
+set(n_changes 0)
+while(TRUE)
+  string(FIND "${page}" "\n```diff\n" begin)
+  if(begin EQUAL -1)
+    break()
+  endif()
+  math(EXPR begin "${begin} + 9")
+  string(SUBSTRING "${page}" ${begin} -1 page)
+  string(FIND "${page}" "\n```" length)
+  math(EXPR length "${length} + 1")
+  string(SUBSTRING "${page}" 0 ${length} change)
+  file(WRITE ${work}/change.diff "${change}")
+  run(${patch} --strip=0 --fuzz=0 --directory=copy --input=${work}/change.diff)
+  math(EXPR n_changes "${n_changes} + 1")
+endwhile()
+if(NOT n_changes EQUAL 2)
+  message(FATAL_ERROR "docs/extending.md shows ${n_changes} diffs, not a depth function and a flux")
+endif()
+
+run(${CMAKE_COMMAND} -G ${generator} -S ${source}/tests/docs/new_models -B build -D copy=${work}/copy -D tests=${source}/tests
+    -D SHEARFRONT_UNITY=ON -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_COMPILER_LAUNCHER=${launcher}
+    -D CMAKE_CXX_FLAGS=-O0)
+run(${CMAKE_COMMAND} --build build)
