@@ -26,9 +26,21 @@ std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scen
   return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
 }
 
+/// Whether the rate of a scene is linear between its knots, and not constant.
+template <Real Scalar>
+bool is_linear_scene(const Scene<Scalar>& scene) {
+  const auto is_layered = [](const std::optional<DepthFunction<Scalar>>& function) {
+    return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
+  };
+  return std::visit([](const auto& model) { return !model.kIsLayered && is_linear_between_knots(model); },
+                    scene.shear_rate()) &&
+         is_layered(scene.spec().solid_fraction) && is_layered(scene.spec().temperature) &&
+         std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>);
+}
+
 template <Real Scalar>
 LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers, bool is_one_piece) {
-  if (scene.is_layered()) return exact_layers(scene);
+  if (scene.is_layered() || is_linear_scene(scene)) return pieces_between_knots(scene);
   if (!is_one_piece) return staircase(scene, layers);
   std::vector<Scalar> ends{scene.bottom(), scene.top()};
   LayerMaterial<Scalar> material = material_of(scene, ends);
@@ -51,14 +63,17 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(std::visit([](const auto& f) { return f.curvature() == Curvature::concave; },
                              scene_->fluxes().front())),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(), is_parabola<Flux<Scalar>>)),
+      is_linear_(is_linear_scene(*scene_)),
       exponential_(exponential_of(*scene_)),
       layers_(layers_of(*scene_, layers, exponential_.has_value())) {
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
+    set_end_rates();
     mass_ = scene_->mass();
     return;
   }
   set_layers();
+  set_end_rates();
   set_initial_data();
   mass_ = image_mass();
 }
@@ -96,6 +111,23 @@ void CanonicalForm<Scalar>::set_layers() {
   y_.back() = stretch_[0] * layers_.top();
   exponential_->amplitude *= rate_factor_[0];
   exponential_->decay *= stretch_[0];
+}
+
+template <Real Scalar>
+void CanonicalForm<Scalar>::set_end_rates() {
+  if (!is_linear_) return;
+  using std::sqrt;
+  for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
+    const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
+    const auto ends =
+        std::visit([&](const auto& model) { return end_values(model, lo, hi); }, scene_->shear_rate());
+    Scalar factor = scene_->scale() * rate_factor(k);
+    if (scene_->spec().temperature)
+      factor *=
+          sqrt(Scalar(std::visit([&](const auto& T) { return T.value(lo); }, *scene_->spec().temperature)));
+    low_rates_.push_back(factor * ends.low);
+    high_rates_.push_back(factor * ends.high);
+  }
 }
 
 template <Real Scalar>

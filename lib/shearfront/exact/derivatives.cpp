@@ -114,7 +114,7 @@ template <Real Scalar>
 auto Derivatives<Scalar>::cuts() const -> std::vector<Cut> {
   const Scene<Scalar>& scene = form_.scene();
   std::vector<Scalar> heights = scene.knots();
-  const bool is_cut_at_jumps = scene.spec().solid_fraction && !scene.is_layered();
+  const bool is_cut_at_jumps = scene.spec().solid_fraction && !form_.is_exact();
   if (is_cut_at_jumps) {
     heights.insert(heights.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
     std::sort(heights.begin(), heights.end());
@@ -167,6 +167,10 @@ void Derivatives<Scalar>::add_pieces() {
     pieces_.close();
     return;
   }
+  if (form_.is_linear()) {
+    add_linear_pieces();
+    return;
+  }
   const LayerStack<Scalar>& layers = form_.layers();
   const bool has_temperature = scene.spec().temperature.has_value();
   if (!is_layered(scene.spec().temperature)) {  // all entries are refused
@@ -200,6 +204,40 @@ void Derivatives<Scalar>::add_pieces() {
         }
       },
       scene.shear_rate());
+}
+
+/// The rates at the ends of a piece by the entries that a(z) depends on there; the ends move with their knots.
+template <Real Scalar>
+void Derivatives<Scalar>::add_linear_pieces() {
+  const LayerStack<Scalar>& layers = form_.layers();
+  std::visit(
+      [&](const auto& a) {
+        if constexpr (is_linear_between_knots(std::remove_cvref_t<decltype(a)>{})) {
+          for (std::size_t k = 0; k < layers.n_layers(); ++k) {
+            const Scalar &lo = layers.boundary(k), &hi = layers.boundary(k + 1);
+            const auto ends = end_values(a, lo, hi);
+            const Scalar factor = form_.low_rates()[k] / ends.low;
+            std::vector<Term> at_end[2];
+            const auto add_to = [&](int end) {
+              return [&at_end, end, factor, this](std::size_t entry, const Scalar& by) {
+                at_end[end].push_back({first_rate_ + entry, factor * by});
+              };
+            };
+            end_value_derivatives(a, lo, hi, add_to(0), add_to(1));
+            const Scalar slope = factor * (ends.high - ends.low) / (hi - lo);
+            for (const int end : {0, 1}) {
+              const std::size_t boundary = k + static_cast<std::size_t>(end);
+              const Scalar stretch = form_.stretch(std::min(boundary, layers.n_layers() - 1));
+              for (std::size_t n = boundaries_.begin[boundary]; n < boundaries_.begin[boundary + 1]; ++n)
+                at_end[end].push_back(
+                    {boundaries_.terms[n].entry, slope / stretch * boundaries_.terms[n].factor});
+              pieces_.terms.insert(pieces_.terms.end(), at_end[end].begin(), at_end[end].end());
+              pieces_.close();
+            }
+          }
+        }
+      },
+      form_.scene().shear_rate());
 }
 
 template <Real Scalar>

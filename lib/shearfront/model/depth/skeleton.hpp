@@ -45,6 +45,8 @@ struct SkeletonDepthFunction {
   }
   /// Which entry each of knots() is, in their order; kNoEntry for none.
   [[nodiscard]] std::vector<std::size_t> knot_entries() const { return {}; }
+  // static constexpr bool kIsLinear = true, if a(z) is linear between knots(); then also, where a jumps at one of them,
+  // EndValues<Scalar> end_values(lo, hi), and end_value_derivatives(lo, hi, add_low, add_high): see model.hpp.
   // std::optional<ExponentialPiece<Scalar>> exponential() const, if all of the model is amplitude exp(-z / decay) and
   // these are its two entries, in this order: then the exact engine has closed forms.
 

@@ -19,6 +19,7 @@ struct Table {
   static constexpr std::string_view kName = "table";
   static constexpr std::string_view kFormula = "linear between the points (z[i], values[i])";
   static constexpr bool kIsLayered = false;
+  static constexpr bool kIsLinear = true;
 
   std::vector<Scalar> z, values;
 
@@ -36,6 +37,23 @@ struct Table {
     const std::size_t i = segment(height);
     const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
     return values[i] + w * (values[i + 1] - values[i]);
+  }
+  /// Derivatives of the values at both ends of [lo, hi], which must not contain a knot inside: add_low(entry, by) and
+  /// add_high(entry, by), in the order of fields(). The ends stay where they are; a knot at one of them moves out.
+  template <class AddLow, class AddHigh>
+  void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {
+    const std::size_t i = segment(lo);
+    const Scalar slope = (values[i + 1] - values[i]) / (z[i + 1] - z[i]);
+    const auto at = [&](const Scalar& height, auto& add) {
+      const Scalar right = (height - z[i]) / (z[i + 1] - z[i]),
+                   left = (z[i + 1] - height) / (z[i + 1] - z[i]);
+      add(i, Scalar(-slope * left));
+      add(i + 1, Scalar(-slope * right));
+      add(z.size() + i, left);
+      add(z.size() + i + 1, right);
+    };
+    at(lo, add_low);
+    at(hi, add_high);
   }
   /// Harmonic mean over [lo, hi], which must not contain a knot inside: the logarithmic mean of the two end
   /// values.
