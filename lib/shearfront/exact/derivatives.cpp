@@ -37,6 +37,12 @@ bool material_jumps(const Scene<Scalar>& scene, const Scalar& z) {
          (scene.spec().temperature && has(knots_of(*scene.spec().temperature)));
 }
 
+/// Whether two knots lie at one height, as at a jump of a table: one of them cannot move alone.
+template <Real Scalar>
+bool is_twice(const std::vector<Scalar>& knots, const Scalar& z) {
+  return std::count(knots.begin(), knots.end(), z) > 1;
+}
+
 /// Where some entries lie among all of them.
 struct EntryPlaces {
   std::size_t n, first_rate, scale, first_jump, first_state;
@@ -83,6 +89,8 @@ std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
   }
   const auto knots = knots_of(scene.shear_rate());
   const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    if (entry_of[i] == found && is_twice(knots, knots[i])) return entry.name() + " is one side of a jump";
   for (std::size_t i = 0; i < knots.size(); ++i)
     if (entry_of[i] == found && material_jumps(scene, knots[i]))
       return entry.name() + " lies on a jump of solid fraction, temperature or flux";
@@ -131,7 +139,7 @@ auto Derivatives<Scalar>::cuts() const -> std::vector<Cut> {
   const auto knots = knots_of(scene.shear_rate());
   const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
   for (std::size_t i = 0; i < knots.size(); ++i)
-    if (entry_of[i] != kNoEntry) mark(knots[i], first_rate_ + entry_of[i]);
+    if (entry_of[i] != kNoEntry && !is_twice(knots, knots[i])) mark(knots[i], first_rate_ + entry_of[i]);
   if (is_cut_at_jumps)
     for (std::size_t j = 0; j < scene.initial_breaks().size(); ++j)
       mark(scene.initial_breaks()[j], first_jump_ + j);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "shearfront/exact/linear_crossing.hpp"
 #include "shearfront/numeric/scalar.hpp"
@@ -18,21 +18,11 @@ struct LinearRoute {
     Scalar d, r1, r2;
     bool twice;
   };
-  /// sign * weight * artanh(q at a node of rate r): what a turn takes, or the part of a run whose start moves with h.
-  struct Term {
-    Scalar weight{0}, r{0};
-  };
-  std::vector<Run> runs;
+  boost::container::small_vector<Run, 24> runs;
   Scalar least = infinity<Scalar>();
   Scalar turn_slope{0};  ///< |b| of the piece in which it turns; 0: it does not
   Scalar turn_rate{0};   ///< r where it enters that piece for good
-  Scalar X_base{0};      ///< M0 + height gained, at a fixed start
 
-  void clear() {
-    runs.clear();
-    least = infinity<Scalar>();
-    turn_slope = Scalar(0);
-  }
   void add(const Scalar& d, const Scalar& r1, const Scalar& r2, bool twice) {
     least = std::min({least, r1, r2});
     if (d > 0) runs.push_back({d, r1, r2, twice});
@@ -97,8 +87,9 @@ void add_route(const LinearRoute<Scalar>& route, LinearSample<Scalar>& s) {
 }
 
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
-/// sample next to the root and what is missing to it. `at` makes a sample of v; `v_h(sample)` is q_m dv/dh... see use.
-/// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign.
+/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is dT/dv of a sample.
+/// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
+/// point before t, so the sign is known: + for straight fans, - for turned ones.
 template <Real Scalar, class At, class Slope, class Found>
 class LinearRootSearch {
  public:

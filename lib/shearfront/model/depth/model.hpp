@@ -39,6 +39,15 @@ template <class Model>
     return false;
 }
 
+/// Whether a(z) jumps at a knot: jumps_at() of the model if it has it; models that are constant between knots may at each.
+template <class Model, class Scalar>
+[[nodiscard]] bool may_jump_at(const Model& model, const Scalar& knot) {
+  if constexpr (requires { model.jumps_at(knot); })
+    return model.jumps_at(knot);
+  else
+    return Model::kIsLayered;
+}
+
 /// a(z) at both ends of an interval without a knot inside, as seen from within.
 template <Real Scalar>
 struct EndValues {
