@@ -26,16 +26,35 @@ std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scen
   return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
 }
 
-/// Whether the rate of a scene is linear between its knots, and not constant.
+template <class AnyDepthFunction>
+bool is_layered(const std::optional<AnyDepthFunction>& function) {
+  return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
+}
+
+/// Whether pieces with a linear rate stand for the scene, exactly or not: parabolas, and only the rate varies in a piece.
+template <Real Scalar>
+bool has_linear_pieces(const Scene<Scalar>& scene) {
+  return !scene.is_layered() && is_layered(scene.spec().solid_fraction) &&
+         std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>);
+}
+
+/// Whether its rate is linear between its own knots.
 template <Real Scalar>
 bool is_linear_scene(const Scene<Scalar>& scene) {
-  const auto is_layered = [](const std::optional<DepthFunction<Scalar>>& function) {
-    return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
-  };
   return std::visit([](const auto& model) { return !model.kIsLayered && is_linear_between_knots(model); },
                     scene.shear_rate()) &&
-         is_layered(scene.spec().solid_fraction) && is_layered(scene.spec().temperature) &&
-         std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>);
+         is_layered(scene.spec().temperature) && has_linear_pieces(scene);
+}
+
+/// A function at both ends of an interval without a knot inside.
+template <Real Scalar>
+EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& lo, const Scalar& hi) {
+  return std::visit(
+      [&](const auto& model) -> EndValues<Scalar> {
+        if (model.kIsLayered) return {model.value(lo), model.value(lo)};
+        return end_values(model, lo, hi);
+      },
+      function);
 }
 
 template <Real Scalar>
@@ -63,9 +82,10 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(std::visit([](const auto& f) { return f.curvature() == Curvature::concave; },
                              scene_->fluxes().front())),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(), is_parabola<Flux<Scalar>>)),
-      is_linear_(is_linear_scene(*scene_)),
       exponential_(exponential_of(*scene_)),
       layers_(layers_of(*scene_, layers, exponential_.has_value())) {
+  is_linear_ = !exponential_ && has_linear_pieces(*scene_);
+  is_exact_ = scene_->is_layered() || exponential_ || is_linear_scene(*scene_);
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
     set_end_rates();
@@ -119,12 +139,12 @@ void CanonicalForm<Scalar>::set_end_rates() {
   using std::sqrt;
   for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
     const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
-    const auto ends =
-        std::visit([&](const auto& model) { return end_values(model, lo, hi); }, scene_->shear_rate());
-    Scalar factor = scene_->scale() * rate_factor(k);
-    if (scene_->spec().temperature)
-      factor *=
-          sqrt(Scalar(std::visit([&](const auto& T) { return T.value(lo); }, *scene_->spec().temperature)));
+    EndValues<Scalar> ends = ends_of<Scalar>(scene_->shear_rate(), lo, hi);
+    if (scene_->spec().temperature) {
+      const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, lo, hi);
+      ends = {ends.low * sqrt(T.low), ends.high * sqrt(T.high)};
+    }
+    const Scalar factor = scene_->scale() * rate_factor(k);
     low_rates_.push_back(factor * ends.low);
     high_rates_.push_back(factor * ends.high);
   }

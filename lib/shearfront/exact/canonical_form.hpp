@@ -27,8 +27,10 @@ namespace shearfront::exact {
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
 /// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) is linear
 /// between its knots, all fluxes are parabolas, and c and T are constant in pieces, the image is linear in pieces as
-/// well: is_linear(). Any other smooth scene is represented by a staircase of layers, unless a(z) alone varies in a bed of
-/// one parabola and is exponential: then it is one piece, exponential(). Precondition: refusal(scene) is empty.
+/// well: is_linear(). Any other smooth scene of
+/// parabolas is represented by linear pieces through its rate, by a staircase of layers where c varies smoothly or a flux is
+/// no parabola; unless a(z) alone varies in a bed of one parabola and is exponential: then it is one piece,
+/// exponential(). Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
@@ -43,9 +45,9 @@ class CanonicalForm {
   /// Whether all fluxes are parabolas.
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
   /// Whether it represents the scene without approximation.
-  [[nodiscard]] bool is_exact() const { return scene_->is_layered() || exponential_ || is_linear_; }
-  /// Whether the layers are pieces in which the rate is linear: then rates() are their harmonic means, and these the
-  /// values at their lower and upper ends.
+  [[nodiscard]] bool is_exact() const { return is_exact_; }
+  /// Whether the layers are pieces in which the rate is linear, of the scene itself or through its values at their ends:
+  /// then rates() are their harmonic means, and these the values at their lower and upper ends.
   [[nodiscard]] bool is_linear() const { return is_linear_; }
   [[nodiscard]] const std::vector<Scalar>& low_rates() const { return low_rates_; }
   [[nodiscard]] const std::vector<Scalar>& high_rates() const { return high_rates_; }
@@ -109,7 +111,7 @@ class CanonicalForm {
   [[nodiscard]] Scalar image_mass() const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
-  bool is_identity_, is_concave_, is_parabolic_, is_linear_;
+  bool is_identity_, is_concave_, is_parabolic_, is_linear_ = false, is_exact_ = false;
   std::optional<ExponentialPiece<Scalar>> exponential_;
   LayerStack<Scalar> layers_;
   // Empty in the identity:

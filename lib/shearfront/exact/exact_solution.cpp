@@ -18,7 +18,10 @@ std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
     return std::visit([](const auto& f) { return bool(std::remove_cvref_t<decltype(f)>::kIsParabola); },
                       flux);
   });
-  return is_parabolic ? kDefaultLayers : kDefaultGeneralLayers;
+  const bool is_dense =
+      !scene.spec().solid_fraction ||
+      std::visit([](const auto& c) { return bool(c.kIsLayered); }, *scene.spec().solid_fraction);
+  return !is_parabolic ? kDefaultGeneralLayers : is_dense ? kDefaultPieces : kDefaultLayers;
 }
 
 template <Real Scalar>

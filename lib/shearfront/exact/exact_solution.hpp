@@ -25,8 +25,9 @@ namespace shearfront {
 /// parabolas and c, T constant in pieces, and exponential a in a bed of one parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
-/// (3) other smooth a, c, T: the exact solution of a staircase of layers (harmonic means), of order 3/2 in the layer
-/// height (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
+/// (3) other smooth a, c, T: the exact solution of linear pieces through the rate, where fluxes are parabolas and c is
+/// constant in pieces, of second order in their height (phi of order 3/2 where paths turn), else of a staircase of layers (harmonic
+/// means), of order 3/2 (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
 /// of M, once the change of phi, from half as many layers. Their largest value over a set of points is what
 /// to go by: at single points errors change sign; (4) const member functions are safe to call from many
 /// threads. Cost: 2 layers < 1 us, 10 layers < 5 us, a table of 20 points < 10 us (tests/bench/exact_bench.cpp) for
@@ -37,9 +38,10 @@ template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    std::size_t layers = 0;  ///< layers of the staircase for a smooth scene; 0: default_layers()
+    std::size_t layers = 0;  ///< pieces, or layers of the staircase, for a smooth scene; 0: default_layers()
   };
-  static constexpr std::size_t kDefaultLayers = 1024;
+  static constexpr std::size_t kDefaultPieces = 256;         ///< where pieces are linear
+  static constexpr std::size_t kDefaultLayers = 1024;        ///< where the solid fraction varies smoothly
   static constexpr std::size_t kDefaultGeneralLayers = 128;  ///< where a flux is no parabola
   [[nodiscard]] static std::size_t default_layers(const Scene<Scalar>& scene);
 

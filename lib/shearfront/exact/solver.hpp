@@ -15,13 +15,14 @@ struct ExactSolver {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(OptionInfo{"layers",
-                       "shear rates with no closed form (chute), smooth temperature or solid fraction: "
-                       "number of layers of the staircase",
-                       {1, 1e6},
-                       {},
-                       "1024, 128 where a flux is no parabola"},
-            self.layers);
+      visit(
+          OptionInfo{"layers",
+                     "shear rates with no closed form (chute), smooth temperature or solid fraction: number "
+                     "of linear pieces or layers",
+                     {1, 1e6},
+                     {},
+                     "256, 1024 where the solid fraction varies, 128 where a flux is no parabola"},
+          self.layers);
     }
   };
 
