@@ -77,9 +77,9 @@ ComparisonLimits limits_of(const CompareArguments& arguments) {
   return limits;
 }
 
-/// For tabulated a(z), and smooth beds of other fluxes, the exact engine solves a staircase.
-void note_staircase(const Scene<double>& scene, const ExactSolution<double>& exact,
-                    const std::vector<double>& times) {
+/// Where a(z) has no closed form, and in smooth beds of other fluxes, the exact engine solves pieces that stand for the bed.
+void note_pieces(const Scene<double>& scene, const ExactSolution<double>& exact,
+                 const std::vector<double>& times) {
   if (exact.is_exact()) return;
   double worst = 0;
   constexpr int kHeights = 100;
@@ -88,10 +88,10 @@ void note_staircase(const Scene<double>& scene, const ExactSolution<double>& exa
       const double z = scene.bottom() + (scene.top() - scene.bottom()) * i / kHeights;
       worst = std::max(worst, exact.at(z, t).M_error);
     }
-  note(
-      fmt::format("{}: errors are measured against a staircase of {} layers, whose own error of M "
-                  "is about {:.1e}; differences below that mean nothing",
-                  scene.is_plain() ? "a(z) is a table" : "the bed varies smoothly", exact.n_layers(), worst));
+  note(fmt::format(
+      "the bed varies smoothly: errors are measured against {} pieces of it, whose own error of M "
+      "is about {:.1e}; differences below that mean nothing",
+      exact.n_layers(), worst));
 }
 
 /// Says which methods ended early and why. Returns whether there is any result.
@@ -192,7 +192,7 @@ int compare(const CompareArguments& arguments) {
 
   const InterruptGuard guard;
   const ExactSolution<double> exact(scene);
-  note_staircase(scene, exact, times);
+  note_pieces(scene, exact, times);
   ProgressLine line;
   limits.progress = line.callback();
   std::vector<Course> courses;

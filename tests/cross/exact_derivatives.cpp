@@ -107,7 +107,7 @@ TEST(ExactDerivatives, ExponentialScenesAgreeWithDifferences) {
   }
 }
 
-TEST(ExactDerivatives, TableScenesAgreeWithDifferencesOfTheSameStaircase) {
+TEST(ExactDerivatives, TableScenesAgreeWithDifferences) {
   for (std::uint64_t n = 1; n <= 4; ++n) {
     const std::uint64_t seed = support::seed_of(n);
     SceneMaker make(seed);

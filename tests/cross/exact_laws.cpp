@@ -253,12 +253,11 @@ TEST(ExactLaws, StaircasesConvergeToTheExponential) {
   EXPECT_GT(errors.front() / errors.back(), 16.0);
 }
 
-TEST(ExactLaws, TableStatesAnErrorThatHolds) {
+TEST(ExactLaws, ChuteStatesAnErrorThatHolds) {
   SceneMaker make(support::seed_of(11));
   for (int scene_number = 0; scene_number < 5; ++scene_number) {
     SceneSpec<double> spec = make.step(1, SceneMaker::Order::falling);
-    spec.shear_rate =
-        Table<double>{{0, 0.4, 1}, {make.uniform(0.5, 3), make.uniform(0.5, 3), make.uniform(0.5, 3)}};
+    spec.shear_rate = Chute<double>{make.uniform(0.5, 3), make.uniform(0.3, 2), make.uniform(0, 1)};
     const Scene<double> scene(spec);
     const ExactSolution<double> coarse(scene, {128}), fine(scene, {2048});
     double worst = 0, stated = 0;
@@ -270,7 +269,7 @@ TEST(ExactLaws, TableStatesAnErrorThatHolds) {
     }
     EXPECT_LE(worst, stated);
     EXPECT_GT(stated, 0.0);
-    EXPECT_LT(stated, 5e-3);
+    EXPECT_LT(stated, 5e-2);
   }
 }
 

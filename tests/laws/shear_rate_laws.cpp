@@ -98,7 +98,11 @@ TYPED_TEST(ShearRateLaws, KnotsAscend) {
   for (const auto& a : TypeParam::samples()) {
     const auto knots = a.knots();
     EXPECT_TRUE(std::is_sorted(knots.begin(), knots.end()));
-    EXPECT_TRUE(std::adjacent_find(knots.begin(), knots.end()) == knots.end());
+    // A height given twice is a jump.
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      EXPECT_TRUE(knots[i - 1] < knots[i] || may_jump_at(a, knots[i])) << i;
+    }
+    for (std::size_t i = 2; i < knots.size(); ++i) EXPECT_LT(knots[i - 2], knots[i]);
   }
 }
 

@@ -66,11 +66,8 @@ Bed::Bed(const Trial& t)
       heights(heights_of(t)),
       times{0, t.early, t.late, infinity<double>()} {
   const double error = rate_error_of(scene, stack);
-  const bool is_exact_staircase = std::holds_alternative<Table<double>>(t.spec.shear_rate);
-  const double other =
-      is_exact_staircase ? rate_error_of(scene, staircase(scene, kFiner * t.count("layers"))) : 0;
-  slower = std::max(0.0, 1 - error) / (1 + other);
-  faster = other < 1 ? (1 + error) / (1 - other) : infinity<double>();
+  slower = std::max(0.0, 1 - error);
+  faster = 1 + error;
 }
 
 double Bed::M_rounding() const {

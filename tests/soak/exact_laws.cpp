@@ -11,7 +11,6 @@ namespace {
 void check_profile(const Bed& bed, double t, Findings& findings) {
   const auto& exact = bed.exact;
   const double bottom = bed.scene.bottom(), top = bed.scene.top(), m = exact.mass(), slack = bed.M_rounding();
-  const bool is_table = std::holds_alternative<Table<double>>(bed.scene.shear_rate());
   double z0 = bottom, M0 = 0;
   for (const double z : bed.heights) {
     const auto value = exact.at(z, t);
@@ -23,13 +22,11 @@ void check_profile(const Bed& bed, double t, Findings& findings) {
     findings.expect_between(value.M, std::max(0.0, m - (top - z)), std::min(z - bottom, m), slack,
                             "exact: M between its bounds", where);
     findings.expect_between(value.M - M0, 0, z - z0, slack, "exact: M monotone and 1-Lipschitz in z", where);
-    if (!is_table) {  // of which only the staircase's rates are known
-      const double rate = bed.scene.scale() * bed.scene.shear_rate_at(z);
-      // phi to a few u: H / rate to as many.
-      if (t > 0 && std::isfinite(t) && z < top)
-        findings.expect_near(value.H / rate, value.phi * (1 - value.phi), 1e-13,
-                             "exact: H = s a phi (1 - phi)", where);
-    }
+    const double rate = bed.scene.scale() * bed.scene.shear_rate_at(z);
+    // phi to a few u: H / rate to as many.
+    if (t > 0 && std::isfinite(t) && z < top)
+      findings.expect_near(value.H / rate, value.phi * (1 - value.phi), 1e-13, "exact: H = s a phi (1 - phi)",
+                           where);
     z0 = z, M0 = value.M;
   }
   findings.expect(exact.M(bottom, t) == 0 && exact.M(top, t) == m, "exact: M at the walls",

@@ -21,9 +21,40 @@ std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scen
   return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
 }
 
+template <class AnyDepthFunction>
+bool is_layered(const std::optional<AnyDepthFunction>& function) {
+  return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
+}
+
+/// Whether pieces with a linear rate stand for the scene, exactly or not: parabolas, and only the rate varies in a piece.
+template <Real Scalar>
+bool has_linear_pieces(const Scene<Scalar>& scene) {
+  return !scene.is_layered() && is_layered(scene.spec().solid_fraction) &&
+         std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>);
+}
+
+/// Whether its rate is linear between its own knots.
+template <Real Scalar>
+bool is_linear_scene(const Scene<Scalar>& scene) {
+  return std::visit([](const auto& model) { return !model.kIsLayered && is_linear_between_knots(model); },
+                    scene.shear_rate()) &&
+         is_layered(scene.spec().temperature) && has_linear_pieces(scene);
+}
+
+/// A function at both ends of an interval without a knot inside.
+template <Real Scalar>
+EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& lo, const Scalar& hi) {
+  return std::visit(
+      [&](const auto& model) -> EndValues<Scalar> {
+        if (model.kIsLayered) return {model.value(lo), model.value(lo)};
+        return end_values(model, lo, hi);
+      },
+      function);
+}
+
 template <Real Scalar>
 LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers, bool is_one_piece) {
-  if (scene.is_layered()) return exact_layers(scene);
+  if (scene.is_layered() || is_linear_scene(scene)) return pieces_between_knots(scene);
   if (!is_one_piece) return staircase(scene, layers);
   std::vector<Scalar> ends{scene.bottom(), scene.top()};
   LayerMaterial<Scalar> material = material_of(scene, ends);
@@ -48,12 +79,16 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
       exponential_(exponential_of(*scene_)),
       layers_(layers_of(*scene_, layers, exponential_.has_value())) {
+  is_linear_ = !exponential_ && has_linear_pieces(*scene_);
+  is_exact_ = scene_->is_layered() || exponential_ || is_linear_scene(*scene_);
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
+    set_end_rates();
     mass_ = scene_->mass();
     return;
   }
   set_layers();
+  set_end_rates();
   set_initial_data();
   mass_ = image_mass();
 }
@@ -91,6 +126,23 @@ void CanonicalForm<Scalar>::set_layers() {
   y_.back() = stretch_[0] * layers_.top();
   exponential_->amplitude *= rate_factor_[0];
   exponential_->decay *= stretch_[0];
+}
+
+template <Real Scalar>
+void CanonicalForm<Scalar>::set_end_rates() {
+  if (!is_linear_) return;
+  using std::sqrt;
+  for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
+    const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
+    EndValues<Scalar> ends = ends_of<Scalar>(scene_->shear_rate(), lo, hi);
+    if (scene_->spec().temperature) {
+      const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, lo, hi);
+      ends = {ends.low * sqrt(T.low), ends.high * sqrt(T.high)};
+    }
+    const Scalar factor = scene_->scale() * rate_factor(k);
+    low_rates_.push_back(factor * ends.low);
+    high_rates_.push_back(factor * ends.high);
+  }
 }
 
 template <Real Scalar>

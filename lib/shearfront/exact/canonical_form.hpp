@@ -25,9 +25,12 @@ namespace shearfront::exact {
 /// the scene of one quadratic flux with c = T = 1 its own canonical form (is_identity()).
 ///
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
-/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. A smooth scene is
-/// represented by a staircase of layers, unless a(z) alone varies in a bed of one parabola and is exponential: then it
-/// is one piece, exponential(). Precondition: refusal(scene) is empty.
+/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) is linear
+/// between its knots, all fluxes are parabolas, and c and T are constant in pieces, the image is linear in pieces as
+/// well: is_linear(). Any other smooth scene of
+/// parabolas is represented by linear pieces through its rate, by a staircase of layers where c varies smoothly or a flux is
+/// no parabola; unless a(z) alone varies in a bed of one parabola and is exponential: then it is one piece,
+/// exponential(). Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
@@ -42,7 +45,12 @@ class CanonicalForm {
   /// Whether all fluxes are parabolas.
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
   /// Whether it represents the scene without approximation.
-  [[nodiscard]] bool is_exact() const { return scene_->is_layered() || exponential_; }
+  [[nodiscard]] bool is_exact() const { return is_exact_; }
+  /// Whether the layers are pieces in which the rate is linear, of the scene itself or through its values at their ends:
+  /// then rates() are their harmonic means, and these the values at their lower and upper ends.
+  [[nodiscard]] bool is_linear() const { return is_linear_; }
+  [[nodiscard]] const std::vector<Scalar>& low_rates() const { return low_rates_; }
+  [[nodiscard]] const std::vector<Scalar>& high_rates() const { return high_rates_; }
   /// a(z) in the coordinates of the image, times the scale s; one layer then.
   [[nodiscard]] const std::optional<ExponentialPiece<Scalar>>& exponential() const { return exponential_; }
   /// Layers in the heights of the scene.
@@ -98,11 +106,12 @@ class CanonicalForm {
 
  private:
   void set_layers();
+  void set_end_rates();
   void set_initial_data();
   [[nodiscard]] Scalar image_mass() const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
-  bool is_identity_, is_concave_, is_parabolic_;
+  bool is_identity_, is_concave_, is_parabolic_, is_linear_ = false, is_exact_ = false;
   std::optional<ExponentialPiece<Scalar>> exponential_;
   LayerStack<Scalar> layers_;
   // Empty in the identity:
@@ -113,7 +122,7 @@ class CanonicalForm {
   std::vector<Scalar> initial_breaks_, initial_values_;
   std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
 
-  std::vector<Scalar> rates_;
+  std::vector<Scalar> rates_, low_rates_, high_rates_;
   Scalar mass_{0};
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "shearfront/exact/end_derivatives.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
@@ -35,6 +36,12 @@ bool material_jumps(const Scene<Scalar>& scene, const Scalar& z) {
   return has(scene.flux_breaks()) ||
          (scene.spec().solid_fraction && has(knots_of(*scene.spec().solid_fraction))) ||
          (scene.spec().temperature && has(knots_of(*scene.spec().temperature)));
+}
+
+/// Whether two knots lie at one height, as at a jump of a table: one of them cannot move alone.
+template <Real Scalar>
+bool is_twice(const std::vector<Scalar>& knots, const Scalar& z) {
+  return std::count(knots.begin(), knots.end(), z) > 1;
 }
 
 /// Where some entries lie among all of them.
@@ -84,6 +91,8 @@ std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
   const auto knots = knots_of(scene.shear_rate());
   const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
   for (std::size_t i = 0; i < knots.size(); ++i)
+    if (entry_of[i] == found && is_twice(knots, knots[i])) return entry.name() + " is one side of a jump";
+  for (std::size_t i = 0; i < knots.size(); ++i)
     if (entry_of[i] == found && material_jumps(scene, knots[i]))
       return entry.name() + " lies on a jump of solid fraction, temperature or flux";
   return {};
@@ -114,7 +123,7 @@ template <Real Scalar>
 auto Derivatives<Scalar>::cuts() const -> std::vector<Cut> {
   const Scene<Scalar>& scene = form_.scene();
   std::vector<Scalar> heights = scene.knots();
-  const bool is_cut_at_jumps = scene.spec().solid_fraction && !scene.is_layered();
+  const bool is_cut_at_jumps = scene.spec().solid_fraction && !form_.is_exact();
   if (is_cut_at_jumps) {
     heights.insert(heights.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
     std::sort(heights.begin(), heights.end());
@@ -131,7 +140,7 @@ auto Derivatives<Scalar>::cuts() const -> std::vector<Cut> {
   const auto knots = knots_of(scene.shear_rate());
   const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
   for (std::size_t i = 0; i < knots.size(); ++i)
-    if (entry_of[i] != kNoEntry) mark(knots[i], first_rate_ + entry_of[i]);
+    if (entry_of[i] != kNoEntry && !is_twice(knots, knots[i])) mark(knots[i], first_rate_ + entry_of[i]);
   if (is_cut_at_jumps)
     for (std::size_t j = 0; j < scene.initial_breaks().size(); ++j)
       mark(scene.initial_breaks()[j], first_jump_ + j);
@@ -167,6 +176,10 @@ void Derivatives<Scalar>::add_pieces() {
     pieces_.close();
     return;
   }
+  if (form_.is_linear()) {
+    add_linear_pieces();
+    return;
+  }
   const LayerStack<Scalar>& layers = form_.layers();
   const bool has_temperature = scene.spec().temperature.has_value();
   if (!is_layered(scene.spec().temperature)) {  // all entries are refused
@@ -197,6 +210,45 @@ void Derivatives<Scalar>::add_pieces() {
             add_end(k + 1, hi, Scalar(1));
           }
           pieces_.close();
+        }
+      },
+      scene.shear_rate());
+}
+
+/// The rates at the ends of a piece by the entries that a(z) depends on there; the ends move with their knots.
+template <Real Scalar>
+void Derivatives<Scalar>::add_linear_pieces() {
+  const LayerStack<Scalar>& layers = form_.layers();
+  const Scene<Scalar>& scene = form_.scene();
+  if (!is_layered(scene.spec().temperature)) {  // all entries are refused
+    for (std::size_t k = 0; k < 2 * layers.n_layers(); ++k) pieces_.close();
+    return;
+  }
+  std::visit(
+      [&](const auto& a) {
+        for (std::size_t k = 0; k < layers.n_layers(); ++k) {
+          const Scalar &lo = layers.boundary(k), &hi = layers.boundary(k + 1);
+          const auto ends = end_values(a, lo, hi);
+          const Scalar factor = form_.low_rates()[k] / ends.low;
+          std::vector<Term> at_low, at_high;
+          exact::for_each_end_derivative(a, lo, hi,
+                                         [&](std::size_t entry, const Scalar& low, const Scalar& high) {
+                                           if (low != Scalar(0))
+                                             at_low.push_back({first_rate_ + entry, factor * low});
+                                           if (high != Scalar(0))
+                                             at_high.push_back({first_rate_ + entry, factor * high});
+                                         });
+          const auto add = [&](std::size_t boundary, std::vector<Term>& terms, const Scalar& slope) {
+            const Scalar stretch = form_.stretch(std::min(boundary, layers.n_layers() - 1));
+            for (std::size_t n = boundaries_.begin[boundary]; n < boundaries_.begin[boundary + 1]; ++n)
+              terms.push_back(
+                  {boundaries_.terms[n].entry, factor * slope / stretch * boundaries_.terms[n].factor});
+            pieces_.terms.insert(pieces_.terms.end(), terms.begin(), terms.end());
+            pieces_.close();
+          };
+          const EndValues<Scalar> slopes = exact::end_slopes(a, lo, hi);
+          add(k, at_low, slopes.low);
+          add(k + 1, at_high, slopes.high);
         }
       },
       scene.shear_rate());

@@ -67,6 +67,7 @@ class Derivatives {
   [[nodiscard]] std::vector<Cut> cuts() const;
   void add_boundaries();
   void add_pieces();
+  void add_linear_pieces();
   void add_initial();
   void spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const;
   void add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const;

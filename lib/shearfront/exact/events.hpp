@@ -8,7 +8,8 @@
 namespace shearfront {
 
 struct TimelineOptions {
-  std::size_t layers = 0;  ///< layers of the staircase for a tabulated a; 0: the default of ExactSolution
+  std::size_t layers =
+      0;  ///< layers of the staircase for a smooth a without closed forms; 0: the default of ExactSolution
 };
 
 /// The event times of a scene with an empty refusal() (meaning of each: solution/timeline.hpp).
@@ -19,10 +20,10 @@ struct TimelineOptions {
 /// being known, inside a bracket. The walls' own paths are kept out of that comparison, so that no equality
 /// of rounded numbers decides.
 ///
-/// Guarantees: layered and exponential a: first arrivals to a few units in the last place of Scalar (times
+/// Guarantees: a constant or linear in pieces, and exponential a: first arrivals to a few units in the last place of Scalar (times
 /// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
 /// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
-/// M: the change before it is reported); tabulated a: order 3/2 in the layer height. Only jumps of a
+/// M: the change before it is reported); other smooth a: order 3/2 in the layer height. Only jumps of a
 /// layered scene are listed as interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first
 /// arrivals, some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two
 /// layers.

@@ -86,21 +86,22 @@ class ShareIntegral {
     sum_ += (b.z - a.z) * ((integrand_(a.phi) + integrand_(b.phi)) / 2);
   }
 
-  /// A piece on which phi does not decrease: cut at the kinks of g.
+  /// A piece on which phi is smooth: cut at the kinks of g.
   void add_smooth(const Node& a, const Node& b) {
     if (!(b.z > a.z)) return;
     double lo = a.z;
-    if (b.phi > a.phi) {
+    if (b.phi != a.phi) {
       std::vector<double> cuts;
       for (const double kink : kinks_)
-        if (kink > a.phi && kink < b.phi) cuts.push_back(height_of(kink, a, b));
+        if (kink > std::min(a.phi, b.phi) && kink < std::max(a.phi, b.phi))
+          cuts.push_back(height_of(kink, a, b));
       std::sort(cuts.begin(), cuts.end());
       for (const double z : cuts) {
         add(lo, z);
         lo = z;
       }
     }
-    if (b.phi == a.phi)
+    if (b.phi == a.phi && !exact_.form().is_linear())
       sum_ += (b.z - lo) * integrand_(a.phi);
     else
       add(lo, b.z);

@@ -16,7 +16,10 @@ template <Real Scalar>
 std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
   const bool is_parabolic = std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
                                         [](const auto& flux) { return flux.is_parabola(); });
-  return is_parabolic ? kDefaultLayers : kDefaultGeneralLayers;
+  const bool is_dense =
+      !scene.spec().solid_fraction ||
+      std::visit([](const auto& c) { return bool(c.kIsLayered); }, *scene.spec().solid_fraction);
+  return !is_parabolic ? kDefaultGeneralLayers : is_dense ? kDefaultPieces : kDefaultLayers;
 }
 
 template <Real Scalar>

@@ -21,24 +21,27 @@ namespace shearfront {
 ///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
-/// it, at the top the value below. Guarantees: (1) layered scenes, and exponential a in a bed of one
-/// parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
+/// it, at the top the value below. Guarantees: (1) layered scenes, a linear in pieces (tables) with fluxes that are
+/// parabolas and c, T constant in pieces, and exponential a in a bed of one parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
-/// (3) other smooth a, c, T: the exact solution of a staircase of layers (harmonic means), of order 3/2 in the layer
-/// height (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
+/// (3) other smooth a, c, T: the exact solution of linear pieces through the rate, where fluxes are parabolas and c is
+/// constant in pieces, of second order in their height (phi of order 3/2 where paths turn), else of a staircase of layers (harmonic
+/// means), of order 3/2 (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
 /// of M, once the change of phi, from half as many layers. Their largest value over a set of points is what
 /// to go by: at single points errors change sign; (4) const member functions are safe to call from many
-/// threads. Cost: 2 layers < 1 us, 10 layers < 5 us (tests/bench/exact_bench.cpp) for parabolas; construction
+/// threads. Cost: 2 layers < 1 us, 10 layers < 5 us, a table of 20 points < 10 us (tests/bench/exact_bench.cpp) for
+/// parabolas; construction
 /// O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone. Errors: none beyond those of
 /// Scene. Source: Lax (1957), Hopf (1965); for jumps of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    std::size_t layers = 0;  ///< layers of the staircase for a smooth scene; 0: default_layers()
+    std::size_t layers = 0;  ///< pieces, or layers of the staircase, for a smooth scene; 0: default_layers()
   };
-  static constexpr std::size_t kDefaultLayers = 1024;
+  static constexpr std::size_t kDefaultPieces = 256;         ///< where pieces are linear
+  static constexpr std::size_t kDefaultLayers = 1024;        ///< where the solid fraction varies smoothly
   static constexpr std::size_t kDefaultGeneralLayers = 128;  ///< where a flux is no parabola
   [[nodiscard]] static std::size_t default_layers(const Scene<Scalar>& scene);
 
@@ -71,7 +74,7 @@ class ExactSolution {
   [[nodiscard]] const Scalar& mass() const { return mass_; }
   /// Where the pure states meet in the steady state: bottom + mass for the quadratic flux and c = 1.
   [[nodiscard]] const Scalar& steady_height() const { return steady_height_; }
-  /// Layers used (a staircase for smooth scenes); 0 for exponential a by closed forms.
+  /// Layers used (a staircase for smooth scenes), pieces where a is linear; 0 for exponential a by closed forms.
   [[nodiscard]] std::size_t n_layers() const;
   [[nodiscard]] const exact::CanonicalForm<Scalar>& form() const { return *fine_.form; }
   /// The bed of the canonical form.

@@ -94,6 +94,7 @@ class L1Integral {
     if (all > 0) add(Scalar((b.z - a.z) * (p * p + q * q) / (Scalar(2) * all)));
   }
 
+  [[nodiscard]] bool is_constant() const { return profile_.below()[cell_] == profile_.above()[cell_]; }
   [[nodiscard]] bool is_opposite(const Node& a, const Node& b) const {
     const Scalar p = gap(a), q = gap(b);
     return (p < 0 && q > 0) || (p > 0 && q < 0);
@@ -107,9 +108,8 @@ class L1Integral {
   /// A piece with one kind of path.
   void add_smooth(const Node& a, const Node& b, int depth) {
     if (!(b.z > a.z)) return;
-    const bool is_constant = profile_.below()[cell_] == profile_.above()[cell_];
     const bool opposite = is_opposite(a, b);
-    if (!has_overlap(a, b) || (is_constant && !opposite)) return add_piece(a, b);
+    if (pieces_.is_monotone() && (!has_overlap(a, b) || (is_constant() && !opposite))) return add_piece(a, b);
     const Scalar width = b.z - a.z;
     if (width * std::max(size_of(gap(a)), size_of(gap(b))) <= noise_ || depth == 0)
       return opposite ? add_linear(a, b) : add_piece(a, b);
@@ -122,10 +122,10 @@ class L1Integral {
 
   void add_half(const Node& a, const Node& b, const Scalar& bend, int depth) {
     const Scalar p = gap(a), q = gap(b);
-    const bool is_constant = profile_.below()[cell_] == profile_.above()[cell_];
+    const bool one_change = is_constant() && pieces_.is_monotone();
     if (is_opposite(a, b)) {
-      if (is_constant || size_of(Scalar(q - p)) > bend) return add_crossing(a, b);
-    } else if (is_constant || std::min(size_of(p), size_of(q)) > bend / Scalar(2)) {
+      if (one_change || size_of(Scalar(q - p)) > bend) return add_crossing(a, b);
+    } else if (one_change || std::min(size_of(p), size_of(q)) > bend / Scalar(2)) {
       return add_piece(a, b);
     }
     add_smooth(a, b, depth - 1);

@@ -4,6 +4,7 @@
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/exponential_medium.hpp"
 #include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/exact/linear_medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
@@ -40,6 +41,10 @@ template <Real Scalar>
 std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form) {
   if (form.exponential()) return std::make_shared<const ExponentialMedium<Scalar>>(form);
   const auto& y = form.boundaries();
+  if (form.is_linear())
+    return std::make_shared<const LinearMedium<Scalar>>(
+        LinearPieces<Scalar>{y, form.low_rates(), form.high_rates()},
+        Cells<Scalar>(form.initial_breaks(), form.initial_values(), y), form.mass());
   const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
     Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), y);
     return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());

@@ -93,7 +93,8 @@ class Medium {
   Scalar mass_;
 };
 
-/// The medium of a canonical form: layers of parabolas, of other fluxes, or one exponential piece.
+/// The medium of a canonical form: layers of parabolas, of other fluxes, pieces with a linear rate, or
+/// one exponential piece.
 template <Real Scalar>
 [[nodiscard]] std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form);
 

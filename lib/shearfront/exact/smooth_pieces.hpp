@@ -16,10 +16,11 @@ struct PathNode {
   PathKind kind;
   bool upward;
   std::size_t source, interface;
+  bool turned, is_state;
 
   [[nodiscard]] bool is_of_family(const PathNode& other) const {
     return kind == other.kind && upward == other.upward && source == other.source &&
-           interface == other.interface;
+           interface == other.interface && turned == other.turned && is_state == other.is_state;
   }
 };
 
@@ -28,7 +29,8 @@ struct PathNode {
 ///
 /// A cut lies where the minimising path begins in another way. Optimal paths do not cross, so the heights
 /// served by one source in one way are an interval, and its ends are found by bisection (where phi jumps
-/// down, sped up by intersecting the values of M of both sides). Between the cuts phi does not decrease.
+/// down, sped up by intersecting the values of M of both sides). Between the cuts phi is smooth; it does not decrease,
+/// save where rates are linear in pieces (is_monotone()).
 /// Precondition: 0 < t < +infinity. Cost of a cut: about 20 queries
 /// for a shock, 50 for a kink.
 template <Real Scalar>
@@ -43,13 +45,15 @@ class SmoothPieces {
               std::max({Scalar(medium.top() - medium.bottom()), size(medium.top()), size(medium.bottom())});
   }
 
+  [[nodiscard]] bool is_monotone() const { return !exact_->form().is_linear(); }
   /// Bottom, interfaces, top.
   [[nodiscard]] const std::vector<Scalar>& boundaries() const { return exact_->medium().boundaries(); }
 
   [[nodiscard]] Node node(const Scalar& z) const {
     const auto path = exact_->medium().best_path(z, t_);
     const auto value = exact_->image_value(path, z);
-    return {z, value.M, value.phi, path.kind, path.upward, path.source, path.interface};
+    return {z,           value.M,        value.phi,   path.kind,    path.upward,
+            path.source, path.interface, path.turned, path.is_state};
   }
   /// The limit from below at an interface.
   [[nodiscard]] Node below(const Scalar& z) const {

@@ -58,8 +58,9 @@ class ExactRun final : public Run {
     summary.message = status_ != Status::ok ? "interrupted at t = " + number_text(field_.t)
                       : solution_.is_exact()
                           ? "exact to rounding"
-                          : "exact for a staircase of " + std::to_string(solution_.n_layers()) +
-                                " layers; estimated error of M " + number_text(field_.worst_M);
+                          : "exact for " + std::to_string(solution_.n_layers()) +
+                                (solution_.form().is_linear() ? " linear pieces" : " layers as a staircase") +
+                                "; estimated error of M " + number_text(field_.worst_M);
     return summary;
   }
 

@@ -4,7 +4,7 @@
 
 namespace shearfront {
 
-/// Exact solution by the Lax-Hopf formula in a layered medium (see exact/exact_solution.hpp).
+/// Exact solution by the Lax-Hopf formula in a bed of pieces (see exact/exact_solution.hpp).
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription = "Lax-Hopf formula, exact to rounding";
@@ -15,12 +15,14 @@ struct ExactSolver {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(OptionInfo{"layers",
-                       "smooth shear rates: number of layers of the staircase",
-                       {1, 1e6},
-                       {},
-                       "1024, 128 where a flux is no parabola"},
-            self.layers);
+      visit(
+          OptionInfo{"layers",
+                     "shear rates with no closed form (chute), smooth temperature or solid fraction: number "
+                     "of linear pieces or layers",
+                     {1, 1e6},
+                     {},
+                     "256, 1024 where the solid fraction varies, 128 where a flux is no parabola"},
+          self.layers);
     }
   };
 

@@ -75,19 +75,25 @@ void check_breaks(const std::string& key, const std::vector<S>& breaks, const S&
   }
 }
 
-/// Points (z[i], values[i]) of a function on the domain: at least two, ascending, from its bottom to its top.
+/// Points (z[i], values[i]) of a function on the domain: at least two, ascending, from its bottom to its top. A function
+/// that may jump has a height inside twice, with the values below and above.
 template <Real S>
 void check_points(const std::string& prefix, const std::vector<S>& z, std::size_t n_values, const S& bottom,
-                  const S& top, Complaints& complaints) {
+                  const S& top, Complaints& complaints, bool may_jump = false) {
   if (z.size() < 2)
     complaints.push_back(wrong_length(prefix + "z", z.size(), "must have at least 2 entries"));
   if (n_values != z.size())
     complaints.push_back(wrong_length(prefix + "values", n_values,
                                       "must have as many entries as z (" + std::to_string(z.size()) + ")"));
   for (std::size_t i = 1; i < z.size(); ++i)
-    if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1]))
-      complaints.push_back({prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),
-                            "must be greater than the entry before it (" + number_text(z[i - 1]) + ")"});
+    if (is_finite(z[i]) && is_finite(z[i - 1]) && !(z[i] > z[i - 1])) {
+      const bool is_jump = may_jump && z[i] == z[i - 1] && i > 1 && i + 1 < z.size() && z[i - 2] < z[i];
+      if (!is_jump)
+        complaints.push_back(
+            {prefix + "z[" + std::to_string(i) + "]", number_text(z[i]),
+             "must be greater than the entry before it (" + number_text(z[i - 1]) + ")" +
+                 (may_jump && z[i] == z[i - 1] ? "; a height inside may be given twice" : "")});
+    }
   if (!z.empty() && z.front() > bottom)
     complaints.push_back({prefix + "z[0]", number_text(z.front()),
                           "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});

@@ -19,17 +19,17 @@ LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene, const std::vector<
 }
 
 template <Real Scalar>
-LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene) {
-  SHEARFRONT_EXPECTS(scene.is_layered(), "a layered shear rate");
+LayerStack<Scalar> pieces_between_knots(const Scene<Scalar>& scene) {
   const std::vector<Scalar> knots = scene.knots();
   std::vector<Scalar> boundaries{scene.bottom()}, rates;
   boundaries.insert(boundaries.end(), knots.begin(), knots.end());
   boundaries.push_back(scene.top());
   for (std::size_t k = 0; k + 1 < boundaries.size(); ++k)
     rates.push_back(scene.mean_rate(boundaries[k], boundaries[k + 1]));
+  std::vector<bool> is_break;
+  for (const Scalar& z : knots) is_break.push_back(scene.jumps_at(z));
   LayerMaterial<Scalar> material = material_of(scene, boundaries);
-  return {std::move(boundaries), std::move(rates), scene.scale(), std::vector<bool>(knots.size(), true),
-          std::move(material)};
+  return {std::move(boundaries), std::move(rates), scene.scale(), is_break, std::move(material)};
 }
 
 template <Real Scalar>
@@ -67,7 +67,7 @@ LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
 
 template LayerMaterial<Instantiated> material_of(const Scene<Instantiated>&,
                                                  const std::vector<Instantiated>&);
-template LayerStack<Instantiated> exact_layers(const Scene<Instantiated>&);
+template LayerStack<Instantiated> pieces_between_knots(const Scene<Instantiated>&);
 template LayerStack<Instantiated> staircase(const Scene<Instantiated>&, std::size_t);
 
 }  // namespace shearfront

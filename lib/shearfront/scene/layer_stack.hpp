@@ -89,10 +89,15 @@ template <Real Scalar>
 [[nodiscard]] LayerMaterial<Scalar> material_of(const Scene<Scalar>& scene,
                                                 const std::vector<Scalar>& boundaries);
 
-/// The layers of a scene whose shear rate is piecewise constant, nothing rounded.
-/// Precondition: scene.is_layered().
+/// One layer between each two knots, with the harmonic mean of a: where the scene is constant in pieces, nothing is rounded.
 template <Real Scalar>
-[[nodiscard]] LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene);
+[[nodiscard]] LayerStack<Scalar> pieces_between_knots(const Scene<Scalar>& scene);
+/// The layers of a scene whose shear rate is piecewise constant. Precondition: scene.is_layered().
+template <Real Scalar>
+[[nodiscard]] LayerStack<Scalar> exact_layers(const Scene<Scalar>& scene) {
+  SHEARFRONT_EXPECTS(scene.is_layered(), "a layered shear rate");
+  return pieces_between_knots(scene);
+}
 
 /// A smooth scene as a staircase: every piece between knots is cut into equal layers no higher than
 /// (top - bottom) / n_layers, each with the harmonic mean of a. Travel times of pure states (H = 0) across
@@ -104,7 +109,7 @@ template <Real Scalar>
 [[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers);
 
 extern template LayerMaterial<double> material_of(const Scene<double>&, const std::vector<double>&);
-extern template LayerStack<double> exact_layers(const Scene<double>&);
+extern template LayerStack<double> pieces_between_knots(const Scene<double>&);
 extern template LayerStack<double> staircase(const Scene<double>&, std::size_t);
 
 }  // namespace shearfront

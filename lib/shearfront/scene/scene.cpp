@@ -96,9 +96,8 @@ bool Scene<S>::jumps_at(const S& z) const {
   const auto jumps = [&](const DepthFunction<S>& function) {
     return std::visit(
         [&](const auto& model) {
-          if (!model.kIsLayered) return false;
           const auto knots = model.knots();
-          return std::binary_search(knots.begin(), knots.end(), z);
+          return std::binary_search(knots.begin(), knots.end(), z) && may_jump_at(model, z);
         },
         function);
   };

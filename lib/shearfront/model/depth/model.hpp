@@ -30,6 +30,45 @@ template <class Model>
     return std::optional<ExponentialPiece<Scalar>>();
 }
 
+/// Whether a model says (kIsLinear) that a(z) is linear between its knots: the exact engine then takes it as it is.
+template <class Model>
+[[nodiscard]] constexpr bool is_linear_between_knots(const Model& /*model*/) {
+  if constexpr (requires { Model::kIsLinear; })
+    return Model::kIsLinear;
+  else
+    return false;
+}
+
+/// Whether a(z) jumps at a knot: jumps_at() of the model if it has it; models that are constant between knots may at each.
+template <class Model, class Scalar>
+[[nodiscard]] bool may_jump_at(const Model& model, const Scalar& knot) {
+  if constexpr (requires { model.jumps_at(knot); })
+    return model.jumps_at(knot);
+  else
+    return Model::kIsLayered;
+}
+
+/// a(z) at both ends of an interval without a knot inside, as seen from within.
+template <Real Scalar>
+struct EndValues {
+  Scalar low, high;
+};
+template <class Model, class Scalar>
+[[nodiscard]] EndValues<Scalar> end_values(const Model& model, const Scalar& lo, const Scalar& hi) {
+  if constexpr (requires { model.end_values(lo, hi); })
+    return model.end_values(lo, hi);
+  else
+    return {model.value(lo), model.value(hi)};
+}
+
+/// Derivatives of end_values, the ends held fixed: calls add_low(entry, derivative) and add_high(entry, derivative), entries in
+/// the order of fields(); a knot at an end moves out of the interval. Models that are linear between knots have it.
+template <class Model, class Scalar, class AddLow, class AddHigh>
+void end_value_derivatives(const Model& model, const Scalar& lo, const Scalar& hi, AddLow&& add_low,
+                           AddHigh&& add_high) {
+  model.end_value_derivatives(lo, hi, add_low, add_high);
+}
+
 /// 1 / (1 - e^-h) - 1 / h, from 1/2 at h = 0 to 1: where in an interval, as a part of it, the slowness e^(z / decay) has
 /// its centre of mass. By its series 1/2 + h / 12 - h^3 / 720 + ... where the terms cancel.
 template <Real Scalar>

@@ -33,7 +33,8 @@ struct SkeletonDepthFunction {
   [[nodiscard]] Scalar value(const Scalar& /*z*/) const { return rate; }
   /// (hi - lo) / int_lo^hi dz / a(z) for an interval without a knot inside.
   [[nodiscard]] Scalar harmonic_mean(const Scalar& /*lo*/, const Scalar& /*hi*/) const { return rate; }
-  /// Heights where a or its slope jumps, or a is largest or smallest; a jumps only if kIsLayered.
+  /// Heights where a or its slope jumps, or a is largest or smallest, ascending; a jumps only if kIsLayered or where
+  /// jumps_at(z) says so.
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
 
   // A model may also have the following; what it leaves out is found from the above, more slowly (model.hpp).
@@ -45,6 +46,8 @@ struct SkeletonDepthFunction {
   }
   /// Which entry each of knots() is, in their order; kNoEntry for none.
   [[nodiscard]] std::vector<std::size_t> knot_entries() const { return {}; }
+  // static constexpr bool kIsLinear = true, if a(z) is linear between knots(); then also, where a jumps at one of them,
+  // bool jumps_at(z), EndValues<Scalar> end_values(lo, hi), and always end_value_derivatives(lo, hi, add_low, add_high): see model.hpp.
   // std::optional<ExponentialPiece<Scalar>> exponential() const, if all of the model is amplitude exp(-z / decay) and
   // these are its two entries, in this order: then the exact engine has closed forms.
 

@@ -6,19 +6,22 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/model/depth/model.hpp"
 #include "shearfront/model/field.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
 
-/// Tabulated shear rate: linear between the points (z[i], values[i]), monotone or not.
+/// Tabulated shear rate: linear between the points (z[i], values[i]), monotone or not. A height given twice is a jump, with
+/// the value below it first.
 ///
-/// Domain: at least two points, z strictly increasing, z.front() <= bottom and z.back() >= top, values > 0.
+/// Domain: at least two points, z increasing, a height twice at most and not the first or last, z.front() <= bottom and z.back() >= top, values > 0.
 template <Real Scalar>
 struct Table {
   static constexpr std::string_view kName = "table";
   static constexpr std::string_view kFormula = "linear between the points (z[i], values[i])";
   static constexpr bool kIsLayered = false;
+  static constexpr bool kIsLinear = true;
 
   std::vector<Scalar> z, values;
 
@@ -29,13 +32,46 @@ struct Table {
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {
-    check_points(prefix, z, values.size(), bottom, top, complaints);
+    // Solid fraction and temperature are continuous.
+    check_points(prefix, z, values.size(), bottom, top, complaints, prefix == "shear_rate.");
   }
 
   [[nodiscard]] Scalar value(const Scalar& height) const {
     const std::size_t i = segment(height);
     const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
     return values[i] + w * (values[i + 1] - values[i]);
+  }
+  [[nodiscard]] bool jumps_at(const Scalar& height) const {
+    const auto range = std::equal_range(z.begin(), z.end(), height);
+    if (range.second - range.first < 2) return false;
+    const auto i = static_cast<std::size_t>(range.first - z.begin());
+    return values[i] != values[i + 1];
+  }
+  /// a at both ends of [lo, hi], as seen from within.
+  [[nodiscard]] EndValues<Scalar> end_values(const Scalar& lo, const Scalar& hi) const {
+    const std::size_t i = segment(lo);
+    const auto at = [&](const Scalar& height) {
+      const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
+      return w == 1 ? values[i + 1] : Scalar(values[i] + w * (values[i + 1] - values[i]));
+    };
+    return {at(lo), at(hi)};
+  }
+  /// Derivatives of the values at both ends of [lo, hi], which must not contain a knot inside: add_low(entry, by) and
+  /// add_high(entry, by), in the order of fields(). The ends stay where they are; a knot at one of them moves out.
+  template <class AddLow, class AddHigh>
+  void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {
+    const std::size_t i = segment(lo);
+    const Scalar slope = (values[i + 1] - values[i]) / (z[i + 1] - z[i]);
+    const auto at = [&](const Scalar& height, auto& add) {
+      const Scalar right = (height - z[i]) / (z[i + 1] - z[i]),
+                   left = (z[i + 1] - height) / (z[i + 1] - z[i]);
+      add(i, Scalar(-slope * left));
+      add(i + 1, Scalar(-slope * right));
+      add(z.size() + i, left);
+      add(z.size() + i + 1, right);
+    };
+    at(lo, add_low);
+    at(hi, add_high);
   }
   /// Harmonic mean over [lo, hi], which must not contain a knot inside: the logarithmic mean of the two end
   /// values.
@@ -77,7 +113,9 @@ struct Table {
   static std::vector<Table> samples() {
     return {
         {{Scalar(0), Scalar(1)}, {Scalar(2), Scalar(0.5)}},
-        {{Scalar(0), Scalar(0.3), Scalar(0.6), Scalar(1)}, {Scalar(1), Scalar(3), Scalar(0.4), Scalar(0.9)}}};
+        {{Scalar(0), Scalar(0.3), Scalar(0.6), Scalar(1)}, {Scalar(1), Scalar(3), Scalar(0.4), Scalar(0.9)}},
+        {{Scalar(0), Scalar(0.375), Scalar(0.375), Scalar(1)},
+         {Scalar(2), Scalar(1.5), Scalar(0.5), Scalar(0.75)}}};
   }
 
  private:

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "shearfront/exact/cells.hpp"
+#include "shearfront/exact/linear_crossing.hpp"
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront::exact {
+
+/// Pieces in which the rate r = s a is linear in z; it may jump between them.
+template <Real Scalar>
+struct LinearPieces {
+  std::vector<Scalar> boundaries;
+  std::vector<Scalar> low, high;  ///< r at the lower and upper end of each piece
+
+  [[nodiscard]] std::size_t size() const { return low.size(); }
+  [[nodiscard]] Scalar slope(std::size_t k) const {
+    return (high[k] - low[k]) / (boundaries[k + 1] - boundaries[k]);
+  }
+  /// An inner boundary belongs to the piece above it, the top to the last.
+  [[nodiscard]] std::size_t piece_at(const Scalar& z) const {
+    const auto it = std::upper_bound(boundaries.begin() + 1, boundaries.end() - 1, z);
+    return static_cast<std::size_t>(it - boundaries.begin()) - 1;
+  }
+  /// r at a height of piece k, from the nearer end.
+  [[nodiscard]] Scalar rate(std::size_t k, const Scalar& z) const {
+    const Scalar below = z - boundaries[k], above = boundaries[k + 1] - z;
+    return below < above ? Scalar(low[k] + slope(k) * below) : Scalar(high[k] - slope(k) * above);
+  }
+};
+
+/// The bed as a path sees it that sets out upwards, cut at all boundaries and all initial jumps. The other view, of
+/// those that set out downwards, is the same turned upside down: heights -z, momenta 1 - p, amounts as they are.
+template <Real Scalar>
+struct LinearView {
+  bool is_mirror = false;
+  std::vector<Scalar> x;           ///< nodes, ascending
+  std::vector<Scalar> M;           ///< int phi(z, 0) dz from the true bottom, at the nodes
+  std::vector<Scalar> low, high;   ///< r at the ends of each cell
+  std::vector<Scalar> slope;       ///< of r
+  std::vector<Scalar> p, missing;  ///< initial state of each cell, and what it lacks to 1
+  std::vector<Scalar> q0;          ///< 2 p - 1
+  std::vector<Scalar> pure;        ///< int dz / r from the first node
+  std::vector<bool> emits;         ///< a fan can leave the node upwards
+
+  LinearView(const LinearPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored)
+      : is_mirror(mirrored), M(cells.M) {
+    const Scalar one(1);
+    for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
+    for (std::size_t i = 0; i < cells.n_cells(); ++i) {
+      const std::size_t k = cells.layer[i];
+      const Scalar lo = cells.x[i] == pieces.boundaries[k] ? pieces.low[k] : pieces.rate(k, cells.x[i]);
+      const Scalar hi =
+          cells.x[i + 1] == pieces.boundaries[k + 1] ? pieces.high[k] : pieces.rate(k, cells.x[i + 1]);
+      low.push_back(mirrored ? hi : lo);
+      high.push_back(mirrored ? lo : hi);
+      slope.push_back(mirrored ? Scalar(-pieces.slope(k)) : pieces.slope(k));
+      p.push_back(mirrored ? Scalar(one - cells.phi[i]) : cells.phi[i]);
+      missing.push_back(mirrored ? cells.phi[i] : Scalar(one - cells.phi[i]));
+      q0.push_back(mirrored ? Scalar(one - Scalar(2) * cells.phi[i])
+                            : Scalar(Scalar(2) * cells.phi[i] - one));
+    }
+    if (mirrored) {
+      for (auto* all : {&x, &M, &low, &high, &slope, &p, &missing, &q0})
+        std::reverse(all->begin(), all->end());
+    }
+    pure = {Scalar(0)};
+    emits.assign(x.size(), false);
+    for (std::size_t i = 0; i < n_cells(); ++i) {
+      pure.push_back(pure[i] + Crossing<Scalar>(x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
+      emits[i] = i > 0 && may_emit(i);
+    }
+  }
+
+  [[nodiscard]] std::size_t n_cells() const { return low.size(); }
+  [[nodiscard]] bool is_jump(std::size_t node) const { return high[node - 1] != low[node]; }
+  /// r at a height of a cell, from the nearer end.
+  [[nodiscard]] Scalar rate(std::size_t cell, const Scalar& z) const {
+    const Scalar below = z - x[cell], above = x[cell + 1] - z;
+    const Scalar r =
+        below < above ? Scalar(low[cell] + slope[cell] * below) : Scalar(high[cell] - slope[cell] * above);
+    return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
+  }
+  /// Time of a pure state from a height in a cell to its upper end.
+  [[nodiscard]] Scalar pure_above(std::size_t cell, const Scalar& z) const {
+    const Scalar d = x[cell + 1] - z;
+    if (!(d > 0)) return Scalar(0);
+    return Crossing<Scalar>(d, rate(cell, z), Scalar(1), high[cell], Scalar(1), Scalar(0)).T;
+  }
+  /// Initial amount below a height of a cell, in the true orientation.
+  [[nodiscard]] Scalar amount(std::size_t cell, const Scalar& z) const {
+    return is_mirror ? Scalar(M[cell] - missing[cell] * (z - x[cell]))
+                     : Scalar(M[cell] + p[cell] * (z - x[cell]));
+  }
+  /// The least of the same in a cell.
+  [[nodiscard]] Scalar least_amount(std::size_t cell) const { return std::min(M[cell], M[cell + 1]); }
+  /// 4 H of the state of a cell where the rate is r.
+  [[nodiscard]] Scalar h(std::size_t cell, const Scalar& r) const {
+    return Scalar(4) * p[cell] * missing[cell] * r;
+  }
+
+  /// A path rests at a node at its capacity if leaving it to either side only gains capacity: at jumps next to whose
+  /// lower side the rate does not fall, at kinks with a minimum, at the ends of flat minima.
+  [[nodiscard]] bool is_throat(std::size_t node) const {
+    const Scalar &below = high[node - 1], &above = low[node];
+    if (below < above) return !(slope[node - 1] > 0);
+    if (below > above) return !(slope[node] < 0);
+    return !(slope[node - 1] > 0) && !(slope[node] < 0) && (slope[node - 1] != 0 || slope[node] != 0);
+  }
+  [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
+
+ private:
+  /// Moving the start must not pay: state below <= p on its lower side, p on its upper side <= state above; upwards p >=
+  /// 1/2. The slack keeps rounding from dropping a borderline source.
+  [[nodiscard]] bool may_emit(std::size_t node) const {
+    const Scalar slack = Scalar(1) / Scalar(1 << 20), one(1);
+    const std::size_t b = node - 1, a = node;
+    if (!(p[b] < p[a]) && !is_jump(node)) return false;
+    if (q0[a] < -slack) return false;
+    const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
+    const Scalar most = std::min(low[a], q0[b] > 0 ? h(b, high[b]) : high[b]);
+    return least <= most * (one + slack);
+  }
+};
+
+}  // namespace shearfront::exact

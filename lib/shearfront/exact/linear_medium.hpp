@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "shearfront/exact/linear_bed.hpp"
+#include "shearfront/exact/linear_throats.hpp"
+#include "shearfront/exact/medium.hpp"
+
+namespace shearfront::exact {
+
+/// The Lax-Hopf formula for a(z) linear in pieces, jumps allowed: minimum over
+///   1. paths inside one piece, in closed form, a turn included,
+///   2. fans and constant states that leave their piece and go straight to z, or turn once where s a = 4 H in a piece that
+///      falls along their way (exact/linear_search.hpp),
+///   3. paths that rest at a throat at its capacity (exact/linear_throats.hpp).
+/// Walls are added by best_path().
+///
+/// There are no others: a minimiser shifted in time is one, too, and the two meet once at most; two turns, or a turn and
+/// a rest elsewhere, would make them meet twice. Every candidate is a path, so one more does no harm.
+///
+/// Cost of a query: O(pieces crossed) per source and per piece in which its paths may turn, those left out that cost more
+/// than the best so far. Immutable after construction, safe to share between threads.
+template <Real Scalar>
+class LinearMedium final : public Medium<Scalar> {
+ public:
+  LinearMedium(LinearPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass);
+
+  [[nodiscard]] const std::vector<Scalar>& boundaries() const override { return pieces_.boundaries; }
+  /// s a at the lower and at the upper end.
+  [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
+  [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
+  [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
+  [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override;
+  [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
+                                 FinalAmount amount) const override;
+  [[nodiscard]] Scalar rate_at(const Scalar& z) const override {
+    return pieces_.rate(pieces_.piece_at(z), z);
+  }
+  [[nodiscard]] Scalar flux_at(const Scalar& z, const Scalar& phi) const override {
+    return rate_at(z) * phi * (Scalar(1) - phi);
+  }
+  [[nodiscard]] std::optional<Scalar> first_wave(std::size_t /*i*/) const override { return {}; }
+  [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
+                                              const Scalar& t) const override;
+
+  [[nodiscard]] const LinearPieces<Scalar>& pieces() const { return pieces_; }
+  [[nodiscard]] const LinearView<Scalar>& view(bool is_mirror) const { return is_mirror ? down_ : up_; }
+
+ private:
+  using Medium<Scalar>::cells_;
+  [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper,
+                                    bool moving_only) const;
+
+  LinearPieces<Scalar> pieces_;
+  LinearView<Scalar> up_, down_;
+  LinearThroats<Scalar> throats_;
+};
+
+}  // namespace shearfront::exact

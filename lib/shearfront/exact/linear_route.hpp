@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "shearfront/exact/linear_crossing.hpp"
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront::exact {
+
+/// The way of a path without its start and its end: runs between nodes, each passed once or twice, and a turn. Its least
+/// rate `least` is the largest h that can pass; with m the node that has it, h = least (1 - q_m^2).
+template <Real Scalar>
+struct LinearRoute {
+  struct Run {
+    Scalar d, r1, r2;
+    bool twice;
+  };
+  boost::container::small_vector<Run, 24> runs;
+  Scalar least = infinity<Scalar>();
+  Scalar turn_slope{0};  ///< |b| of the piece in which it turns; 0: it does not
+  Scalar turn_rate{0};   ///< r where it enters that piece for good
+
+  void add(const Scalar& d, const Scalar& r1, const Scalar& r2, bool twice) {
+    least = std::min({least, r1, r2});
+    if (d > 0) runs.push_back({d, r1, r2, twice});
+  }
+};
+
+/// A route at one h. F = q_m dT/dh is held between bounds on an interval of h by parts that are monotone in h:
+/// F = rising + q_m steep + up - down, where rising and steep do not decrease and up, down and q_m do not increase.
+template <Real Scalar>
+struct LinearSample {
+  Scalar v{0};  ///< the variable of the search
+  Scalar h{0}, qm2{0}, qm{0};
+  Scalar y{0};          ///< start
+  Scalar T{0}, X{0};    ///< X: with half of the E of a turn
+  Scalar T_falling{0};  ///< the part of T that does not increase with h
+  Scalar X_falling{0};  ///< X of the turn
+  Scalar rising{0}, steep{0}, up{0}, down{0};
+
+  [[nodiscard]] Scalar F() const { return rising + qm * steep + up - down; }
+};
+
+/// q at a node of rate r.
+template <Real Scalar>
+[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& least, const Scalar& qm2) {
+  using std::sqrt;
+  const Scalar q2 = ((r - least) + least * qm2) / r;
+  return q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0);
+}
+
+/// Adds all runs and the turn of a route to a sample that has h, qm2, qm.
+template <Real Scalar>
+void add_route(const LinearRoute<Scalar>& route, LinearSample<Scalar>& s) {
+  const Scalar& least = route.least;
+  Scalar r_last(-1), q_last(0);
+  for (const auto& run : route.runs) {
+    const Scalar q1 = run.r1 == r_last ? q_last : run.r1 == least ? s.qm : q_at(run.r1, least, s.qm2);
+    const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, least, s.qm2);
+    r_last = run.r2;
+    q_last = q2;
+    const Crossing<Scalar> c(run.d, run.r1, q1, run.r2, q2, s.h);
+    const Scalar n(run.twice ? 2 : 1);
+    s.T += n * c.T;
+    s.X += n * c.X;
+    const Scalar by = n * run.d / (run.r1 * run.r2 * (q1 + q2));
+    if (run.r1 == least)
+      s.rising += by / q2;
+    else if (run.r2 == least)
+      s.rising += by / q1;
+    else
+      s.steep += by / (q1 * q2);
+  }
+  if (route.turn_slope > 0) {
+    const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.qm2);
+    const Scalar T = Scalar(4) / route.turn_slope * artanh_of(q, route.turn_rate, s.h);
+    s.T += T;
+    s.T_falling += T;
+    s.X_falling += route.turn_rate * q / route.turn_slope;
+    s.X += s.X_falling;
+    const Scalar ratio = route.turn_rate == least ? Scalar(1) : Scalar(s.qm / q);
+    s.down += Scalar(2) * ratio / (route.turn_slope * s.h);
+  }
+}
+
+/// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
+/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is dT/dv of a sample.
+/// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
+/// point before t, so the sign is known: + for straight fans, - for turned ones.
+template <Real Scalar, class At, class Slope, class Found>
+class LinearRootSearch {
+ public:
+  LinearRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
+      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {
+    tolerance_ = Scalar(256) * unit_roundoff<Scalar>() * t;
+  }
+
+  void run(const LinearSample<Scalar>& a, const LinearSample<Scalar>& b, int depth = 0) {
+    // T between the values of its rising and its falling part.
+    if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance_) return;
+    if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance_) return;
+    const Scalar low = a.rising + b.qm * a.steep + b.up - a.down;
+    const Scalar high = b.rising + a.qm * b.steep + a.up - b.down;
+    if (sign_ > 0 ? high < 0 : low > 0) return;
+    constexpr int kMost = 100;
+    const bool is_sure = sign_ > 0 ? low >= 0 : high <= 0;
+    if (is_sure || depth == kMost) return solve(a, b);
+    const Scalar middle = split(a.v, b.v);
+    if (!(middle > std::min(a.v, b.v) && middle < std::max(a.v, b.v))) return solve(a, b);
+    const LinearSample<Scalar> m = at_(middle);
+    run(a, m, depth + 1);
+    run(m, b, depth + 1);
+  }
+
+  /// T is monotone on [a, b] with the sign wanted.
+  void solve(const LinearSample<Scalar>& a, const LinearSample<Scalar>& b) {
+    const LinearSample<Scalar>& less = sign_ > 0 ? a : b;  // T <= t there
+    const LinearSample<Scalar>& more = sign_ > 0 ? b : a;
+    if (less.T >= t_) {
+      if (less.T <= t_ + tolerance_) found_(less, Scalar(0));
+      return;
+    }
+    if (more.T <= t_) {
+      if (more.T >= t_ - tolerance_) found_(more, Scalar(0));
+      return;
+    }
+    Scalar lo = less.v, hi = more.v, lo_T = less.T, hi_T = more.T;
+    Scalar v = guess(lo, lo_T, hi, hi_T);
+    using std::sqrt;
+    const Scalar close = sqrt(unit_roundoff<Scalar>());
+    for (int n = 0; n < 400; ++n) {
+      const LinearSample<Scalar> s = at_(v);
+      const Scalar gap = t_ - s.T;
+      (gap > 0 ? lo : hi) = v;
+      Scalar step = gap / slope_(s);
+      // Newton on 1 / T where that is the straighter line: T has a pole next to a flat piece of rate h.
+      if (gap < 0) step *= s.T / t_;
+      const Scalar size = step < 0 ? Scalar(-step) : step, scale = v < 0 ? Scalar(-v) : v;
+      if (size <= close * scale || size == 0) return found_(s, step);
+      Scalar next = v + step;
+      const bool inside = next > std::min(lo, hi) && next < std::max(lo, hi);
+      if (!inside) next = split(lo, hi);
+      if (next == v || !(next > std::min(lo, hi) && next < std::max(lo, hi))) return found_(s, Scalar(0));
+      v = next;
+    }
+  }
+
+ private:
+  /// Where 1 / T is 1 / t if it is linear in v.
+  Scalar guess(const Scalar& lo, const Scalar& lo_T, const Scalar& hi, const Scalar& hi_T) const {
+    Scalar part(0.5);
+    if (lo_T > 0)
+      part = is_finite(hi_T) ? Scalar((hi_T / t_) * ((t_ - lo_T) / (hi_T - lo_T)))
+                             : Scalar(Scalar(1) - lo_T / t_);
+    part = std::clamp(part, Scalar(1) / Scalar(1024), Scalar(1023) / Scalar(1024));
+    const Scalar v = lo + (hi - lo) * part;
+    return v > 0 && std::min(lo, hi) * Scalar(64) < std::max(lo, hi) && std::min(lo, hi) > 0 ? split(lo, hi)
+                                                                                             : v;
+  }
+  static Scalar split(const Scalar& a, const Scalar& b) {
+    using std::sqrt;
+    const Scalar &lo = std::min(a, b), &hi = std::max(a, b);
+    if (lo > 0 && hi > Scalar(16) * lo) return sqrt(lo) * sqrt(hi);
+    return lo + (hi - lo) / Scalar(2);
+  }
+
+  Scalar t_, tolerance_;
+  int sign_;
+  const At& at_;
+  const Slope& slope_;
+  const Found& found_;
+};
+
+}  // namespace shearfront::exact

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+
+#include "shearfront/exact/linear_candidates.hpp"
+
+namespace shearfront::exact {
+
+/// The best path to (z, t), heights of the view, among those that set out upwards in the view and leave their first cell,
+/// and those inside one cell.
+template <Real Scalar>
+class LinearSearch : private LinearCandidates<Scalar> {
+ public:
+  using LinearCandidates<Scalar>::LinearCandidates;
+
+  void run() {
+    for (const std::size_t cell : {below_, above_}) {
+      inside(cell);
+      if (below_ == above_) break;
+    }
+    from_below();
+    from_above();
+  }
+
+ private:
+  using Base = LinearCandidates<Scalar>;
+  using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::pure_z_,
+      Base::rate_above_, Base::rate_below_, Base::slack_, Base::t_, Base::view_, Base::z_;
+  using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
+      Base::straight_fan, Base::turned_fan;
+  using typename Base::Leaves;
+  using typename Base::Route;
+
+  /// In closed form: the state of a cell (in the upright view only), the fan of its lower node.
+  void inside(std::size_t cell) {
+    const Scalar& r = cell == below_ ? rate_below_ : rate_above_;
+    const LinearDrift<Scalar> drift(view_.slope[cell], t_);
+    if (!(drift.B > 0)) return;
+    const Scalar half(0.5), tolerance = slack_;
+    const auto accept = [&](const LinearArc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
+                            const Scalar& M0) {
+      const Scalar h = Scalar(4) * r * arc.p * arc.missing;
+      const bool is_fan = kind == PathKind::fan, ends_up = arc.p > half;
+      const bool starts_up = is_fan || arc.start_odds > Scalar(1),
+                 starts_down = !is_fan && arc.start_odds < Scalar(1);
+      if (starts_up && !ends_up && h < view_.high[cell]) return;
+      if (starts_down && ends_up && h < view_.low[cell]) return;
+      const bool turned = h > 0 && (ends_up ? starts_down : starts_up);
+      const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
+      offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
+    };
+    if (!view_.is_mirror && !(moving_only_ && (view_.p[cell] == 0 || view_.missing[cell] == 0))) {
+      const auto arc = LinearArc<Scalar>::from_state(drift, view_.p[cell], view_.missing[cell], r);
+      const Scalar y = z_ - (arc.up - arc.down);
+      if (is_finite(y) && y >= view_.x[cell] - tolerance && y <= view_.x[cell + 1] + tolerance) {
+        const Scalar kept = std::clamp(y, view_.x[cell], view_.x[cell + 1]);
+        accept(arc, kept, PathKind::constant, cell, view_.amount(cell, y));
+      }
+    }
+    if (cell > 0 && view_.emits[cell]) {
+      const auto arc = LinearArc<Scalar>::from_point(drift, z_ - view_.x[cell], view_.low[cell], r);
+      const Scalar one(1), edge = one / Scalar(1 << 20);
+      if (arc.p >= 0 && arc.missing >= 0 && arc.start_odds >= one - edge)
+        accept(arc, view_.x[cell], PathKind::fan, cell, view_.M[cell]);
+    }
+  }
+
+  /// Everything that starts below z and leaves its cell at the top.
+  void from_below() {
+    Route route;
+    if (below_ != above_) turned_states(route, below_, z_, above_, rate_above_);
+    route.add(z_ - view_.x[below_], rate_below_, view_.low[below_], false);
+    for (std::size_t k = below_; k-- > 0;) {
+      // Node k + 1, and the state of the cell below it.
+      const std::size_t node = k + 1;
+      if (pure_z_ - view_.pure[node] > late_) return;
+      if (view_.emits[node]) {
+        const bool is_own = node == below_;  // no farther than its cell: in closed form
+        if (!is_own) straight_fan(route, node);
+        turned_fans(route, node, z_, above_, rate_above_, is_own && below_ == above_);
+      }
+      state(route, k);
+      turned_states(route, k, z_, above_, rate_above_);
+      route.add(view_.x[node] - view_.x[k], view_.high[k], view_.low[k], false);
+    }
+  }
+
+  /// Everything that starts at or above z, sets out upwards and turns.
+  void from_above() {
+    Route route;
+    if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
+      turned_fans(route, above_, z_, above_, rate_above_, true);
+    for (std::size_t k = above_; k < n_; ++k) {
+      // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
+      if (k > above_ || z_ == view_.x[k]) state_that_turns_at_once(route, k);
+      if (k == above_)
+        route.add(view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
+      else
+        route.add(view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k], false);
+      const std::size_t node = k + 1;
+      if (node == n_ || view_.pure[node] - pure_z_ > late_) return;
+      turned_states(route, k, view_.x[node], node, view_.low[node]);
+      if (view_.emits[node]) turned_fans(route, node, view_.x[node], node, view_.low[node], false);
+    }
+  }
+
+  [[nodiscard]] bool has_moving_state(std::size_t k) const {
+    return view_.p[k] > 0 && view_.missing[k] > 0 &&
+           (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.slope[k] > 0));
+  }
+
+  void turned_fans(const Route& once, std::size_t node, const Scalar& from, std::size_t first,
+                   const Scalar& rate, bool skip_first) {
+    turns(once, view_.M[node], node, from, first, rate, skip_first,
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+            turned_fan(way, node, j, lo, hi, top);
+          });
+  }
+  void turned_states(const Route& once, std::size_t k, const Scalar& from, std::size_t first,
+                     const Scalar& rate) {
+    if (!has_moving_state(k)) return;
+    turns(once, view_.least_amount(k), k + 1, from, first, rate, false,
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+            turned_state(way, k, j, lo, hi, top);
+          });
+  }
+
+  /// Calls found(route, j, least h, largest h, height above which it turns) for every cell j, `first` and above, in which
+  /// paths can turn that pass `node` upwards, with M0 at their start, and have `once` to pass besides.
+  template <class Found>
+  void turns(const Route& once, const Scalar& M0, std::size_t node, const Scalar& from, std::size_t first,
+             const Scalar& rate, bool skip_first, const Found& found) {
+    Route& way = scratch_;
+    way.runs.assign(once.runs.begin(), once.runs.end());
+    way.least = once.least;
+    way.turn_slope = Scalar(0);
+    for (std::size_t j = first; j < n_; ++j) {
+      const Scalar &entry = j == first ? rate : view_.low[j], &height = j == first ? from : view_.x[j];
+      // Out of reach, or dearer than what there is: the height is gained, on one of both ways.
+      if (j > first && Scalar(2) * view_.pure[j] - view_.pure[node] - pure_z_ > late_) return;
+      if (M0 + gained(view_.x[node], height) > limit()) return;
+      const Scalar least = std::min(way.least, entry);
+      if (view_.slope[j] < 0 && view_.high[j] < least && !(j == first && skip_first)) {
+        const Scalar kept = way.least;
+        way.least = least;
+        way.turn_slope = -view_.slope[j];
+        way.turn_rate = entry;
+        found(way, j, view_.high[j], least, height);
+        way.least = kept;
+        way.turn_slope = Scalar(0);
+      }
+      way.add(view_.x[j + 1] - height, entry, view_.high[j], true);
+      way.least = std::min({way.least, entry, view_.high[j]});
+    }
+  }
+
+  void state(Route& route, std::size_t k) {
+    if (view_.missing[k] == 0) return pure_state(k);
+    if (!has_moving_state(k)) return;
+    if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
+    const Scalar kept = route.least;
+    route.least = std::min(route.least, view_.high[k]);
+    if (view_.slope[k] == 0)
+      flat_state(route, k, z_, false, 0, Scalar(0));
+    else
+      search_state(route, range_of(route, k, Leaves::upwards, Scalar(0)), view_.slope[k] > 0 ? -1 : 1, z_,
+                   false, 0);
+    route.least = kept;
+  }
+
+  void turned_state(Route& route, std::size_t k, std::size_t j, const Scalar& lo, const Scalar& hi,
+                    const Scalar& top) {
+    if (view_.least_amount(k) + gained(view_.x[k + 1], top) > limit()) return;
+    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
+    if (four_g * std::max(view_.low[k], view_.high[k]) < lo ||
+        four_g * std::min(view_.low[k], view_.high[k]) > hi)
+      return;
+    const Scalar kept = route.least;
+    route.least = std::min(hi, view_.high[k]);
+    if (view_.slope[k] == 0)
+      flat_state(route, k, top, true, j, lo);
+    else
+      search_state(route, range_of(route, k, Leaves::upwards, lo), view_.slope[k] > 0 ? 1 : -1, top, true, j);
+    route.least = kept;
+  }
+
+  /// It turns in its own cell and leaves it at the bottom.
+  void state_that_turns_at_once(Route& route, std::size_t k) {
+    if (!has_moving_state(k) || !(view_.slope[k] < 0)) return;
+    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
+    if (four_g * view_.low[k] < view_.high[k]) return;
+    if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
+    const Scalar kept = route.least;
+    route.least = std::min(route.least, view_.low[k]);
+    search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
+    route.least = kept;
+  }
+
+  /// H = 0: the time from the start is int dz / r.
+  void pure_state(std::size_t k) {
+    using std::expm1;
+    if (moving_only_) return;
+    const Scalar left = t_ - (pure_z_ - view_.pure[k + 1]);
+    const Scalar &b = view_.slope[k], x = -b * left;
+    if (left < t_ - late_) return;
+    const Scalar d = x == 0 ? Scalar(view_.high[k] * left) : Scalar(view_.high[k] * left * (expm1(x) / x));
+    const Scalar width = view_.x[k + 1] - view_.x[k];
+    if (!(d <= width + slack_)) return;
+    const Scalar y = view_.x[k + 1] - std::clamp(d, Scalar(0), width);
+    offer(view_.amount(k, y) + gained(y, z_), Scalar(0), PathKind::constant, true, false, k, y, 0,
+          view_.high[k], Scalar(1));
+  }
+
+  Route scratch_;
+};
+
+}  // namespace shearfront::exact
