@@ -14,8 +14,8 @@
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/entries.hpp"
-#include "shearfront/scene/scene_cast.hpp"
 #include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {

@@ -30,7 +30,8 @@ bool is_layered(const std::optional<AnyDepthFunction>& function) {
 template <Real Scalar>
 bool has_linear_pieces(const Scene<Scalar>& scene) {
   return !scene.is_layered() && is_layered(scene.spec().solid_fraction) &&
-         std::all_of(scene.fluxes().begin(), scene.fluxes().end(), is_parabola<Flux<Scalar>>);
+         std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
+                     [](const Flux<Scalar>& flux) { return flux.is_parabola(); });
 }
 
 /// Whether its rate is linear between its own knots.

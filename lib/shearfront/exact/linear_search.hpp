@@ -37,7 +37,7 @@ class LinearSearch : private LinearCandidates<Scalar> {
     const Scalar& r = cell == below_ ? rate_below_ : rate_above_;
     const LinearDrift<Scalar> drift(view_.slope[cell], t_);
     if (!(drift.B > 0)) return;
-    const Scalar half(0.5), tolerance = slack_;
+    const Scalar half(0.5);
     const auto accept = [&](const LinearArc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
                             const Scalar& M0) {
       const Scalar h = Scalar(4) * r * arc.p * arc.missing;
@@ -52,8 +52,11 @@ class LinearSearch : private LinearCandidates<Scalar> {
     };
     if (!view_.is_mirror && !(moving_only_ && (view_.p[cell] == 0 || view_.missing[cell] == 0))) {
       const auto arc = LinearArc<Scalar>::from_state(drift, view_.p[cell], view_.missing[cell], r);
-      const Scalar y = z_ - (arc.up - arc.down);
-      if (is_finite(y) && y >= view_.x[cell] - tolerance && y <= view_.x[cell + 1] + tolerance) {
+      // In terms of the cell: where r is steep, heights that differ by rounding have other H.
+      const Scalar gain = arc.up - arc.down, width = view_.x[cell + 1] - view_.x[cell];
+      const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
+      if (gain <= (z_ - view_.x[cell]) + rounding && -gain <= (view_.x[cell + 1] - z_) + rounding) {
+        const Scalar y = z_ - gain;
         const Scalar kept = std::clamp(y, view_.x[cell], view_.x[cell + 1]);
         accept(arc, kept, PathKind::constant, cell, view_.amount(cell, y));
       }

@@ -7,9 +7,9 @@
 
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/solution/field.hpp"
-#include "shearfront/solution/front_segment.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
+#include "shearfront/solver/solver.hpp"
 
 /// Results as CSV and JSON (docs/formats). Doubles are written with the shortest text that reads back to the
 /// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the

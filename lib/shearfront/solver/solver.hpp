@@ -14,7 +14,6 @@
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/field.hpp"
-#include "shearfront/solution/front_segment.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
 #include "shearfront/solver/option.hpp"
@@ -32,6 +31,15 @@ struct Watch {
   bool timeline = false;  ///< event times are wanted (solvers with has_timeline)
   bool fronts = false;    ///< front segments are wanted (solvers with has_fronts)
   Progress progress;
+};
+
+/// One front of a front-tracking solution from its birth to its end: a straight segment of the (t, z) plane
+/// with the states on both sides. Interfaces and walls are not fronts and appear in no list of segments.
+template <Real Scalar>
+struct FrontSegment {
+  std::size_t layer;
+  Scalar t_begin, z_begin, t_end, z_end;
+  Scalar phi_below, phi_above;
 };
 
 /// A computation under way, from t = 0 on.

@@ -7,7 +7,7 @@
 
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/riemann/state.hpp"
-#include "shearfront/solution/front_segment.hpp"
+#include "shearfront/solver/solver.hpp"
 
 /// Observers see every collision of a Tracker and cannot steer it: they get constant views, and the tracker
 /// reads nothing from them. An observer is a template argument, so the one that does nothing costs nothing.

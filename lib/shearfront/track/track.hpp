@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "shearfront/scene/scene.hpp"
-#include "shearfront/solution/front_segment.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
