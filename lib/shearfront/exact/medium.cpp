@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/exact/medium.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/exponential_medium.hpp"
 #include "shearfront/exact/layered_medium.hpp"
 #include "shearfront/exact/linear_medium.hpp"
+#include "shearfront/exact/scaled_medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
@@ -37,14 +43,34 @@ Path<Scalar> Medium<Scalar>::best_path(const Scalar& z, const Scalar& t) const {
   return free.better_than(wall) ? free : wall;
 }
 
+namespace {
+
+/// In a unit of time in which its rates are about 1 where they are very large or small.
+template <Real Scalar>
+std::shared_ptr<const Medium<Scalar>> linear_medium(const CanonicalForm<Scalar>& form) {
+  LinearPieces<Scalar> pieces{form.boundaries(), form.low_rates(), form.high_rates()};
+  const Scalar fastest = std::max(*std::max_element(pieces.low.begin(), pieces.low.end()),
+                                  *std::max_element(pieces.high.begin(), pieces.high.end()));
+  constexpr int kFar = 60;  // closed forms multiply a few rates
+  const int exponent = std::ilogb(to_double(fastest));
+  const bool is_far = exponent > kFar || exponent < -kFar;
+  const Scalar unit = is_far ? Scalar(std::ldexp(1.0, exponent)) : Scalar(1);
+  for (auto* rates : {&pieces.low, &pieces.high})
+    for (Scalar& r : *rates) r /= unit;
+  auto medium = std::make_unique<const LinearMedium<Scalar>>(
+      std::move(pieces), Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries()),
+      form.mass());
+  if (!is_far) return medium;
+  return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
+}
+
+}  // namespace
+
 template <Real Scalar>
 std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form) {
   if (form.exponential()) return std::make_shared<const ExponentialMedium<Scalar>>(form);
   const auto& y = form.boundaries();
-  if (form.is_linear())
-    return std::make_shared<const LinearMedium<Scalar>>(
-        LinearPieces<Scalar>{y, form.low_rates(), form.high_rates()},
-        Cells<Scalar>(form.initial_breaks(), form.initial_values(), y), form.mass());
+  if (form.is_linear()) return linear_medium(form);
   const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
     Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), y);
     return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());
