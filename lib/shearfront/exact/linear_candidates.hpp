@@ -156,8 +156,11 @@ class LinearCandidates {
                  q2 = view_.q0[k] * view_.q0[k];
     const Scalar slope = b < 0 ? Scalar(-b) : b, width = view_.x[k + 1] - view_.x[k];
     const Scalar& most = b > 0 ? view_.high[k] : view_.low[k];  // rate at the end with the largest h
-    // 4 g r - h = (r - h) - r q0^2, over the slope of 4 g r: where h is met.
-    const auto place = [&](const Scalar& h) { return Scalar(((most - h) - most * q2) / (four_g * slope)); };
+    // Where h is met: (4 g r - h) / (4 g slope), and 4 g r - h = (r - h) - r q0^2 where g has lost what 1 - 4 g keeps.
+    const auto place = [&](const Scalar& h) {
+      return q2 > Scalar(0.5) ? Scalar((most - h / four_g) / slope)
+                              : Scalar(((most - h) - most * q2) / (four_g * slope));
+    };
     const Scalar first = place(route.least);
     StateRange range{k,         leaves,     Scalar(0), Scalar(0), Scalar(0), four_g * slope / route.least,
                      Scalar(0), first >= 0, false};

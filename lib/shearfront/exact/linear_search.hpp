@@ -206,10 +206,10 @@ class LinearSearch : private LinearCandidates<Scalar> {
     if (moving_only_) return;
     const Scalar left = t_ - (pure_z_ - view_.pure[k + 1]);
     const Scalar &b = view_.slope[k], x = -b * left;
-    if (left < t_ - late_) return;
+    // By time, as the cells beside this one: in a thin cell heights within rounding may be far away in time.
+    if (left < t_ - late_ || t_ - (pure_z_ - view_.pure[k]) > late_ - t_) return;
     const Scalar d = x == 0 ? Scalar(view_.high[k] * left) : Scalar(view_.high[k] * left * (expm1(x) / x));
     const Scalar width = view_.x[k + 1] - view_.x[k];
-    if (!(d <= width + slack_)) return;
     const Scalar y = view_.x[k + 1] - std::clamp(d, Scalar(0), width);
     offer(view_.amount(k, y) + gained(y, z_), Scalar(0), PathKind::constant, true, false, k, y, 0,
           view_.high[k], Scalar(1));
