@@ -67,7 +67,8 @@ Decomposition decompose(const Objective::Evaluation& at, const std::vector<bool>
   for (Index c = 0; c < n; ++c) {
     const Index j = parts.free[static_cast<std::size_t>(c)];
     const double error = at.column_error.size() > 0 ? at.column_error[j] : 0;
-    if (!(parts.norm[c] > kUnseen * largest) || error > kNoise) parts.norm[c] = 0;
+    if (!(parts.norm[c] > std::max(kUnseen * largest, kSeen * at.rounding)) || error > kNoise)
+      parts.norm[c] = 0;
     if (!(parts.norm[c] > 0)) continue;
     scaled.col(c).head(n_rows) = at.jacobian.col(j) / parts.norm[c];
     error2 += error * error;

@@ -10,6 +10,7 @@
 
 #include "shearfront/fit/bootstrap.hpp"
 #include "shearfront/fit/coordinates.hpp"
+#include "shearfront/fit/flat.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
@@ -26,9 +27,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Residuals at rounding level say nothing about noise: no scale is taken from them.
+/// Residuals at rounding level, in the unit of the rows, say nothing about noise: no scale is taken from them.
 constexpr double kRounding = 1e-11;
-/// Every row agrees: no jump is on the wrong side of an observation.
+/// Every row agrees, in the unit of the rows: no jump is on the wrong side of an observation.
 constexpr double kExact = 1e-9;
 constexpr int kMostRenewals = 6;
 /// Relative tolerance of the first stages: only a start for the last one.
@@ -39,7 +40,7 @@ constexpr double kRough = 1e-4;
 constexpr std::size_t kWidestBin = 32;
 /// Further starts lie within this factor of the first: bounds are often far wider.
 constexpr double kWidestStart = 20;
-/// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
+/// Scale of the loss, in widths of the range of phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
 constexpr double kForgiven = 0.1;
 /// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
 /// robust fit goes through some of the data.
@@ -57,7 +58,16 @@ double median_noise(const Objective::Evaluation& at) {
   return median_deviation(std::move(residuals));
 }
 
-ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
+/// Rows in units of sigma, or in the unit of what they compare.
+ResidualRows with_unit(ResidualRows rows, std::string_view quantity, const FitSpec& spec,
+                       const Parameters& parameters) {
+  const bool is_height = quantity == BedHeightMisfit::kName, is_sum = quantity == CumulativeMisfit::kName;
+  if (!spec.observations.has_sigma())
+    rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
+  return rows;
+}
+
+ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Parameters& parameters) {
   ResidualRows rows;
   std::string refusal;
   if (!MisfitList::contains(quantity))
@@ -68,11 +78,13 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
-  return rows;
+  return with_unit(std::move(rows), quantity, spec, parameters);
 }
 
-void set_weights(ResidualRows& rows, double weight) {
-  for (ResidualRows::Row& row : rows.rows) row.weight = weight;
+/// Residuals beside `size`, which has their unit.
+void set_size(ResidualRows& rows, double size) {
+  for (ResidualRows::Row& row : rows.rows) row.weight = 1 / size;
+  rows.unit = 1;
 }
 
 /// Mean distance of neighbouring heights of one time.
@@ -125,7 +137,7 @@ class Run {
         quantity_(quantity_of(spec)),
         loss_name_(loss_of(spec)),
         loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))),
-        rows_(rows_of(quantity_, spec)),
+        rows_(rows_of(quantity_, spec, parameters_)),
         progress_(progress) {
     check_uncertainty(spec);
     const auto names = algorithm_names();
@@ -156,6 +168,18 @@ class Run {
       find_from_many(start);
     else
       find_from(start);
+    // Which points a shock is near depends on the estimate, and so does the misfit of the others.
+    for (Eigen::Index round = 0; round < start.size() && result_.status == Status::ok && !has_jumps();
+         ++round) {
+      const auto beyond = beyond_flat(*objective_, u_);
+      if (!beyond) break;
+      const SearchResult before = result_;
+      find_from(*beyond);
+      if (result_.misfit <= before.misfit) continue;
+      result_ = before;
+      u_ = before.u;
+      break;
+    }
   }
 
   void find_from(const VectorXd& start) {
@@ -201,7 +225,7 @@ class Run {
   [[nodiscard]] double forgiving_misfit() {
     if (!loss_.is_robust && !left_out_) return objective_->evaluate(u_, false).misfit;
     ResidualRows rows = rows_;
-    set_weights(rows, 1);
+    set_size(rows, parameters_.states());
     return make_objective(std::move(rows), find_loss(CauchyLoss::kName, kForgiven))
         ->evaluate(u_, false)
         .misfit;
@@ -238,18 +262,18 @@ class Run {
   /// for.
   void approach() {
     if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
-    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_);
+    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
     const bool is_point = spec_.observations.quantity == Quantity::point;
     // Sums of points are wrong by about the spacing at every shock, whatever the noise.
-    if (is_point) set_weights(sums, 1 / mean_spacing(spec_.observations));
+    if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
     const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
     if (is_point) first->set_tether(u_, 1);
     search_from_here(*first, kNear);
     if (spec_.observations.quantity == Quantity::bin) narrow_bins();
     if (!is_point || control_.must_stop()) return;
     // Wrong in the cells of a shock only, where the loss forgives it.
-    ResidualRows means = rows_of(BinMisfit::kName, spec_);
-    set_weights(means, 1);
+    ResidualRows means = rows_of(BinMisfit::kName, spec_, parameters_);
+    set_size(means, parameters_.states());
     // The bias of the sums may have put their smallest minimum into another valley.
     if (spec_.search.algorithm == "global") has_searched_ = false;
     search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
@@ -262,10 +286,12 @@ class Run {
     for (const MeasuredProfile& profile : measured_profiles(spec_.observations))
       most = std::max(most, profile.rows.size());
     for (std::size_t n = std::min<std::size_t>(kWidestBin, most / 2); n > 1 && !control_.must_stop(); n /= 2)
-      search_from_here(*make_objective(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(),
-                                                            spec_.scene.top(), n),
-                                       find_loss(SquaredLoss::kName, 0)),
-                       kNear);
+      search_from_here(
+          *make_objective(
+              with_unit(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(), spec_.scene.top(), n),
+                        BinMisfit::kName, spec_, parameters_),
+              find_loss(SquaredLoss::kName, 0)),
+          kNear);
   }
 
   /// The misfit asked for. What it depends on besides the parameters, the rows without a jump and the noise
@@ -283,7 +309,7 @@ class Run {
       bool is_settled = !(leaves_out_jumps && renew_rows(keep));
       is_settled = !renew_scale() && is_settled;
       const Objective::Evaluation& at = objective_->evaluate(u_, false);
-      const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact;
+      const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact * rows_.unit;
       is_settled = is_settled || is_exact || round == kMostRenewals;
       search_from_here(*objective_, is_settled ? 0 : kRough);
       if (is_settled || control_.must_stop()) break;
@@ -306,7 +332,7 @@ class Run {
   bool renew_scale() {
     if (!loss_.is_robust || spec_.observations.has_sigma() || n_scales_ == kMostScales) return false;
     const Objective::Evaluation& at = objective_->evaluate(u_, true);
-    const double now = at.is_valid ? std::max(median_noise(at), kRounding) : 1;
+    const double now = at.is_valid ? std::max(median_noise(at), kRounding * rows_.unit) : rows_.unit;
     if (n_scales_ > 0 && std::abs(now - noise_) <= kScaleTolerance * noise_) return false;
     noise_ = now;
     ++n_scales_;

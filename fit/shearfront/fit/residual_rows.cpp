@@ -30,16 +30,15 @@ Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const
 }
 
 ResidualRows ResidualRows::selected(const std::vector<bool>& keep) const {
-  ResidualRows some{field, points, {}};
+  ResidualRows some{field, points, {}, unit};
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (keep[i]) some.rows.push_back(rows[i]);
   return some;
 }
 
 std::size_t RowBuilder::place(double t, double z) {
-  const double slack = kSamePlace * std::max(std::abs(z), 1.0);
-  const auto near = places_.lower_bound({t, z - slack});
-  if (near != places_.end() && near->first.t == t && near->first.z <= z + slack) return near->second;
+  const auto near = places_.lower_bound({t, z - slack_});
+  if (near != places_.end() && near->first.t == t && near->first.z <= z + slack_) return near->second;
   places_.emplace(Place{t, z}, rows_.points.size());
   rows_.points.push_back({t, z});
   return rows_.points.size() - 1;

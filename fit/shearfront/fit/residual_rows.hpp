@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -33,6 +34,8 @@ struct ResidualRows {
   Observable field = Observable::phi;
   std::vector<Place> points;
   std::vector<Row> rows;
+  /// Size of what the residuals are differences of: they are numbers beside it. 1 where they are in units of sigma.
+  double unit = 1;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
   /// weight_i (model - target) for values at the points.
@@ -48,6 +51,8 @@ class RowBuilder {
  public:
   RowBuilder(const Observations& observations, Observable field) : observations_(&observations) {
     rows_.field = field;
+    for (const Observation& o : observations.rows)
+      slack_ = std::max(slack_, kSamePlace * (std::abs(o.z) + o.width / 2));
   }
 
   /// A coefficient of X(t, z) in the row being built.
@@ -67,11 +72,13 @@ class RowBuilder {
   [[nodiscard]] ResidualRows take() { return std::move(rows_); }
 
  private:
-  /// Edges of neighbouring bins, z + width / 2 and z' - width' / 2, agree up to rounding of decimal numbers.
+  /// Edges of neighbouring bins, z + width / 2 and z' - width' / 2, agree up to rounding of decimal numbers, relative
+  /// to the largest.
   static constexpr double kSamePlace = 1e-13;
   [[nodiscard]] std::size_t place(double t, double z);
 
   const Observations* observations_;
+  double slack_ = 0;
   ResidualRows rows_;
   ResidualRows::Row row_;
   std::map<Place, std::size_t> places_;
