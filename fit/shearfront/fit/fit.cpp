@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,10 +19,12 @@
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/profile_likelihood.hpp"
 #include "shearfront/fit/report.hpp"
+#include "shearfront/fit/resolution_shift.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -47,6 +51,10 @@ constexpr double kForgiven = 0.1;
 constexpr int kMostScales = 3;
 /// The scale of a robust loss need not be better known than this.
 constexpr double kScaleTolerance = 0.05;
+/// Halvings of the resolution, each four times the work; and none for data that are more exact than the model: half
+/// of their residuals, or more, is its error.
+constexpr int kMostRefinements = 4;
+constexpr double kMostShare = 0.5;
 
 /// The noise of the rows that depend on an unknown; the others (beds at rest, all of one kind) may fit
 /// exactly and say nothing.
@@ -149,6 +157,7 @@ class Run {
     const auto begin = std::chrono::steady_clock::now();
     find();
     Estimate estimate = report(spec_, parameters_, *objective_, result_);
+    refine(estimate);
     estimate.iterations = iterations_;
     estimate.left_out = left_out_;
     estimate.quantity = quantity_;
@@ -160,6 +169,43 @@ class Run {
   }
 
  private:
+  /// Goes on with a finer model while its resolution shifts the estimates by more than noise makes worth while; says
+  /// so, and what shift is left.
+  void refine(Estimate& estimate) {
+    std::string before;
+    double largest = 0;  // at first
+    for (int round = 0; estimate.usable() && estimate.status == Status::ok; ++round) {
+      const auto fine = finer(spec_.forward.method);
+      const auto found =
+          fine ? resolution_shift(*objective_, fine->method, result_.u, estimate) : std::nullopt;
+      if (!found) break;
+      Eigen::Index worst = 0;
+      const double shift = found->shift.cwiseAbs().maxCoeff(&worst);
+      if (round == 0)
+        before = fmt::format("{} = {}", fine->option, number_text(fine->before)), largest = shift;
+      const std::string now = fmt::format("{} = {}", fine->option, number_text(fine->before));
+      const bool may_refine =
+          round < kMostRefinements && fine->now < fine->before && found->share < kMostShare;
+      if (shift > kMostShift && may_refine && !control_.must_stop()) {
+        spec_.forward.method = fine->method;
+        settle(has_stages_ && has_jumps());
+        estimate = report(spec_, parameters_, *objective_, result_);
+        continue;
+      }
+      if (shift > kMostShift)
+        estimate.warnings.push_back(fmt::format(
+            "{} at {} shifts {} by about {} of its standard errors, which they do not contain: choose a "
+            "finer one",
+            spec_.forward.method.name(), now, estimate.parameters[static_cast<std::size_t>(worst)].name,
+            number_text(shift, 2)));
+      if (round > 0)
+        estimate.warnings.push_back(fmt::format(
+            "{} shifts the estimates by up to {} of their standard errors: they are those with {}", before,
+            number_text(largest, 2), now));
+      return;
+    }
+  }
+
   void find() {
     const VectorXd start = coordinates_.coordinates(parameters_.start());
     has_stages_ = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm)) &&
@@ -346,7 +392,7 @@ class Run {
     return loss;
   }
 
-  const FitSpec& spec_;
+  FitSpec spec_;  ///< its forward model may become finer
   Parameters parameters_;
   Coordinates coordinates_;
   RunControl control_;

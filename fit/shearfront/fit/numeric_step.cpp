@@ -61,7 +61,9 @@ VectorXd numeric_steps(const ResidualFunction& residuals, const VectorXd& u, con
       std::max(unit, std::sqrt(at_u.squaredNorm() / static_cast<double>(std::max<Index>(1, at_u.size()))));
   const double h = std::clamp(std::cbrt(3 * std::max(noise / size, std::numeric_limits<double>::epsilon())),
                               smallest, 0.1);
-  return h * u.cwiseAbs().cwiseMax(1.0);
+  // By powers of two: an estimate of noise is one of its order, and derivatives should not follow its digits.
+  const double rough = std::min(0.1, smallest * std::exp2(std::ceil(std::log2(h / smallest))));
+  return rough * u.cwiseAbs().cwiseMax(1.0);
 }
 
 VectorXd difference(const ResidualFunction& residuals, const VectorXd& u, const VectorXd& at_u, Index j,

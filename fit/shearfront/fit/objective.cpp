@@ -36,10 +36,12 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
   constexpr double kUlps = 4;
   const double size = (rows_.field == Observable::phi ? 1 : parameters.height()) *
                       (rows_.field == Observable::bed_height ? 1 : parameters.states());
+  std::size_t n = 0;
   for (const ResidualRows::Row& row : rows_.rows) {
     double terms = 0;
     for (const Term& term : row.model) terms += std::abs(term.coefficient);
-    terms *= 1 + static_cast<double>(row.data.size());
+    n = (row.continues ? n : 0) + row.data.size();
+    terms *= 1 + static_cast<double>(n);
     const double error = kUlps * std::numeric_limits<double>::epsilon() * row.weight * size * terms;
     rounding_misfit_ += error * error / 2;
   }

@@ -157,7 +157,10 @@ class Writer {
     const Flat flat = flat_around(minimum_.objective, minimum_.u, i);
     if (std::isinf(flat.down) && std::isinf(flat.up)) return false;
     const Parameter& p = parameters_[static_cast<std::size_t>(i)];
-    if (flat.down == 0 && flat.up == 0) {
+    // Steps of a method are far narrower than what data leave open.
+    constexpr double kStep = 0.02;
+    if (flat.down + flat.up < (minimum_.objective.has_derivatives() ? 0 : kStep) ||
+        flat.down + flat.up == 0) {
       texts_.push_back(
           fmt::format("{} has no error bar: what the misfit changes with it is lost in the steps of the "
                       "method {}; ask for a finer resolution or uncertainty.profile = true",
@@ -265,9 +268,7 @@ class Writer {
     const std::string_view measured = name_of(spec_.observations.quantity);
     const std::string& compared = spec_.misfit.quantity;
     if (compared.empty() || compared == measured) return;
-    const bool makes_rows =
-        std::any_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                    [](const ResidualRows::Row& row) { return row.data.size() > 1; });
+    const bool makes_rows = !minimum_.objective.rows().are_single();
     const bool from_points = spec_.observations.quantity == Quantity::point;
     texts_.push_back(fmt::format(
         "the data are {} values but are compared as {}: {}{}", measured, compared,
@@ -305,9 +306,7 @@ class Writer {
 
   /// Only for rows that are single observations: the others are correlated and follow another law.
   void chi_squared() {
-    const bool is_direct =
-        std::all_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                    [](const ResidualRows::Row& row) { return row.data.size() == 1; });
+    const bool is_direct = minimum_.objective.rows().are_single();
     const auto n_known = std::count(minimum_.errors.held.begin(), minimum_.errors.held.end(), true) +
                          minimum_.errors.null_directions.cols();
     const auto freedom = static_cast<double>(minimum_.at.residuals.size() - values_.size() + n_known);

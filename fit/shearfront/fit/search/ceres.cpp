@@ -65,26 +65,28 @@ class Batch final : public ceres::EvaluationCallback {
   const Objective::Evaluation* at_ = nullptr;
 };
 
-/// Residual i and its row of the Jacobian, copied from the batch.
+/// Residuals from i on and their rows of the Jacobian, copied from the batch: one for a robust loss, else all in one.
 class RowCost final : public ceres::CostFunction {
  public:
-  RowCost(const Batch& batch, Index i, Index n_coordinates) : batch_(&batch), i_(i) {
-    set_num_residuals(1);
+  RowCost(const Batch& batch, Index i, Index n_rows, Index n_coordinates)
+      : batch_(&batch), i_(i), n_(n_rows) {
+    set_num_residuals(static_cast<int>(n_rows));
     mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(n_coordinates), 1);
   }
   bool Evaluate(double const* const* /*u*/, double* residual, double** jacobians) const override {
     const Objective::Evaluation& at = batch_->at();
     if (!at.is_valid) return false;
-    residual[0] = batch_->size() * at.residuals[i_];
+    Eigen::Map<VectorXd>(residual, n_) = batch_->size() * at.residuals.segment(i_, n_);
     if (!jacobians) return true;
     for (Index j = 0; j < at.jacobian.cols(); ++j)
-      if (jacobians[j]) jacobians[j][0] = batch_->size() * at.jacobian(i_, j);
+      if (jacobians[j])
+        Eigen::Map<VectorXd>(jacobians[j], n_) = batch_->size() * at.jacobian.col(j).segment(i_, n_);
     return true;
   }
 
  private:
   const Batch* batch_;
-  Index i_;
+  Index i_, n_;
 };
 
 class RowLoss final : public ceres::LossFunction {
@@ -175,9 +177,12 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
   ceres::Problem problem(problem_options);
   std::vector<double*> blocks;
   for (Index j = 0; j < start.size(); ++j) blocks.push_back(batch.coordinate(j));
-  for (Index i = 0; i < objective.n_residuals(); ++i)
-    problem.AddResidualBlock(new RowCost(batch, i, start.size()), loss.is_robust ? &row_loss : nullptr,
-                             blocks);
+  const Index n = objective.n_residuals();
+  if (!loss.is_robust)
+    problem.AddResidualBlock(new RowCost(batch, 0, n, start.size()), nullptr, blocks);
+  else
+    for (Index i = 0; i < n; ++i)
+      problem.AddResidualBlock(new RowCost(batch, i, 1, start.size()), &row_loss, blocks);
   set_bounds(problem, batch, objective.coordinates(), fixed);
   Stop stop(allowance, batch.size() * batch.size() * objective.rounding_misfit());
   ceres::Solver::Summary summary;
