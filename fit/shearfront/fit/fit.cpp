@@ -192,7 +192,8 @@ class Run {
         estimate = report(spec_, parameters_, *objective_, result_);
         continue;
       }
-      if (shift > kMostShift)
+      // Of data that are more exact than the model the errors are the model's own, unless they are given.
+      if (shift > kMostShift && (estimate.sigma_is_given || found->share < kMostShare))
         estimate.warnings.push_back(fmt::format(
             "{} at {} shifts {} by about {} of its standard errors, which they do not contain: choose a "
             "finer one",

@@ -69,7 +69,11 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
-  if (!at.residuals.allFinite()) return at;
+  const char* const kTooLarge = "the misfit is beyond the largest number (is sigma too small?)";
+  if (!at.residuals.allFinite()) {
+    at.failure = kTooLarge;
+    return at;
+  }
   at.is_valid = true;
   at.rounding = std::sqrt(2 * rounding_misfit_);
   at.misfit = 0;
@@ -78,7 +82,7 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   if (!std::isfinite(at.misfit)) {
     at = {};
     at.misfit = std::numeric_limits<double>::infinity();
-    at.failure = "the misfit is beyond the largest number (is sigma too small?)";
+    at.failure = kTooLarge;
     return at;
   }
   if (exact) at.jacobian = rows_.jacobian(prediction.derivatives) * coordinates_->derivative(u);

@@ -54,16 +54,18 @@ std::size_t RowBuilder::place(double t, double z) {
 }
 
 /// Terms of one place added up; what cancels is left out.
-static void merge(std::vector<Term>& terms) {
+static void merge(Terms& terms) {
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.index < b.index; });
-  std::vector<Term> merged;
+  Terms merged;
   for (const Term& term : terms) {
     if (!merged.empty() && merged.back().index == term.index)
       merged.back().coefficient += term.coefficient;
     else
       merged.push_back(term);
   }
-  std::erase_if(merged, [](const Term& term) { return term.coefficient == 0; });
+  merged.erase(
+      std::remove_if(merged.begin(), merged.end(), [](const Term& term) { return term.coefficient == 0; }),
+      merged.end());
   terms = std::move(merged);
 }
 

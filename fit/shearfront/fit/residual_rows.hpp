@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -19,6 +20,9 @@ struct Term {
   double coefficient = 0;
 };
 
+/// Mostly one or two.
+using Terms = boost::container::small_vector<Term, 1>;
+
 /// Residuals that are linear in the solution and in the data:
 ///
 ///     r_i = weight_i ( sum_j c_ij X(point_j) - sum_k d_ik y_k ),     X = phi or M, y_k the observations.
@@ -28,8 +32,8 @@ struct Term {
 /// the one before: memory and time are linear in the observations.
 struct ResidualRows {
   struct Row {
-    std::vector<Term> model;  ///< c_ij, index into points
-    std::vector<Term> data;   ///< d_ik, index into the observations
+    Terms model;  ///< c_ij, index into points
+    Terms data;   ///< d_ik, index into the observations
     double target = 0, weight = 1;
     bool continues =
         false;  ///< the sums go on from the row before; model and data are what is added, target is not

@@ -65,28 +65,43 @@ class Batch final : public ceres::EvaluationCallback {
   const Objective::Evaluation* at_ = nullptr;
 };
 
+/// More rows than this take the loss into one block of residuals: blocks of their own cost half a kilobyte each.
+constexpr Index kManyRows = 100'000;
+
 /// Residuals from i on and their rows of the Jacobian, copied from the batch: one for a robust loss, else all in one.
+/// With a loss of its own the residuals are +- sqrt(rho(r^2)): the same misfit and gradient, with flatter curvature
+/// where rho bends than that of Ceres.
 class RowCost final : public ceres::CostFunction {
  public:
-  RowCost(const Batch& batch, Index i, Index n_rows, Index n_coordinates)
-      : batch_(&batch), i_(i), n_(n_rows) {
+  RowCost(const Batch& batch, Index i, Index n_rows, Index n_coordinates, const Loss* own_loss = nullptr)
+      : batch_(&batch), i_(i), n_(n_rows), loss_(own_loss) {
     set_num_residuals(static_cast<int>(n_rows));
     mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(n_coordinates), 1);
   }
   bool Evaluate(double const* const* /*u*/, double* residual, double** jacobians) const override {
     const Objective::Evaluation& at = batch_->at();
     if (!at.is_valid) return false;
-    Eigen::Map<VectorXd>(residual, n_) = batch_->size() * at.residuals.segment(i_, n_);
+    Eigen::Map<VectorXd> r(residual, n_);
+    r = at.residuals.segment(i_, n_);
+    VectorXd factor = VectorXd::Constant(n_, batch_->size());
+    for (Index i = 0; loss_ && i < n_; ++i) {
+      const LossValue value = (*loss_)(r[i] * r[i]);
+      const double root = std::sqrt(value.rho);
+      if (root > 0) factor[i] *= value.first * std::abs(r[i]) / root;
+      r[i] = std::copysign(root, r[i]);
+    }
+    r *= batch_->size();
     if (!jacobians) return true;
     for (Index j = 0; j < at.jacobian.cols(); ++j)
       if (jacobians[j])
-        Eigen::Map<VectorXd>(jacobians[j], n_) = batch_->size() * at.jacobian.col(j).segment(i_, n_);
+        Eigen::Map<VectorXd>(jacobians[j], n_) = factor.cwiseProduct(at.jacobian.col(j).segment(i_, n_));
     return true;
   }
 
  private:
   const Batch* batch_;
   Index i_, n_;
+  const Loss* loss_;
 };
 
 class RowLoss final : public ceres::LossFunction {
@@ -178,8 +193,9 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
   std::vector<double*> blocks;
   for (Index j = 0; j < start.size(); ++j) blocks.push_back(batch.coordinate(j));
   const Index n = objective.n_residuals();
-  if (!loss.is_robust)
-    problem.AddResidualBlock(new RowCost(batch, 0, n, start.size()), nullptr, blocks);
+  if (!loss.is_robust || n > kManyRows)
+    problem.AddResidualBlock(new RowCost(batch, 0, n, start.size(), loss.is_robust ? &loss : nullptr),
+                             nullptr, blocks);
   else
     for (Index i = 0; i < n; ++i)
       problem.AddResidualBlock(new RowCost(batch, i, 1, start.size()), &row_loss, blocks);
