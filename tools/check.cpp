@@ -78,8 +78,7 @@ std::string check_file(const std::string& file, const std::optional<Scene<double
       print_remarks(std::get<Scene<double>>(content).spec().remarks);
     return std::visit([](const auto& good) { return summary_text(good); }, content);
   }
-  const Observations data =
-      scene ? read_observations(file, scene->bottom(), scene->top()) : read_observations(file);
+  const Observations data = scene ? read_observations(file, *scene) : read_observations(file);
   print_remarks(data.notes);
   return summary_text(data);
 }

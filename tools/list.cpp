@@ -79,7 +79,7 @@ std::string unknowns() {
   };
   std::vector<Field> fields;
   const auto visit = [&](const SceneSpec<double>& spec, const std::string& prefix, std::string_view model) {
-    visit_fields(spec, [&](const std::string& name, Range, const auto&) {
+    visit_fields(spec, [&](const std::string& name, const FieldInfo&, const auto&) {
       auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
       if (field == fields.end()) field = fields.insert(field, {name, ""});
       // Scale stands beside the models in the file, but every scene has it.

@@ -80,7 +80,7 @@ class PolygonStack {
     return fastest;
   }
   [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
-  [[nodiscard]] static S fan_rate(std::size_t) { return S(0); }
+  [[nodiscard]] static S fan_rate(std::size_t, State, State) { return S(0); }
 
   /// The state nearest to phi; exact if phi is one.
   [[nodiscard]] State nearest(std::size_t layer, const S& phi) const {

@@ -231,7 +231,7 @@ TimeScales time_scales(const SceneSpec<double>& spec) {
 
 std::string text_of(const SceneSpec<double>& spec) {
   std::string text = "name = \"" + spec.name + "\"\n", table;
-  visit_fields(spec, [&](const std::string& key, Range, const auto& member) {
+  visit_fields(spec, [&](const std::string& key, const FieldInfo&, const auto& member) {
     const std::size_t dot = key.find('.');
     if (key.substr(0, dot) != table) {
       table = key.substr(0, dot);

@@ -56,7 +56,7 @@ TEST(NumericSteps, BalanceNoiseAndCurvature) {
       return r;
     };
     const VectorXd u = VectorXd::Constant(1, 0.7), at_u = residuals(u);
-    const double h = numeric_steps(residuals, u, at_u, 1e-9)[0];
+    const double h = numeric_steps(residuals, u, at_u, 1e-9, 1)[0];
     EXPECT_GE(h, std::cbrt(3 * sigma) / 4) << sigma;
     EXPECT_LE(h, std::cbrt(3 * sigma) * 4) << sigma;
     const VectorXd d = difference(residuals, u, at_u, 0, h);

@@ -51,10 +51,11 @@ std::string estimate_text(const fit::Estimate& estimate) {
                                                    : ""});
   }
   text += table.text();
-  text += fmt::format(
-      "\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {}\n", estimate.misfit, estimate.quantity,
-      estimate.loss, estimate.residual_norm,
-      estimate.sigma_is_given ? "as given by the data" : fmt::format("{:.3g} (estimated)", estimate.sigma));
+  text += fmt::format("\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {}\n", estimate.misfit,
+                      estimate.quantity, estimate.loss, estimate.residual_norm,
+                      estimate.sigma_is_given      ? "as given by the data"
+                      : std::isnan(estimate.sigma) ? "not known"
+                                                   : fmt::format("{:.3g} (estimated)", estimate.sigma));
   if (estimate.aic && estimate.bic)
     text += fmt::format("AIC {:.6g}, BIC {:.6g}\n", *estimate.aic, *estimate.bic);
   text += fmt::format("{} observations", estimate.observations);

@@ -143,6 +143,7 @@ Bootstrap bootstrap(const FitSpec& spec, const Parameters& parameters, const Est
   result.intervals.resize(parameters.size());
   const bool is_predicted = std::all_of(estimate.predicted.begin(), estimate.predicted.end(),
                                         [](double x) { return std::isfinite(x); });
+  if (std::isnan(estimate.sigma)) return result;  // too few data: said already
   if (!(estimate.sigma > 0) || !is_predicted) {
     result.warnings.emplace_back("no bootstrap: the noise of the data is not known");
     return result;

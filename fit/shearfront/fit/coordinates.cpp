@@ -12,38 +12,44 @@ using Eigen::VectorXd;
 
 Coordinates::Coordinates(const Parameters& parameters) : shape_(parameters.shape()) {
   const auto n = static_cast<Index>(parameters.size());
-  lower_.resize(n);
-  upper_.resize(n);
-  lowest_values_.resize(n);
-  highest_values_.resize(n);
+  for (VectorXd* of_each : {&lower_, &upper_, &lowest_values_, &highest_values_, &units_, &origins_})
+    of_each->resize(n);
   for (const Parameter& p : parameters) {
-    const auto i = static_cast<Index>(is_logarithmic_.size());
-    const bool is_positive = p.entry.range == Range::positive;
+    const auto i = static_cast<Index>(is_positive_.size());
     const bool is_shaped = shape_ != Shape::none && p.entry.field == "shear_rate.values";
     names_.push_back(p.name());
-    is_positive_.push_back(is_positive);
-    is_logarithmic_.push_back(is_positive);
+    is_positive_.push_back(p.entry.range == Range::positive);
+    units_[i] = p.unit;
+    origins_[i] = p.origin;
     lowest_values_[i] = p.lower;
     highest_values_[i] = p.upper;
-    lower_[i] = is_positive ? std::log(p.lower) : p.lower;
-    upper_[i] = is_positive ? std::log(p.upper) : p.upper;
+    lower_[i] = scaled(i, p.lower);
+    upper_[i] = scaled(i, p.upper);
     if (is_shaped) shaped_.push_back(i);
   }
   for (std::size_t k = 0; k + 1 < shaped_.size(); ++k) {
-    is_logarithmic_[static_cast<std::size_t>(shaped_[k])] = false;
     lower_[shaped_[k]] = 0;
-    upper_[shaped_[k]] = highest_values_[shaped_[k]] - lowest_values_[shaped_.back()];
+    upper_[shaped_[k]] = (highest_values_[shaped_[k]] - lowest_values_[shaped_.back()]) / step_unit();
   }
+}
+
+double Coordinates::scaled(Index j, double p) const {
+  return is_positive(j) ? 1 + std::log(p / units_[j]) : (p - origins_[j]) / units_[j];
+}
+
+double Coordinates::unscaled(Index j, double u) const {
+  return is_positive(j) ? units_[j] * std::exp(u - 1) : origins_[j] + units_[j] * u;
 }
 
 VectorXd Coordinates::values(const VectorXd& u) const {
   VectorXd p(u.size());
   for (Index i = 0; i < u.size(); ++i)
-    p[i] = is_logarithmic_[static_cast<std::size_t>(i)] ? std::exp(u[i]) : u[i];
+    p[i] = u[i] == lower_[i] ? lowest_values_[i] : u[i] == upper_[i] ? highest_values_[i] : unscaled(i, u[i]);
   double step = 0;
   for (std::size_t k = shaped_.size(); k-- > 1;) {
     const Index above = shaped_[k], below = shaped_[k - 1];
-    step = shape_ == Shape::convex ? step + u[below] : u[below];
+    const double change = step_unit() * u[below];
+    step = shape_ == Shape::convex ? step + change : change;
     p[below] = p[above] + step;
   }
   return p;
@@ -55,12 +61,11 @@ VectorXd Coordinates::coordinates(const VectorXd& p) const {
 
 VectorXd Coordinates::unbounded(const VectorXd& p) const {
   VectorXd u(p.size());
-  for (Index i = 0; i < p.size(); ++i)
-    u[i] = is_logarithmic_[static_cast<std::size_t>(i)] ? std::log(p[i]) : p[i];
+  for (Index i = 0; i < p.size(); ++i) u[i] = scaled(i, p[i]);
   double last_step = 0;
   for (std::size_t k = shaped_.size(); k-- > 1;) {
     const double step = p[shaped_[k - 1]] - p[shaped_[k]];
-    u[shaped_[k - 1]] = shape_ == Shape::convex ? step - last_step : step;
+    u[shaped_[k - 1]] = (shape_ == Shape::convex ? step - last_step : step) / step_unit();
     last_step = step;
   }
   return u;
@@ -83,13 +88,12 @@ std::vector<Index> Coordinates::bound_together(Index j) const {
 
 MatrixXd Coordinates::derivative(const VectorXd& u) const {
   MatrixXd d = MatrixXd::Zero(u.size(), u.size());
-  for (Index i = 0; i < u.size(); ++i)
-    d(i, i) = is_logarithmic_[static_cast<std::size_t>(i)] ? std::exp(u[i]) : 1;
+  for (Index i = 0; i < u.size(); ++i) d(i, i) = slope(i, unscaled(i, u[i]));
   Eigen::RowVectorXd step = Eigen::RowVectorXd::Zero(u.size());
   for (std::size_t k = shaped_.size(); k-- > 1;) {
     const Index above = shaped_[k], below = shaped_[k - 1];
     if (shape_ != Shape::convex) step.setZero();
-    step[below] += 1;
+    step[below] += step_unit();
     d.row(below) = d.row(above) + step;
   }
   return d;

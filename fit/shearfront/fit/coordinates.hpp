@@ -8,13 +8,16 @@
 
 namespace shearfront::fit {
 
-/// The coordinates u a search moves in, as many as parameters p.
+/// The coordinates u a search moves in, as many as parameters p. They have no unit and are of order one, so that
+/// steps and tolerances are numbers: with unit and origin of Parameter,
 ///
-///   positive entries        u = log p (a factor 10 is the same step everywhere)
-///   heights, concentrations u = p
-///   shape decreasing        for the values v_0..v_n of a(z):  u_n = log v_n,  u_k = v_k - v_{k+1} >= 0
-///   shape convex            u_n = log v_n,  u_{n-1} = v_{n-1} - v_n >= 0,
-///                           u_k = (v_k - v_{k+1}) - (v_{k+1} - v_{k+2}) >= 0
+///   positive entries   u = 1 + log(p / unit) (a factor 10 is the same step everywhere; 1 at the start, so that a
+///                      relative change of u is one of p)
+///   others             u = (p - origin) / unit
+///   shape decreasing   for the values v_0..v_n of a(z):  u_n = 1 + log(v_n / unit),  w u_k = v_k - v_{k+1} >= 0,
+///                      w the unit of v_0
+///   shape convex       u_n as before,  w u_{n-1} = v_{n-1} - v_n >= 0,
+///                      w u_k = (v_k - v_{k+1}) - (v_{k+1} - v_{k+2}) >= 0
 ///
 /// so every point of the box lower() <= u <= upper() has the shape, and its faces are the limits of the
 /// shape. Bounds of the parameters become bounds of the coordinates where one follows from the other (no
@@ -27,7 +30,7 @@ class Coordinates {
   [[nodiscard]] Eigen::Index size() const { return lower_.size(); }
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
-  [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& u) const;       ///< p(u)
+  [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& u) const;       ///< p(u); bounds exactly
   [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& p) const;  ///< u(p), inside the box
   /// Which coordinates are at a bound: exactly, or within the step a search could still make.
   [[nodiscard]] std::vector<bool> at_bound(const Eigen::VectorXd& u) const;
@@ -39,10 +42,14 @@ class Coordinates {
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& u) const;
 
   [[nodiscard]] const std::string& name(Eigen::Index j) const { return names_[static_cast<std::size_t>(j)]; }
-  [[nodiscard]] bool is_logarithmic(Eigen::Index j) const {
-    return is_logarithmic_[static_cast<std::size_t>(j)];
-  }
   [[nodiscard]] bool is_positive(Eigen::Index j) const { return is_positive_[static_cast<std::size_t>(j)]; }
+  /// u_j of a value p_j and back, as if there were no shape, and dp_j/du_j at p_j.
+  [[nodiscard]] double scaled(Eigen::Index j, double p) const;
+  [[nodiscard]] double unscaled(Eigen::Index j, double u) const;
+  [[nodiscard]] double slope(Eigen::Index j, double p) const { return is_positive(j) ? p : units_[j]; }
+  [[nodiscard]] double unit(Eigen::Index j) const { return units_[j]; }
+  /// w, which makes numbers of the steps of a shape.
+  [[nodiscard]] double step_unit() const { return units_[shaped_.front()]; }
   [[nodiscard]] Shape shape() const { return shape_; }
   /// Positions of v_0..v_n if there is a shape, otherwise empty; all but the last are steps u_k >= 0.
   [[nodiscard]] const std::vector<Eigen::Index>& shaped() const { return shaped_; }
@@ -52,10 +59,10 @@ class Coordinates {
 
  private:
   std::vector<std::string> names_;
-  std::vector<bool> is_logarithmic_, is_positive_;
+  std::vector<bool> is_positive_;
   std::vector<Eigen::Index> shaped_;  ///< positions of v_0..v_n if there is a shape
   Shape shape_;
-  Eigen::VectorXd lower_, upper_, lowest_values_, highest_values_;
+  Eigen::VectorXd lower_, upper_, lowest_values_, highest_values_, units_, origins_;
 };
 
 }  // namespace shearfront::fit

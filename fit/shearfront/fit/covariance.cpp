@@ -67,7 +67,8 @@ Decomposition decompose(const Objective::Evaluation& at, const std::vector<bool>
   for (Index c = 0; c < n; ++c) {
     const Index j = parts.free[static_cast<std::size_t>(c)];
     const double error = at.column_error.size() > 0 ? at.column_error[j] : 0;
-    if (!(parts.norm[c] > kUnseen * largest) || error > kNoise) parts.norm[c] = 0;
+    if (!(parts.norm[c] > std::max(kUnseen * largest, kSeen * at.rounding)) || error > kNoise)
+      parts.norm[c] = 0;
     if (!(parts.norm[c] > 0)) continue;
     scaled.col(c).head(n_rows) = at.jacobian.col(j) / parts.norm[c];
     error2 += error * error;
@@ -90,10 +91,12 @@ Decomposition decompose(const Objective::Evaluation& at, const std::vector<bool>
 MatrixXd noise_to_coordinates(const ResidualRows& rows, const Observations& observations,
                               const MatrixXd& pseudo_inverse) {
   MatrixXd moved = MatrixXd::Zero(pseudo_inverse.rows(), static_cast<Index>(observations.rows.size()));
-  for (Index i = 0; i < rows.size(); ++i) {
+  VectorXd sum = VectorXd::Zero(pseudo_inverse.rows());  // of the rows that go on from row i, and itself
+  for (Index i = rows.size(); i-- > 0;) {
     const ResidualRows::Row& row = rows.rows[static_cast<std::size_t>(i)];
-    for (const Term& term : row.data)
-      moved.col(static_cast<Index>(term.index)) += row.weight * term.coefficient * pseudo_inverse.col(i);
+    sum += row.weight * pseudo_inverse.col(i);
+    for (const Term& term : row.data) moved.col(static_cast<Index>(term.index)) += term.coefficient * sum;
+    if (!row.continues) sum.setZero();
   }
   for (Index k = 0; k < moved.cols(); ++k) {
     const double sigma = observations.rows[static_cast<std::size_t>(k)].sigma;

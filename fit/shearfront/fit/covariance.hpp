@@ -32,7 +32,8 @@ struct Covariance {
 /// v = mean psi^2 / (mean psi')^2 from the residuals, times n / (n - |J K B|^2), and needs no noise (Huber 1981,
 /// section 7.6). Coordinates marked `held` are known: left out. The pseudo-inverse is by singular values of J with
 /// columns scaled to norm one; those below kRankTolerance of the largest (or below the error of a numeric J) are
-/// null, columns below kUnseen of the largest unseen. Guarantees: scaling of a coordinate scales its entries;
+/// null, columns below kUnseen of the largest, or
+/// below kSeen times what rounding makes of the residuals, unseen. Guarantees: scaling of a coordinate scales its entries;
 /// held or undetermined coordinates do not change the others' entries. Cost: O(rows n^2).
 [[nodiscard]] Covariance covariance(const ResidualRows& rows, const Observations& observations,
                                     const Objective::Evaluation& at, const Loss& loss, double noise,
@@ -44,7 +45,7 @@ struct Covariance {
                                                    const Eigen::MatrixXd& derivative);
 
 inline constexpr double kRankTolerance = 1e-7;
-inline constexpr double kUnseen = 1e-12;
+inline constexpr double kUnseen = 1e-12, kSeen = 1e3;
 /// Entries of a unit null direction (columns scaled to norm one) below this are rounding.
 inline constexpr double kNullEntry = 1e-4;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,25 +12,28 @@
 
 #include "shearfront/fit/bootstrap.hpp"
 #include "shearfront/fit/coordinates.hpp"
+#include "shearfront/fit/flat.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/profile_likelihood.hpp"
 #include "shearfront/fit/report.hpp"
+#include "shearfront/fit/resolution_shift.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
 
 using Eigen::VectorXd;
 
-/// Residuals at rounding level say nothing about noise: no scale is taken from them.
+/// Residuals at rounding level, in the unit of the rows, say nothing about noise: no scale is taken from them.
 constexpr double kRounding = 1e-11;
-/// Every row agrees: no jump is on the wrong side of an observation.
+/// Every row agrees, in the unit of the rows: no jump is on the wrong side of an observation.
 constexpr double kExact = 1e-9;
 constexpr int kMostRenewals = 6;
 /// Relative tolerance of the first stages: only a start for the last one.
@@ -39,13 +44,17 @@ constexpr double kRough = 1e-4;
 constexpr std::size_t kWidestBin = 32;
 /// Further starts lie within this factor of the first: bounds are often far wider.
 constexpr double kWidestStart = 20;
-/// Scale of the loss, in phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
+/// Scale of the loss, in widths of the range of phi, of the stage with means of phi: jumps are larger, noise is mostly smaller.
 constexpr double kForgiven = 0.1;
 /// The noise is taken from the residuals that often: what it is taken from again and again shrinks, for a
 /// robust fit goes through some of the data.
 constexpr int kMostScales = 3;
 /// The scale of a robust loss need not be better known than this.
 constexpr double kScaleTolerance = 0.05;
+/// Halvings of the resolution, each four times the work; and none for data that are more exact than the model: half
+/// of their residuals, or more, is its error.
+constexpr int kMostRefinements = 4;
+constexpr double kMostShare = 0.5;
 
 /// The noise of the rows that depend on an unknown; the others (beds at rest, all of one kind) may fit
 /// exactly and say nothing.
@@ -57,7 +66,16 @@ double median_noise(const Objective::Evaluation& at) {
   return median_deviation(std::move(residuals));
 }
 
-ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
+/// Rows in units of sigma, or in the unit of what they compare.
+ResidualRows with_unit(ResidualRows rows, std::string_view quantity, const FitSpec& spec,
+                       const Parameters& parameters) {
+  const bool is_height = quantity == BedHeightMisfit::kName, is_sum = quantity == CumulativeMisfit::kName;
+  if (!spec.observations.has_sigma())
+    rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
+  return rows;
+}
+
+ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Parameters& parameters) {
   ResidualRows rows;
   std::string refusal;
   if (!MisfitList::contains(quantity))
@@ -68,11 +86,13 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec) {
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
-  return rows;
+  return with_unit(std::move(rows), quantity, spec, parameters);
 }
 
-void set_weights(ResidualRows& rows, double weight) {
-  for (ResidualRows::Row& row : rows.rows) row.weight = weight;
+/// Residuals beside `size`, which has their unit.
+void set_size(ResidualRows& rows, double size) {
+  for (ResidualRows::Row& row : rows.rows) row.weight = 1 / size;
+  rows.unit = 1;
 }
 
 /// Mean distance of neighbouring heights of one time.
@@ -125,7 +145,7 @@ class Run {
         quantity_(quantity_of(spec)),
         loss_name_(loss_of(spec)),
         loss_(find_loss(loss_name_, spec.misfit.loss_scale.value_or(0))),
-        rows_(rows_of(quantity_, spec)),
+        rows_(rows_of(quantity_, spec, parameters_)),
         progress_(progress) {
     check_uncertainty(spec);
     const auto names = algorithm_names();
@@ -137,6 +157,7 @@ class Run {
     const auto begin = std::chrono::steady_clock::now();
     find();
     Estimate estimate = report(spec_, parameters_, *objective_, result_);
+    refine(estimate);
     estimate.iterations = iterations_;
     estimate.left_out = left_out_;
     estimate.quantity = quantity_;
@@ -148,6 +169,44 @@ class Run {
   }
 
  private:
+  /// Goes on with a finer model while its resolution shifts the estimates by more than noise makes worth while; says
+  /// so, and what shift is left.
+  void refine(Estimate& estimate) {
+    std::string before;
+    double largest = 0;  // at first
+    for (int round = 0; estimate.usable() && estimate.status == Status::ok; ++round) {
+      const auto fine = finer(spec_.forward.method);
+      const auto found =
+          fine ? resolution_shift(*objective_, fine->method, result_.u, estimate) : std::nullopt;
+      if (!found) break;
+      Eigen::Index worst = 0;
+      const double shift = found->shift.cwiseAbs().maxCoeff(&worst);
+      if (round == 0)
+        before = fmt::format("{} = {}", fine->option, number_text(fine->before)), largest = shift;
+      const std::string now = fmt::format("{} = {}", fine->option, number_text(fine->before));
+      const bool may_refine =
+          round < kMostRefinements && fine->now < fine->before && found->share < kMostShare;
+      if (shift > kMostShift && may_refine && !control_.must_stop()) {
+        spec_.forward.method = fine->method;
+        settle(has_stages_ && has_jumps());
+        estimate = report(spec_, parameters_, *objective_, result_);
+        continue;
+      }
+      // Of data that are more exact than the model the errors are the model's own, unless they are given.
+      if (shift > kMostShift && (estimate.sigma_is_given || found->share < kMostShare))
+        estimate.warnings.push_back(fmt::format(
+            "{} at {} shifts {} by about {} of its standard errors, which they do not contain: choose a "
+            "finer one",
+            spec_.forward.method.name(), now, estimate.parameters[static_cast<std::size_t>(worst)].name,
+            number_text(shift, 2)));
+      if (round > 0)
+        estimate.warnings.push_back(fmt::format(
+            "{} shifts the estimates by up to {} of their standard errors: they are those with {}", before,
+            number_text(largest, 2), now));
+      return;
+    }
+  }
+
   void find() {
     const VectorXd start = coordinates_.coordinates(parameters_.start());
     has_stages_ = spec_.misfit.two_stage.value_or(uses_derivatives(spec_.search.algorithm)) &&
@@ -156,6 +215,18 @@ class Run {
       find_from_many(start);
     else
       find_from(start);
+    // Which points a shock is near depends on the estimate, and so does the misfit of the others.
+    for (Eigen::Index round = 0; round < start.size() && result_.status == Status::ok && !has_jumps();
+         ++round) {
+      const auto beyond = beyond_flat(*objective_, u_);
+      if (!beyond) break;
+      const SearchResult before = result_;
+      find_from(*beyond);
+      if (result_.misfit <= before.misfit) continue;
+      result_ = before;
+      u_ = before.u;
+      break;
+    }
   }
 
   void find_from(const VectorXd& start) {
@@ -201,7 +272,7 @@ class Run {
   [[nodiscard]] double forgiving_misfit() {
     if (!loss_.is_robust && !left_out_) return objective_->evaluate(u_, false).misfit;
     ResidualRows rows = rows_;
-    set_weights(rows, 1);
+    set_size(rows, parameters_.states());
     return make_objective(std::move(rows), find_loss(CauchyLoss::kName, kForgiven))
         ->evaluate(u_, false)
         .misfit;
@@ -238,18 +309,18 @@ class Run {
   /// for.
   void approach() {
     if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
-    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_);
+    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
     const bool is_point = spec_.observations.quantity == Quantity::point;
     // Sums of points are wrong by about the spacing at every shock, whatever the noise.
-    if (is_point) set_weights(sums, 1 / mean_spacing(spec_.observations));
+    if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
     const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
     if (is_point) first->set_tether(u_, 1);
     search_from_here(*first, kNear);
     if (spec_.observations.quantity == Quantity::bin) narrow_bins();
     if (!is_point || control_.must_stop()) return;
     // Wrong in the cells of a shock only, where the loss forgives it.
-    ResidualRows means = rows_of(BinMisfit::kName, spec_);
-    set_weights(means, 1);
+    ResidualRows means = rows_of(BinMisfit::kName, spec_, parameters_);
+    set_size(means, parameters_.states());
     // The bias of the sums may have put their smallest minimum into another valley.
     if (spec_.search.algorithm == "global") has_searched_ = false;
     search_from_here(*make_objective(std::move(means), find_loss(CauchyLoss::kName, kForgiven)), kNear);
@@ -262,10 +333,12 @@ class Run {
     for (const MeasuredProfile& profile : measured_profiles(spec_.observations))
       most = std::max(most, profile.rows.size());
     for (std::size_t n = std::min<std::size_t>(kWidestBin, most / 2); n > 1 && !control_.must_stop(); n /= 2)
-      search_from_here(*make_objective(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(),
-                                                            spec_.scene.top(), n),
-                                       find_loss(SquaredLoss::kName, 0)),
-                       kNear);
+      search_from_here(
+          *make_objective(
+              with_unit(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(), spec_.scene.top(), n),
+                        BinMisfit::kName, spec_, parameters_),
+              find_loss(SquaredLoss::kName, 0)),
+          kNear);
   }
 
   /// The misfit asked for. What it depends on besides the parameters, the rows without a jump and the noise
@@ -283,7 +356,7 @@ class Run {
       bool is_settled = !(leaves_out_jumps && renew_rows(keep));
       is_settled = !renew_scale() && is_settled;
       const Objective::Evaluation& at = objective_->evaluate(u_, false);
-      const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact;
+      const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact * rows_.unit;
       is_settled = is_settled || is_exact || round == kMostRenewals;
       search_from_here(*objective_, is_settled ? 0 : kRough);
       if (is_settled || control_.must_stop()) break;
@@ -306,7 +379,7 @@ class Run {
   bool renew_scale() {
     if (!loss_.is_robust || spec_.observations.has_sigma() || n_scales_ == kMostScales) return false;
     const Objective::Evaluation& at = objective_->evaluate(u_, true);
-    const double now = at.is_valid ? std::max(median_noise(at), kRounding) : 1;
+    const double now = at.is_valid ? std::max(median_noise(at), kRounding * rows_.unit) : rows_.unit;
     if (n_scales_ > 0 && std::abs(now - noise_) <= kScaleTolerance * noise_) return false;
     noise_ = now;
     ++n_scales_;
@@ -320,7 +393,7 @@ class Run {
     return loss;
   }
 
-  const FitSpec& spec_;
+  FitSpec spec_;  ///< its forward model may become finer
   Parameters parameters_;
   Coordinates coordinates_;
   RunControl control_;

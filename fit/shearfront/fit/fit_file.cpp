@@ -79,9 +79,9 @@ class FitReader {
       uncertainty(*table);
     root.finish();
 
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const double bottom = scene_ ? scene_->bottom() : -kInfinity, top = scene_ ? scene_->top() : kInfinity;
-    if (data_path) load("observations", [&] { data_ = read_observations(*data_path, bottom, top); });
+    if (data_path)
+      load("observations",
+           [&] { data_ = scene_ ? read_observations(*data_path, *scene_) : read_observations(*data_path); });
     check_unknown();
     check_quantity();
     throw_if_any();

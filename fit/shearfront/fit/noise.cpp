@@ -73,18 +73,20 @@ Noise noise_of(const Objective& objective, const Observations& observations, con
   const bool is_robust = objective.loss().is_robust;
   const std::vector<ResidualRows::Row>& rows = objective.rows().rows;
   const std::vector<bool> depends = dependent_rows(at.jacobian);
-  const bool is_direct = std::all_of(rows.begin(), rows.end(),
-                                     [](const ResidualRows::Row& row) { return row.data.size() == 1; });
   std::vector<double> residuals;
-  if (is_direct) {
+  if (objective.rows().are_single()) {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (depends[i]) residuals.push_back(at.residuals[static_cast<Index>(i)]);
     return noise_from(residuals, n_free, is_robust);
   }
   std::vector<bool> is_used(predicted.size(), false);
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  bool depends_later = false;  // some row whose sum row i is part of
+  for (std::size_t i = rows.size(); i-- > 0;) {
+    depends_later = depends_later || depends[i];
     for (const Term& term : rows[i].data)
-      if (depends[i] && std::isfinite(predicted[term.index])) is_used[term.index] = true;
+      if (depends_later && std::isfinite(predicted[term.index])) is_used[term.index] = true;
+    if (!rows[i].continues) depends_later = false;
+  }
   for (std::size_t k = 0; k < predicted.size(); ++k)
     if (is_used[k]) residuals.push_back(predicted[k] - observations.rows[k].value);
   return noise_from(residuals, n_free, is_robust || observations.quantity == Quantity::point);

@@ -37,7 +37,7 @@ double computational_noise(const VectorXd& values) {
 }
 
 VectorXd numeric_steps(const ResidualFunction& residuals, const VectorXd& u, const VectorXd& at_u,
-                       double smallest) {
+                       double smallest, double unit) {
   constexpr Index kValues = 9;
   constexpr double kTiny = 1e-7;
   // Steps of different size in each coordinate, so that no symmetry of the scene hides the noise.
@@ -58,10 +58,12 @@ VectorXd numeric_steps(const ResidualFunction& residuals, const VectorXd& u, con
   }
   const double noise = std::sqrt(sum / static_cast<double>(std::max<Index>(1, at_u.size())));
   const double size =
-      std::max(1.0, std::sqrt(at_u.squaredNorm() / static_cast<double>(std::max<Index>(1, at_u.size()))));
+      std::max(unit, std::sqrt(at_u.squaredNorm() / static_cast<double>(std::max<Index>(1, at_u.size()))));
   const double h = std::clamp(std::cbrt(3 * std::max(noise / size, std::numeric_limits<double>::epsilon())),
                               smallest, 0.1);
-  return h * u.cwiseAbs().cwiseMax(1.0);
+  // By powers of two: an estimate of noise is one of its order, and derivatives should not follow its digits.
+  const double rough = std::min(0.1, smallest * std::exp2(std::ceil(std::log2(h / smallest))));
+  return rough * u.cwiseAbs().cwiseMax(1.0);
 }
 
 VectorXd difference(const ResidualFunction& residuals, const VectorXd& u, const VectorXd& at_u, Index j,
@@ -74,6 +76,23 @@ VectorXd difference(const ResidualFunction& residuals, const VectorXd& u, const 
   if (above.size() == at_u.size()) return (above - at_u) / (up[j] - u[j]);
   if (below.size() == at_u.size()) return (at_u - below) / (u[j] - down[j]);
   return VectorXd::Constant(at_u.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+Difference best_difference(const ResidualFunction& residuals, const VectorXd& u, const VectorXd& at_u,
+                           Index j, double step) {
+  const double longest = kLongestStep * std::max(1.0, std::abs(u[j]));
+  Difference best{difference(residuals, u, at_u, j, step), step, 0};
+  VectorXd fine = best.column;
+  for (bool is_first = true; is_first || (best.error > kGoodColumn && 2 * step <= longest);
+       is_first = false) {
+    const VectorXd coarse = difference(residuals, u, at_u, j, 2 * step);
+    const double norm = fine.norm(), error = norm > 0 ? (coarse - fine).norm() / norm : 0;
+    if (is_first || error < best.error) best = {fine, step, error};
+    if (!coarse.allFinite()) break;
+    fine = coarse;
+    step *= 2;
+  }
+  return best;
 }
 
 }  // namespace shearfront::fit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/objective.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -31,7 +32,20 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
       rows_(std::move(rows)),
       loss_(loss),
       control_(&control),
-      forward_(parameters, forward, rows_.field, rows_.points) {}
+      forward_(parameters, forward, rows_.field, rows_.points) {
+  constexpr double kUlps = 4;
+  const double size = (rows_.field == Observable::phi ? 1 : parameters.height()) *
+                      (rows_.field == Observable::bed_height ? 1 : parameters.states());
+  std::size_t n = 0;
+  for (const ResidualRows::Row& row : rows_.rows) {
+    double terms = 0;
+    for (const Term& term : row.model) terms += std::abs(term.coefficient);
+    n = (row.continues ? n : 0) + row.data.size();
+    terms *= 1 + static_cast<double>(n);
+    const double error = kUlps * std::numeric_limits<double>::epsilon() * row.weight * size * terms;
+    rounding_misfit_ += error * error / 2;
+  }
+}
 
 void Objective::set_loss(Loss loss) {
   loss_ = loss;
@@ -55,11 +69,22 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
-  if (!at.residuals.allFinite()) return at;
+  const char* const kTooLarge = "the misfit is beyond the largest number (is sigma too small?)";
+  if (!at.residuals.allFinite()) {
+    at.failure = kTooLarge;
+    return at;
+  }
   at.is_valid = true;
+  at.rounding = std::sqrt(2 * rounding_misfit_);
   at.misfit = 0;
   for (Index i = 0; i < at.residuals.size(); ++i)
     at.misfit += loss_(at.residuals[i] * at.residuals[i]).rho / 2;
+  if (!std::isfinite(at.misfit)) {
+    at = {};
+    at.misfit = std::numeric_limits<double>::infinity();
+    at.failure = kTooLarge;
+    return at;
+  }
   if (exact) at.jacobian = rows_.jacobian(prediction.derivatives) * coordinates_->derivative(u);
   if (centre_.size() > 0) add_tether(u, at);
   return at;
@@ -81,18 +106,23 @@ void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* con
     if (control) control->count(std::numeric_limits<double>::infinity());
     return there.is_valid ? there.residuals : VectorXd();
   };
-  if (step_.size() == 0) step_ = numeric_steps(residuals, u, at.residuals, forward_.smallest_step());
+  if (step_.size() == 0)
+    step_ = numeric_steps(residuals, u, at.residuals, forward_.smallest_step(), rows_.unit);
   at.jacobian.resize(at.residuals.size(), u.size());
   if (!control) at.column_error = VectorXd::Zero(u.size());
   for (Index j = 0; j < u.size(); ++j) {
-    at.jacobian.col(j) = difference(residuals, u, at.residuals, j, step_[j]);
-    if (control) continue;
-    // Noise halves and truncation grows fourfold with the double step: what changes is of their size.
-    const VectorXd coarse = difference(residuals, u, at.residuals, j, 2 * step_[j]);
-    const double norm = at.jacobian.col(j).norm();
-    at.column_error[j] = norm > 0 ? (coarse - at.jacobian.col(j)).norm() / norm : 0;
+    if (control) {
+      at.jacobian.col(j) = difference(residuals, u, at.residuals, j, step_[j]);
+      continue;
+    }
+    const Difference best = best_difference(residuals, u, at.residuals, j, step_[j]);
+    at.jacobian.col(j) = best.column;
+    at.column_error[j] = best.error;
   }
   at.is_valid = at.jacobian.allFinite();
+  for (Index j = 0; j < u.size() && !at.is_valid; ++j)
+    if (!at.jacobian.col(j).allFinite())
+      at.failure = "there is none a small step to either side in " + coordinates_->name(j);
 }
 
 VectorXd Objective::gradient(const Evaluation& at) const {

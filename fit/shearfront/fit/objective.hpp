@@ -38,6 +38,7 @@ class Objective {
     Eigen::MatrixXd jacobian;      ///< row = residual, column = coordinate; empty unless asked for
     double misfit = 0;             ///< infinite if not valid
     Eigen::VectorXd column_error;  ///< of a numeric jacobian from inspect(), relative; empty: rounding only
+    double rounding = 0;           ///< norm of what rounding alone makes of the residuals
   };
   /// dF/du = sum_i rho'(r_i^2) r_i dr_i/du from an evaluation with its Jacobian.
   [[nodiscard]] Eigen::VectorXd gradient(const Evaluation& at) const;
@@ -50,12 +51,16 @@ class Objective {
   /// much here, to know its error.
   [[nodiscard]] Evaluation inspect(const Eigen::VectorXd& u, bool with_jacobian) const;
 
+  [[nodiscard]] const Parameters& parameters() const { return *parameters_; }
   [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }
   [[nodiscard]] const ResidualRows& rows() const { return rows_; }
   [[nodiscard]] const Loss& loss() const { return loss_; }
   [[nodiscard]] const Forward& forward() const { return forward_; }
   [[nodiscard]] RunControl& control() const { return *control_; }
   [[nodiscard]] bool has_derivatives() const { return forward_.has_derivatives(); }
+  /// The misfit that rounding alone makes: sum (kUlps eps weight_i X sum_j |c_ij| (1 + n_i))^2 / 2 for solutions of
+  /// size X and residuals made of n_i observations. A search that is there has nothing left to find.
+  [[nodiscard]] double rounding_misfit() const { return rounding_misfit_; }
   void set_loss(Loss loss);
   /// Adds the residuals tether * (u - centre): keeps directions the data hardly see near the centre.
   void set_tether(Eigen::VectorXd centre, double tether);
@@ -72,7 +77,7 @@ class Objective {
   Loss loss_;
   RunControl* control_;
   Eigen::VectorXd centre_;
-  double tether_ = 0;
+  double tether_ = 0, rounding_misfit_ = 0;
   Forward forward_;
   mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
   Eigen::VectorXd last_u_;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "shearfront/io/text.hpp"
+#include "shearfront/scene/state_range.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -34,6 +35,11 @@ std::vector<std::string> field_names(const std::vector<Entry>& all) {
 /// "2.5" or "(3 entries)" for the length of an array.
 std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entries)"; }
 
+/// A piece of the initial state or of what lies beyond an end.
+bool is_piece_of_state(const std::string& field) {
+  return field == "initial.values" || field == "boundary.bottom.values" || field == "boundary.top.values";
+}
+
 }  // namespace
 
 Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
@@ -45,6 +51,39 @@ Parameters::Parameters(const Scene<double>& scene, const UnknownSpec& unknown)
   if (complaints.empty()) check_shape(complaints);
   if (complaints.empty()) make_start_scene(complaints);
   if (!complaints.empty()) throw InputError(std::move(complaints));
+  set_units();
+}
+
+double Parameters::states() const {
+  const StateRange<double> all = state_range(start_scene_.spec());
+  return all.highest - all.lowest;
+}
+
+void Parameters::set_units() {
+  const Scene<double>& scene = start_scene_;
+  const StateRange<double> states = state_range(scene.spec());
+  double least = kInfinity, most = -kInfinity;  // of the fluxes
+  for (const Flux<double>& flux : scene.spec().fluxes) {
+    std::vector<double> places = flux.extrema();
+    places.push_back(flux.range().lowest);
+    places.push_back(flux.range().highest);
+    for (const double phi : places) {
+      least = std::min(least, flux.value(phi));
+      most = std::max(most, flux.value(phi));
+    }
+  }
+  for (Parameter& p : parameters_) {
+    const bool is_positive = p.entry.range == Range::positive;
+    const auto set = [&](double origin, double unit) { p.origin = origin, p.unit = unit > 0 ? unit : 1; };
+    if (is_positive)
+      set(0, p.start);
+    else if (p.entry.measure == Measure::height)
+      set(scene.bottom(), scene.top() - scene.bottom());
+    else if (p.entry.measure == Measure::state)
+      set(states.lowest, states.highest - states.lowest);
+    else if (p.entry.measure == Measure::flux)
+      set(0, most - least);
+  }
 }
 
 void Parameters::make_start_scene(Complaints& complaints) {
@@ -93,7 +132,10 @@ void Parameters::set_defaults() {
     p.start = *places[places_[i]];
     p.lower = -kInfinity;
     p.upper = kInfinity;
-    if (p.entry.field == "initial.values") p.lower = 0, p.upper = 1;
+    if (is_piece_of_state(p.entry.field)) {
+      const StateRange<double> states = common_states(spec);
+      p.lower = states.lowest, p.upper = states.highest;
+    }
     if (p.entry.field == "initial.breaks" || p.entry.field == "shear_rate.breaks")
       p.lower = scene_.bottom(), p.upper = scene_.top();
   }

@@ -16,6 +16,10 @@ namespace shearfront::fit {
 struct Parameter {
   Entry entry;
   double start = 0, lower = 0, upper = 0;
+  /// What a change of it is small or large beside, > 0: its start value if it must be positive, otherwise by its
+  /// Measure the height of the bed, the width of the range of states, the span of the flux, or 1.
+  double unit = 1;
+  double origin = 0;  ///< where it is counted from: the bottom, the least state, or 0
   [[nodiscard]] std::string name() const { return entry.name(); }
 };
 
@@ -23,8 +27,8 @@ struct Parameter {
 ///
 /// A name is a field ("shear_rate.values": all its entries) or one entry ("shear_rate.values[1]"). Start
 /// values default to those of the scene, bounds to kWidest times smaller and larger than the start for
-/// entries that must be positive, to the domain for heights, to 0..1 for concentrations, and to none
-/// (infinite) otherwise. Guaranteed: lower <= start <= upper, lower < upper, the scene is valid at the start,
+/// entries that must be positive, to the domain for breaks, to the states that all fluxes allow for states at the
+/// start and beyond the ends, and to none (infinite) otherwise. Guaranteed: lower <= start <= upper, lower < upper, the scene is valid at the start,
 /// no entry twice; with a shape all entries of shear_rate.values are unknown and their start values have that
 /// shape. Errors: InputError with the keys of a fit file (unknown.parameters[0], unknown.start[2], ...).
 class Parameters {
@@ -43,6 +47,9 @@ class Parameters {
   [[nodiscard]] const Scene<double>& start_scene() const { return start_scene_; }
   /// Place of each parameter among entries(scene().spec()).
   [[nodiscard]] const std::vector<std::size_t>& entries() const { return places_; }
+  /// Height of the bed and width of the range of states at the start: what phi, and M in heights, are numbers of.
+  [[nodiscard]] double height() const { return start_scene_.top() - start_scene_.bottom(); }
+  [[nodiscard]] double states() const;
   [[nodiscard]] Eigen::VectorXd start() const;
   /// Whether all values keep their bounds.
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
@@ -58,6 +65,7 @@ class Parameters {
   void set_numbers(const UnknownSpec& unknown, Complaints& complaints);
   void check_shape(Complaints& complaints) const;
   void make_start_scene(Complaints& complaints);
+  void set_units();
 
   Scene<double> scene_, start_scene_;
   std::vector<Parameter> parameters_;

@@ -190,7 +190,7 @@ class Profiler {
         progress_(progress),
         local_(spec.search),
         forward_(spec.forward),
-        quantile_(quantile_of(estimate)),
+        quantile_(estimate.sigma > 0 ? quantile_of(estimate) : kUnknown),
         u_(coordinates_.size()) {
     for (Index j = 0; j < u_.size(); ++j) u_[j] = estimate.parameters[static_cast<std::size_t>(j)].estimate;
     u_ = coordinates_.coordinates(u_);

@@ -59,12 +59,12 @@ std::vector<RatePlace> places_of(const Scene<double>& scene) {
 /// One unknown, a step up and down.
 struct RateDirection {
   std::size_t index = 0;
-  double value = 0, step = 0;
+  double size = 0, step = 0;  ///< size: of its value or, if it may be of any sign, its unit
   SceneSpec<double> above, below;
   /// d log(s a) / d p; 0 where it is rounding.
   [[nodiscard]] double slope(double z) const {
     const double slope = std::log(rate_at(above, z) / rate_at(below, z)) / (2 * step);
-    return std::abs(slope * value) > kNoPart ? slope : 0;
+    return std::abs(slope * size) > kNoPart ? slope : 0;
   }
 };
 
@@ -76,11 +76,12 @@ std::vector<RateDirection> directions_of(const Parameters& parameters, const Est
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (estimate.scene->is_layered() && parameters[i].entry.field == "shear_rate.breaks") continue;
     const auto k = static_cast<Eigen::Index>(i);
-    const double value = values[k], step = kDifference * std::max(std::abs(value), 1e-300);
+    const bool is_positive = parameters[i].entry.range == Range::positive;
+    const double size = is_positive ? values[k] : parameters[i].unit, step = kDifference * size;
     Eigen::VectorXd above = values, below = values;
     above[k] += step;
     below[k] -= step;
-    directions.push_back({i, value, step, parameters.scene_with(above), parameters.scene_with(below)});
+    directions.push_back({i, size, step, parameters.scene_with(above), parameters.scene_with(below)});
   }
   return directions;
 }

@@ -51,7 +51,7 @@ void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
   const auto n = static_cast<double>(estimate.predicted.size());
   auto p = static_cast<double>(estimate.parameters.size());
   if (!estimate.sigma_is_given) {
-    if (!(chi2 > 0)) return;
+    if (!(chi2 > 0) || !(estimate.freedom > 0)) return;
     chi2 = n * std::log(chi2 / n);
     p += 1;  // the noise is estimated as well
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -18,28 +20,38 @@ struct Term {
   double coefficient = 0;
 };
 
+/// Mostly one or two.
+using Terms = boost::container::small_vector<Term, 1>;
+
 /// Residuals that are linear in the solution and in the data:
 ///
 ///     r_i = weight_i ( sum_j c_ij X(point_j) - sum_k d_ik y_k ),     X = phi or M, y_k the observations.
 ///
 /// weight_i = 1 / sigma_i with sigma_i^2 = sum_k d_ik^2 sigma_k^2 from the noise of the observations, taken
-/// as independent; 1 in place of sigma_k where it is not known.
+/// as independent; 1 in place of sigma_k where it is not known. Running sums are kept as what each row adds to
+/// the one before: memory and time are linear in the observations.
 struct ResidualRows {
   struct Row {
-    std::vector<Term> model;  ///< c_ij, index into points
-    std::vector<Term> data;   ///< d_ik, index into the observations
+    Terms model;  ///< c_ij, index into points
+    Terms data;   ///< d_ik, index into the observations
     double target = 0, weight = 1;
+    bool continues =
+        false;  ///< the sums go on from the row before; model and data are what is added, target is not
   };
   Observable field = Observable::phi;
   std::vector<Place> points;
   std::vector<Row> rows;
+  /// Size of what the residuals are differences of: they are numbers beside it. 1 where they are in units of sigma.
+  double unit = 1;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
   /// weight_i (model - target) for values at the points.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& values) const;
   /// The same combination of derivatives at the points (row = point).
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::MatrixXd& derivatives) const;
-  /// Only the rows marked; the points stay.
+  /// Whether every row is one observation, so that residuals are as independent as these.
+  [[nodiscard]] bool are_single() const;
+  /// Only the rows marked; the points stay. Precondition: no row continues another.
   [[nodiscard]] ResidualRows selected(const std::vector<bool>& keep) const;
 };
 
@@ -48,6 +60,8 @@ class RowBuilder {
  public:
   RowBuilder(const Observations& observations, Observable field) : observations_(&observations) {
     rows_.field = field;
+    for (const Observation& o : observations.rows)
+      slack_ = std::max(slack_, kSamePlace * (std::abs(o.z) + o.width / 2));
   }
 
   /// A coefficient of X(t, z) in the row being built.
@@ -61,19 +75,23 @@ class RowBuilder {
     data(k, 1);
     finish_row();
   }
-  /// Finishes the row and starts the next one with its terms: running sums.
+  /// Finishes the row; the next one adds to its sums. Terms of one observation must follow each other.
   void finish_row_of_sum();
-  void clear_row() { row_ = {}; }
+  void end_sum();
   [[nodiscard]] ResidualRows take() { return std::move(rows_); }
 
  private:
-  /// Edges of neighbouring bins, z + width / 2 and z' - width' / 2, agree up to rounding of decimal numbers.
+  /// Edges of neighbouring bins, z + width / 2 and z' - width' / 2, agree up to rounding of decimal numbers, relative
+  /// to the largest.
   static constexpr double kSamePlace = 1e-13;
   [[nodiscard]] std::size_t place(double t, double z);
 
   const Observations* observations_;
+  double slack_ = 0;
   ResidualRows rows_;
   ResidualRows::Row row_;
+  double target_ = 0, variance_ = 0;  ///< of the sum so far, without the last observation in the variance
+  Term last_;                         ///< that observation
   std::map<Place, std::size_t> places_;
 };
 

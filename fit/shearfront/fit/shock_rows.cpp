@@ -10,7 +10,7 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr double kJump = 0.005;
+constexpr double kJump = 0.005;  ///< of the width of the range of states
 constexpr std::size_t kParts = 16;
 /// A jump changes phi within two parts by so many times what two ordinary parts do.
 constexpr double kSteeper = 5;
@@ -36,14 +36,14 @@ std::vector<Neighbourhood> neighbourhoods(const Observations& observations, doub
 }
 
 /// Values at the ends of equal parts of an interval.
-bool has_jump(const Eigen::VectorXd& phi) {
+bool has_jump(const Eigen::VectorXd& phi, double least) {
   std::vector<double> changes;  // over two parts: a grid spreads a jump over an edge
   for (Eigen::Index part = 2; part < phi.size(); ++part)
     changes.push_back(std::abs(phi[part] - phi[part - 2]));
   const double most = *std::max_element(changes.begin(), changes.end());
   const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
   std::nth_element(changes.begin(), middle, changes.end());
-  return most > kJump && most > kSteeper * *middle;
+  return most > least && most > kSteeper * *middle;
 }
 
 }  // namespace
@@ -58,13 +58,14 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
     ends.push_back({here.t, here.high});
   }
   if (ends.empty()) return keep;
+  const double jump = kJump * parameters.states();
   const Prediction at_ends = Forward(parameters, forward, Observable::phi, ends).predict(values, false);
   if (!at_ends.is_valid()) return keep;
   std::vector<Neighbourhood> steep;
   std::vector<Place> inside;
   for (std::size_t i = 0; i < near.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(2 * i);
-    if (!(std::abs(at_ends.values[k + 1] - at_ends.values[k]) > kJump)) continue;
+    if (!(std::abs(at_ends.values[k + 1] - at_ends.values[k]) > jump)) continue;
     steep.push_back(near[i]);
     for (std::size_t part = 0; part <= kParts; ++part)
       inside.push_back(
@@ -75,7 +76,7 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
   if (!at.is_valid()) return keep;
   for (std::size_t i = 0; i < steep.size(); ++i) {
     keep[steep[i].row] =
-        !has_jump(at.values.segment(static_cast<Eigen::Index>(i * (kParts + 1)), kParts + 1));
+        !has_jump(at.values.segment(static_cast<Eigen::Index>(i * (kParts + 1)), kParts + 1), jump);
   }
   return keep;
 }

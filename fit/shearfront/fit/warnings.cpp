@@ -8,6 +8,8 @@
 #include <set>
 #include <string_view>
 
+#include "shearfront/fit/flat.hpp"
+#include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -130,21 +132,51 @@ class Writer {
     for (const auto direction : minimum_.errors.null_directions.colwise()) {
       VectorXd change = derivative * direction;
       for (Index i = 0; i < change.size(); ++i)
-        if (is_relative(i)) change[i] /= values_[i];
+        change[i] /= is_relative(i) ? values_[i] : parameters_[static_cast<std::size_t>(i)].unit;
       change /= change.lpNorm<Eigen::Infinity>();
       std::vector<Index> involved;
       for (Index i = 0; i < change.size(); ++i)
         if (std::abs(change[i]) > kNullEntry) involved.push_back(i);
+      for (const Index i : involved)
+        if (!is_relative(i)) change[i] *= parameters_[static_cast<std::size_t>(i)].unit;
       if (involved.size() == 1)
         unseen.push_back(involved.front());
-      else
+      else if (!are_too_few())
         confounded(involved, change / change[involved.front()]);
     }
     std::sort(unseen.begin(), unseen.end());
+    std::erase_if(unseen, [&](Index i) { return is_seen_elsewhere(i); });
     if (!unseen.empty())
       texts_.push_back(fmt::format("{} {} not seen by these data: no observation depends on {}",
                                    names_of(parameters_, unseen), unseen.size() == 1 ? "is" : "are",
                                    unseen.size() == 1 ? "it" : "them"));
+  }
+  /// Says how far an unknown is not seen, if that is not everywhere.
+  [[nodiscard]] bool is_seen_elsewhere(Index i) {
+    if (parameters_.shape() != Shape::none) return false;
+    const Flat flat = flat_around(minimum_.objective, minimum_.u, i);
+    if (std::isinf(flat.down) && std::isinf(flat.up)) return false;
+    const Parameter& p = parameters_[static_cast<std::size_t>(i)];
+    // Steps of a method are far narrower than what data leave open.
+    constexpr double kStep = 0.02;
+    if (flat.down + flat.up < (minimum_.objective.has_derivatives() ? 0 : kStep) ||
+        flat.down + flat.up == 0) {
+      texts_.push_back(
+          fmt::format("{} has no error bar: what the misfit changes with it is lost in the steps of the "
+                      "method {}; ask for a finer resolution or uncertainty.profile = true",
+                      p.name(), spec_.forward.method.name()));
+      return true;
+    }
+    const auto value = [&](double distance) {
+      const double u = minimum_.u[i] + distance;
+      return std::clamp(coordinates_.unscaled(i, u), p.lower, p.upper);
+    };
+    const double low = std::isinf(flat.down) ? p.lower : value(-flat.down);
+    const double high = std::isinf(flat.up) ? p.upper : value(flat.up);
+    texts_.push_back(
+        fmt::format("{} is not seen by these data between {} and {}: the misfit is the same there", p.name(),
+                    short_text(low), short_text(high)));
+    return true;
   }
   [[nodiscard]] bool is_relative(Index i) const {
     return parameters_[static_cast<std::size_t>(i)].entry.range == Range::positive;
@@ -168,12 +200,32 @@ class Writer {
                     names_of(parameters_, involved), direction));
   }
 
+  /// Observations that depend on an unknown.
+  [[nodiscard]] std::size_t n_seeing() const {
+    const std::vector<bool> depends = dependent_rows(minimum_.at.jacobian);
+    return static_cast<std::size_t>(std::count(depends.begin(), depends.end(), true));
+  }
+  /// Too few to determine the unknowns, let alone their noise: few_data() says so.
+  [[nodiscard]] bool are_too_few() const {
+    return std::isnan(estimate_.sigma) && n_seeing() < parameters_.size();
+  }
+
   void few_data() {
-    if (!std::isnan(estimate_.sigma)) return;
+    const std::size_t n = n_seeing();
+    if (!std::isnan(estimate_.sigma) || n == 0) return;  // unseen unknowns are named
+    const std::string data = fmt::format("{} observation{}{}", n, n == 1 ? "" : "s",
+                                         n == estimate_.observations ? "" : " that depend on the unknowns");
+    const std::string unknowns =
+        fmt::format("{} unknown{}", parameters_.size(), parameters_.size() == 1 ? "" : "s");
     texts_.push_back(
-        fmt::format("{} observations for {} unknowns leave nothing to estimate the noise from: there "
-                    "are no error bars; give sigma with the data",
-                    estimate_.observations, parameters_.size()));
+        are_too_few()
+            ? fmt::format(
+                  "{} cannot determine {}: the estimates are one of many solutions, without error bars", data,
+                  unknowns)
+            : fmt::format(
+                  "{} for {} leave nothing to estimate the noise from: there are no error bars; give sigma "
+                  "with the data",
+                  data, unknowns));
   }
 
   void huge_errors() {
@@ -216,9 +268,7 @@ class Writer {
     const std::string_view measured = name_of(spec_.observations.quantity);
     const std::string& compared = spec_.misfit.quantity;
     if (compared.empty() || compared == measured) return;
-    const bool makes_rows =
-        std::any_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                    [](const ResidualRows::Row& row) { return row.data.size() > 1; });
+    const bool makes_rows = !minimum_.objective.rows().are_single();
     const bool from_points = spec_.observations.quantity == Quantity::point;
     texts_.push_back(fmt::format(
         "the data are {} values but are compared as {}: {}{}", measured, compared,
@@ -256,9 +306,7 @@ class Writer {
 
   /// Only for rows that are single observations: the others are correlated and follow another law.
   void chi_squared() {
-    const bool is_direct =
-        std::all_of(minimum_.objective.rows().rows.begin(), minimum_.objective.rows().rows.end(),
-                    [](const ResidualRows::Row& row) { return row.data.size() == 1; });
+    const bool is_direct = minimum_.objective.rows().are_single();
     const auto n_known = std::count(minimum_.errors.held.begin(), minimum_.errors.held.end(), true) +
                          minimum_.errors.null_directions.cols();
     const auto freedom = static_cast<double>(minimum_.at.residuals.size() - values_.size() + n_known);

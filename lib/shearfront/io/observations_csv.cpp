@@ -14,6 +14,7 @@
 #include "shearfront/io/detail/observation_columns.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/scene/state_range.hpp"
 
 namespace shearfront {
 namespace {
@@ -26,6 +27,8 @@ using detail::Position;
 using detail::TextSource;
 
 constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent
+/// A value this many times farther off than any that is possible is no measurement with noise.
+constexpr double kImpossible = 1000;
 
 bool is_missing(std::string_view text) { return text.empty() || text == "NA"; }
 
@@ -46,6 +49,10 @@ class ObservationsReader {
  public:
   ObservationsReader(const TextSource& source, double bottom, double top)
       : source_(source), report_(source.name(), kMostComplaints), bottom_(bottom), top_(top) {}
+  ObservationsReader(const TextSource& source, const Scene<double>& scene)
+      : ObservationsReader(source, scene.bottom(), scene.top()) {
+    phi_ = phi_range(scene);
+  }
 
   Observations read() {
     const std::string_view text = source_.text();
@@ -65,6 +72,7 @@ class ObservationsReader {
     }
     check_sigma();
     check_places();
+    check_sizes();
     report_.throw_if_any();
     note_range();
     return std::move(result_);
@@ -231,16 +239,53 @@ class ObservationsReader {
     }
   }
 
+  void check_sizes() {
+    if (!phi_ || !columns_) return;
+    const bool is_sum = result_.quantity == Quantity::cumulative;
+    StateRange<double> possible = *phi_;
+    if (result_.quantity == Quantity::bed_height) possible = {0, 1};
+    const double height = result_.quantity == Quantity::bed_height || is_sum ? top_ - bottom_ : 1;
+    const double width = height * (possible.highest - possible.lowest);
+    const double lowest =
+        height * std::min(possible.lowest, is_sum ? 0.0 : possible.lowest) - kImpossible * width;
+    const double highest = height * possible.highest + kImpossible * width;
+    for (std::size_t i = 0; i < result_.rows.size(); ++i) {
+      const double value = result_.rows[i].value;
+      if (value >= lowest && value <= highest) continue;
+      const Column column = columns_->value();
+      report_.add(
+          position_of(origins_[i], column),
+          {fmt::format("{}[{}]", name_of(column), origins_[i].row), number_text(value),
+           fmt::format("must lie near what the scene allows, {} to {}",
+                       number_text(height * possible.lowest, 6), number_text(height * possible.highest, 6))});
+    }
+  }
+
   void note_range() {
     if (result_.quantity == Quantity::cumulative) return;
     if (result_.quantity == Quantity::bed_height) return note_heights();
+    if (phi_ && !(phi_->lowest == 0 && phi_->highest <= 1)) return note_states();
     const auto largest =
         std::max_element(result_.rows.begin(), result_.rows.end(),
                          [](const Observation& a, const Observation& b) { return a.value < b.value; });
     if (largest->value > kPlausiblePhi)
-      result_.notes.push_back(fmt::format(
-          "{}: phi goes up to {}; it must be a fraction, 1 where all grains are small (is it in percent?)",
-          printable(source_.name()), number_text(largest->value)));
+      result_.notes.push_back(
+          fmt::format("{}: phi goes up to {}; {} (is it in percent?)", printable(source_.name()),
+                      number_text(largest->value),
+                      phi_ ? "it must be a fraction, 1 where all grains are small"
+                           : "it must be a fraction unless the flux of its scene has other states"));
+  }
+
+  void note_states() {
+    const double width = phi_->highest - phi_->lowest;
+    for (const Observation& o : result_.rows) {
+      if (o.value <= phi_->highest + width && o.value >= phi_->lowest - width) continue;
+      result_.notes.push_back(
+          fmt::format("{}: phi = {} where the flux has states from {} to {} (in another unit?)",
+                      printable(source_.name()), number_text(o.value), number_text(phi_->lowest, 6),
+                      number_text(phi_->highest, 6)));
+      return;
+    }
   }
 
   /// A bed whose grains have come apart is as high as the domain, one that mixes hardly lower.
@@ -262,6 +307,7 @@ class ObservationsReader {
   const TextSource& source_;
   ComplaintReport report_;
   double bottom_, top_;
+  std::optional<StateRange<double>> phi_;  ///< that the scene allows, if there is one
   std::optional<ObservationColumns> columns_;
   std::vector<CsvField> fields_;  ///< of the line that is being read
   std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
@@ -273,6 +319,10 @@ class ObservationsReader {
 
 Observations read_observations(const std::string& path, double bottom, double top) {
   return ObservationsReader(TextSource::read(path), bottom, top).read();
+}
+
+Observations read_observations(const std::string& path, const Scene<double>& scene) {
+  return ObservationsReader(TextSource::read(path), scene).read();
 }
 
 Observations parse_observations(std::string text, const std::string& file, double bottom, double top) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "shearfront/io/file_error.hpp"
+#include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/observation.hpp"
 
 /// Files of observations (CSV; the format is described in docs/formats).
@@ -31,6 +32,11 @@ inline constexpr std::size_t kMostComplaints = 20;
 [[nodiscard]] Observations read_observations(const std::string& path,
                                              double bottom = -std::numeric_limits<double>::infinity(),
                                              double top = std::numeric_limits<double>::infinity());
+
+/// The same for measurements of a scene, whose fluxes say which phi are possible. A note says so where some are
+/// beyond them by the width of their range; in one that is a thousand times wider every value must lie (M and H
+/// likewise, by the height of the bed): what is beyond is a mistake, and would drown all others in a fit.
+[[nodiscard]] Observations read_observations(const std::string& path, const Scene<double>& scene);
 
 /// The same from a text; `file` is the name used in messages.
 [[nodiscard]] Observations parse_observations(std::string text, const std::string& file,

@@ -18,10 +18,15 @@ namespace shearfront {
 /// What a single number must satisfy (besides being finite, which all must be).
 enum class Range { any, positive };
 
+/// What a number of any sign is a number of: a change of it is small or large beside the height of the bed, the
+/// width of the range of states, or the largest flux. A number that must be positive is its own measure.
+enum class Measure { number, height, state, flux };
+
 struct FieldInfo {
   std::string_view key;  ///< name inside the model's table, e.g. "values"
   Range range = Range::any;
   bool is_optional = false;  ///< a scene file may leave it out; the member's initial value then counts
+  Measure measure = Measure::number;
 };
 
 /// An entry that is one of a few names, in the order of the enumerators of the member. A model with such

@@ -15,6 +15,7 @@ struct Entry {
   std::size_t index = 0;  ///< inside the array; 0 for a single number
   bool is_element = false;
   Range range = Range::any;
+  Measure measure = Measure::number;
   /// "shear_rate.values[1]", "shear_rate.scale"
   [[nodiscard]] std::string name() const {
     return is_element ? field + "[" + std::to_string(index) + "]" : field;
@@ -25,11 +26,12 @@ struct Entry {
 template <Real Scalar>
 [[nodiscard]] std::vector<Entry> entries(const SceneSpec<Scalar>& spec) {
   std::vector<Entry> all;
-  visit_fields(spec, [&](const std::string& field, Range range, const auto& member) {
+  visit_fields(spec, [&](const std::string& field, const FieldInfo& info, const auto& member) {
     if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Scalar>) {
-      all.push_back({field, 0, false, range});
+      all.push_back({field, 0, false, info.range, info.measure});
     } else {
-      for (std::size_t i = 0; i < member.size(); ++i) all.push_back({field, i, true, range});
+      for (std::size_t i = 0; i < member.size(); ++i)
+        all.push_back({field, i, true, info.range, info.measure});
     }
   });
   return all;
@@ -40,7 +42,7 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] std::vector<Scalar*> entry_places(SceneSpec<Scalar>& spec) {
   std::vector<Scalar*> places;
-  visit_fields(spec, [&](const std::string&, Range, auto& member) {
+  visit_fields(spec, [&](const std::string&, const FieldInfo&, auto& member) {
     if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Scalar>) {
       places.push_back(&member);
     } else {

@@ -76,22 +76,24 @@ template <class Spec>
   return spec.fluxes.size() == 1 ? "flux." : "flux[" + std::to_string(i) + "].";
 }
 
-/// Calls visit(key, Range, member) for every numeric field of a scene file, in the order of the file; key is
+/// Calls visit(key, FieldInfo, member) for every numeric field of a scene file, in the order of the file; key is
 /// the full name ("shear_rate.values"), member a Scalar or a vector of them, const as the specification is.
 template <class Spec, class Visit>
 void visit_fields(Spec& spec, Visit&& visit) {
+  constexpr FieldInfo kPositive{.key = "", .range = Range::positive},
+      kHeight{.key = "", .measure = Measure::height}, kState{.key = "", .measure = Measure::state};
   const auto with_prefix = [&](const std::string& prefix) {
     return [&visit, prefix](const FieldInfo& info, auto& member) {
-      visit(prefix + std::string(info.key), info.range, member);
+      visit(prefix + std::string(info.key), info, member);
     };
   };
   for (std::size_t i = 0; i < spec.fluxes.size(); ++i) {
     const std::string prefix = flux_prefix(spec, i);
     spec.fluxes[i].fields(spec.fluxes[i], with_prefix(prefix));
-    if (i > 0) visit(prefix + "above", Range::any, spec.flux_breaks[i - 1]);
+    if (i > 0) visit(prefix + "above", kHeight, spec.flux_breaks[i - 1]);
   }
   std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);
-  visit(std::string("shear_rate.scale"), Range::positive, spec.scale);
+  visit(std::string("shear_rate.scale"), kPositive, spec.scale);
   const auto optional_model = [&](auto& optional, const std::string& prefix) {
     if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
   };
@@ -100,21 +102,20 @@ void visit_fields(Spec& spec, Visit&& visit) {
   optional_model(spec.close_packing, "close_packing.");
   if (spec.diffusion) {
     // 0 stands for none; what is positive is found by its logarithm in a fit.
-    visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? Range::any : Range::positive,
-          spec.diffusion->D);
+    visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? FieldInfo{} : kPositive, spec.diffusion->D);
     optional_model(spec.diffusion->variation, "diffusion.");
   }
   optional_model(spec.initial_state, "initial.");
   if (!spec.initial_state) {
-    visit(std::string("initial.breaks"), Range::any, spec.initial_breaks);
-    visit(std::string("initial.values"), Range::any, spec.initial_values);
+    visit(std::string("initial.breaks"), kHeight, spec.initial_breaks);
+    visit(std::string("initial.values"), kState, spec.initial_values);
   }
-  visit(std::string("domain.bottom"), Range::any, spec.bottom);
-  visit(std::string("domain.top"), Range::any, spec.top);
+  visit(std::string("domain.bottom"), kHeight, spec.bottom);
+  visit(std::string("domain.top"), kHeight, spec.top);
   const auto outside = [&](auto& optional, const std::string& prefix) {
     if (!optional) return;
-    visit(prefix + "breaks", Range::positive, optional->breaks);
-    visit(prefix + "values", Range::any, optional->values);
+    visit(prefix + "breaks", kPositive, optional->breaks);
+    visit(prefix + "values", kState, optional->values);
   };
   outside(spec.outside_bottom, "boundary.bottom.");
   outside(spec.outside_top, "boundary.top.");

@@ -137,8 +137,13 @@ class LevelGrid {
 
   /// Whether l | r is one step of a fan (as opposed to a shock).
   [[nodiscard]] static bool is_fan_step(std::size_t, State l, State r) { return l < r; }
-  /// d(speed)/d(u) inside a fan of the quadratic flux.
-  [[nodiscard]] S fan_rate(std::size_t layer) const { return S(8) * capacity(layer); }
+  /// |d(speed)/d(phi)| inside the step l | r of a fan.
+  [[nodiscard]] S fan_rate(std::size_t layer, State, State) const {
+    const S rate = S(8) * capacity(layer);
+    if (ranges_.empty()) return rate;
+    const S width = ranges_[layer].highest - ranges_[layer].lowest;
+    return rate / (width * width);
+  }
 
  private:
   /// u of a state.

@@ -19,7 +19,7 @@ struct Snapshot {
   std::vector<Scalar> z;
   std::vector<std::size_t> layer;  ///< of the piece above z[i]
   std::vector<State> state;        ///< of the piece above z[i]; one less than z
-  std::vector<bool> is_fan;        ///< whether z[i] is a step of a fan
+  std::vector<bool> is_front;      ///< whether z[i] is a front, not a boundary
   std::vector<Scalar> age;         ///< time since the front at z[i] was born, 0 for boundaries
 };
 
@@ -29,7 +29,7 @@ template <StateGrid Grid, Real Scalar>
                                            const Scalar& now) {
   Snapshot<Scalar> s;
   const std::size_t n = fronts.n_fronts() + fronts.n_boundaries();
-  s.z.reserve(n), s.layer.reserve(n), s.state.reserve(n), s.is_fan.reserve(n), s.age.reserve(n);
+  s.z.reserve(n), s.layer.reserve(n), s.state.reserve(n), s.is_front.reserve(n), s.age.reserve(n);
   fronts.for_each([&](FrontIndex i, const FrontNode<Scalar>& node) {
     Scalar z = node.position(now);
     const bool is_boundary = fronts.is_boundary(i);
@@ -42,10 +42,10 @@ template <StateGrid Grid, Real Scalar>
     if (node.next == kNoFront) return;
     s.state.push_back(node.above);
     s.layer.push_back(node.layer);
-    s.is_fan.push_back(!is_boundary && grid.is_fan_step(node.layer, node.below, node.above));
+    s.is_front.push_back(!is_boundary);
     s.age.push_back(is_boundary ? Scalar(0) : now - node.t);
   });
-  s.is_fan.push_back(false);
+  s.is_front.push_back(false);
   s.age.push_back(Scalar(0));
   return s;
 }

@@ -24,7 +24,7 @@ struct FrontTrackingSolver {
     return g;
   }
   /// States constant between fronts have no derivative in the numbers of the scene; the lines through them
-  /// do, and are closer to the solution: for the fluxes that have them.
+  /// do, and are closer to the solution.
   static void prefer_smooth(const Scene<double>& scene, Options& options);
   /// M of the states themselves is of second order and varies more smoothly than M of the lines through them.
   static void prefer_amounts(Options& options) { options.reconstruct = Reconstruction::constant; }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "shearfront/numeric/number_text.hpp"
@@ -18,9 +17,6 @@ namespace {
 
 // A record of 40 bytes per level: beyond this a grid would need more memory than a workstation has.
 constexpr double kMaxLevels = 4e8;
-
-template <class Grid>
-constexpr bool kIsLevelGrid = std::is_same_v<Grid, LevelGrid<double>>;
 
 /// Why the grid cannot be built; empty if it can.
 std::string refusal_of_levels(const LayerStack<double>& stack, const TrackOptions& options) {
@@ -52,8 +48,8 @@ std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& sta
   if (stack.is_plain()) return refusal_of_levels(stack, options);
   if (options.grid != GridKind::levels)
     return "the singular-mapping grid is known for the quadratic flux only";
-  if (options.reconstruct != Reconstruction::constant)
-    return "the linear reconstruction is known for the quadratic flux only";
+  if (options.reconstruct != Reconstruction::constant && has_smooth_solid_fraction(scene))
+    return "the linear reconstruction is not known where c varies smoothly";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
@@ -91,8 +87,7 @@ template <class AnyTracker>
 Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene,
                            const LayerStack<double>& stack, Reconstruction reconstruct) {
   if (has_smooth_solid_fraction(scene)) return solid_profile(tracker, scene, stack);
-  if constexpr (kIsLevelGrid<std::decay_t<decltype(tracker.grid())>>)
-    if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
+  if (reconstruct == Reconstruction::linear) return linear_profile(tracker);
   return tracker.profile();
 }
 

@@ -89,7 +89,22 @@ class UnimodalGrid {
   }
   /// Bound for |speed| in all layers.
   [[nodiscard]] const S& fastest() const { return fastest_; }
-  [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
+  /// Whether l | r is one step of a fan: neighbouring vertices between which the flux is curved, in the order in
+  /// which they move apart. A contact along a straight piece of the flux is none.
+  [[nodiscard]] bool is_fan_step(std::size_t layer, State l, State r) const {
+    const Class& c = class_of(layer);
+    const State lo = l < r ? l : r, hi = l < r ? r : l;
+    if (lo == hi || c.next[index(lo)] != hi) return false;
+    if (!(slope_change(c, l, r) > 0)) return false;
+    return !is_straight(fluxes_[c.flux], c.share[index(lo)], c.share[index(hi)]);
+  }
+  /// |d(speed)/d(phi)| inside the step l | r of a fan.
+  [[nodiscard]] S fan_rate(std::size_t layer, State l, State r) const {
+    const Class& c = class_of(layer);
+    const S turn = slope_change(c, l, r), run = c.share[index(r)] - c.share[index(l)];
+    const S rate = layers_[layer].rate * turn / (layers_[layer].solid_fraction * run);
+    return rate < 0 ? S(-rate) : rate;
+  }
 
  private:
   /// Layers with the same levels at the same shares phi / c.
@@ -110,6 +125,10 @@ class UnimodalGrid {
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
 
   [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
+  /// f' at the second state less f' at the first.
+  [[nodiscard]] S slope_change(const Class& c, State from, State to) const {
+    return fluxes_[c.flux].derivative(c.share[index(to)]) - fluxes_[c.flux].derivative(c.share[index(from)]);
+  }
   [[nodiscard]] const Class& class_of(std::size_t layer) const { return classes_[layers_[layer].id]; }
   [[nodiscard]] State top(std::size_t layer) const { return class_of(layer).top; }
   [[nodiscard]] State level(std::size_t layer, State i) const {

@@ -34,7 +34,7 @@ struct CumulativeMisfit {
         add_trapezoids(builder, observations, profile);
       else
         for (const std::size_t k : profile.rows) builder.row_of(k);
-      builder.clear_row();
+      builder.end_sum();
     }
     return builder.take();
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "shearfront/fit/objective.hpp"
@@ -34,18 +33,5 @@ class Allowance {
   const RunControl* control_;
   std::size_t end_;
 };
-
-/// The misfit that rounding alone makes: sum (kUlps eps weight_i (sum_j |c_ij| + n_i))^2 / 2 for solutions of
-/// order one and residuals made of n_i observations. A search that is there has nothing left to find.
-[[nodiscard]] inline double rounding_misfit(const Objective& objective) {
-  constexpr double kUlp = 2.2e-16, kUlps = 4;
-  double sum = 0;
-  for (const ResidualRows::Row& row : objective.rows().rows) {
-    auto size = static_cast<double>(row.data.size());
-    for (const Term& term : row.model) size += std::abs(term.coefficient);
-    sum += std::pow(kUlps * kUlp * row.weight * size, 2) / 2;
-  }
-  return sum;
-}
 
 }  // namespace shearfront::fit

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "shearfront/fit/search/allowance.hpp"
 #include "shearfront/fit/search/search.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -20,7 +24,8 @@ using Eigen::VectorXd;
 /// All residuals come from one run of the forward model, made here before Ceres asks for them one by one.
 class Batch final : public ceres::EvaluationCallback {
  public:
-  Batch(Objective& objective, const VectorXd& start) : objective_(&objective), u_(start), best_u_(start) {}
+  Batch(Objective& objective, const VectorXd& start)
+      : objective_(&objective), u_(start), best_u_(start), size_(1 / objective.rows().unit) {}
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool /*new_evaluation_point*/) override {
     at_ = &objective_->evaluate(u_, evaluate_jacobians);
@@ -28,56 +33,97 @@ class Batch final : public ceres::EvaluationCallback {
       best_misfit_ = at_->misfit;
       best_u_ = u_;
     }
+    if (!at_->is_valid)
+      failure_ = at_->failure.empty() ? "it is out of bounds" : at_->failure, failed_u_ = u_;
   }
 
   [[nodiscard]] const Objective::Evaluation& at() const { return *at_; }
+  /// Ceres has limits for residuals of order one: it is given them as numbers beside their unit, times this.
+  [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] const Objective& objective() const { return *objective_; }
   [[nodiscard]] double* coordinate(Index j) { return &u_[j]; }
   [[nodiscard]] const VectorXd& best_u() const { return best_u_; }
   [[nodiscard]] double best_misfit() const { return best_misfit_; }
+  /// Where the last evaluation that failed was, and why; empty if none did.
+  [[nodiscard]] std::string failure() const {
+    if (failure_.empty()) return {};
+    const Coordinates& coordinates = objective_->coordinates();
+    const VectorXd values = coordinates.values(failed_u_);
+    std::string at;
+    for (Index j = 0; j < values.size(); ++j)
+      at += (j == 0 ? "" : ", ") + coordinates.name(j) + " = " + number_text(values[j], 6);
+    return "the model has no solution at " + at + ": " + failure_;
+  }
 
  private:
   Objective* objective_;
   VectorXd u_, best_u_;
+  double size_;
+  VectorXd failed_u_;
+  std::string failure_;
   double best_misfit_ = std::numeric_limits<double>::infinity();
   const Objective::Evaluation* at_ = nullptr;
 };
 
-/// Residual i and its row of the Jacobian, copied from the batch.
+/// More rows than this take the loss into one block of residuals: blocks of their own cost half a kilobyte each.
+constexpr Index kManyRows = 100'000;
+
+/// Residuals from i on and their rows of the Jacobian, copied from the batch: one for a robust loss, else all in one.
+/// With a loss of its own the residuals are +- sqrt(rho(r^2)): the same misfit and gradient, with flatter curvature
+/// where rho bends than that of Ceres.
 class RowCost final : public ceres::CostFunction {
  public:
-  RowCost(const Batch& batch, Index i, Index n_coordinates) : batch_(&batch), i_(i) {
-    set_num_residuals(1);
+  RowCost(const Batch& batch, Index i, Index n_rows, Index n_coordinates, const Loss* own_loss = nullptr)
+      : batch_(&batch), i_(i), n_(n_rows), loss_(own_loss) {
+    set_num_residuals(static_cast<int>(n_rows));
     mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(n_coordinates), 1);
   }
   bool Evaluate(double const* const* /*u*/, double* residual, double** jacobians) const override {
     const Objective::Evaluation& at = batch_->at();
     if (!at.is_valid) return false;
-    residual[0] = at.residuals[i_];
+    Eigen::Map<VectorXd> r(residual, n_);
+    r = at.residuals.segment(i_, n_);
+    VectorXd factor = VectorXd::Constant(n_, batch_->size());
+    for (Index i = 0; loss_ && i < n_; ++i) {
+      const LossValue value = (*loss_)(r[i] * r[i]);
+      const double root = std::sqrt(value.rho);
+      if (root > 0) factor[i] *= value.first * std::abs(r[i]) / root;
+      r[i] = std::copysign(root, r[i]);
+    }
+    r *= batch_->size();
     if (!jacobians) return true;
     for (Index j = 0; j < at.jacobian.cols(); ++j)
-      if (jacobians[j]) jacobians[j][0] = at.jacobian(i_, j);
+      if (jacobians[j])
+        Eigen::Map<VectorXd>(jacobians[j], n_) = factor.cwiseProduct(at.jacobian.col(j).segment(i_, n_));
     return true;
   }
 
  private:
   const Batch* batch_;
-  Index i_;
+  Index i_, n_;
+  const Loss* loss_;
 };
 
 class RowLoss final : public ceres::LossFunction {
  public:
-  explicit RowLoss(const Loss& loss) : loss_(loss) {}
+  /// Of residuals that were multiplied by `size`.
+  RowLoss(const Loss& loss, double size) : loss_(loss), size2_(size * size) {}
   void Evaluate(double s, double rho[3]) const override {
-    const LossValue value = loss_(s);
-    rho[0] = value.rho;
+    const LossValue value = loss_(s / size2_);
+    rho[0] = size2_ * value.rho;
     rho[1] = value.first;
-    rho[2] = value.second;
+    rho[2] = value.second / size2_;
   }
 
  private:
   Loss loss_;
+  double size2_;
 };
+
+/// Ceres tells developers what it tries, on standard error if nobody has set up its log: the outcome says it here.
+void silence_log() {
+  if (!google::IsGoogleLoggingInitialized()) FLAGS_minloglevel = google::GLOG_FATAL;
+}
 
 /// Ends the search where nothing is left to find, or when told to.
 class Stop final : public ceres::IterationCallback {
@@ -138,7 +184,7 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
   }
   Batch batch(objective, start);
   const Loss loss = objective.loss();
-  RowLoss row_loss(loss);
+  RowLoss row_loss(loss, batch.size());
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &batch;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -146,12 +192,18 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
   ceres::Problem problem(problem_options);
   std::vector<double*> blocks;
   for (Index j = 0; j < start.size(); ++j) blocks.push_back(batch.coordinate(j));
-  for (Index i = 0; i < objective.n_residuals(); ++i)
-    problem.AddResidualBlock(new RowCost(batch, i, start.size()), loss.is_robust ? &row_loss : nullptr,
-                             blocks);
+  const Index n = objective.n_residuals();
+  if (!loss.is_robust || n > kManyRows)
+    problem.AddResidualBlock(new RowCost(batch, 0, n, start.size(), loss.is_robust ? &loss : nullptr),
+                             nullptr, blocks);
+  else
+    for (Index i = 0; i < n; ++i)
+      problem.AddResidualBlock(new RowCost(batch, i, 1, start.size()), &row_loss, blocks);
   set_bounds(problem, batch, objective.coordinates(), fixed);
-  Stop stop(allowance, rounding_misfit(objective));
+  Stop stop(allowance, batch.size() * batch.size() * objective.rounding_misfit());
   ceres::Solver::Summary summary;
+  static std::once_flag once;
+  std::call_once(once, silence_log);
   ceres::Solve(options_of(spec, allowance, stop), &problem, &summary);
 
   if (batch.best_misfit() <= result.misfit) {
@@ -161,6 +213,8 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
   result.iterations =
       static_cast<std::size_t>(std::max(0, summary.num_successful_steps + summary.num_unsuccessful_steps));
   result.message = summary.message;
+  if (summary.termination_type == ceres::FAILURE && !batch.failure().empty())
+    result.message = batch.failure();
   if (stop.is_at_rounding()) {
     result.status = Status::ok;
     result.message = "the misfit is at rounding level";
@@ -206,7 +260,7 @@ SearchResult search_ceres(Objective& objective, const VectorXd& start, const Sea
   SearchResult result = solve(objective, start, spec, allowance, fixed);
   std::vector<bool> before = fixed;
   for (Index round = 0; round < 2 * start.size() && result.status == Status::ok; ++round) {
-    if (result.misfit <= rounding_misfit(objective) || allowance.must_stop()) break;
+    if (result.misfit <= objective.rounding_misfit() || allowance.must_stop()) break;
     VectorXd u = result.u;
     std::vector<bool> held = held_at_bounds(objective, u, spec.tolerance);
     for (std::size_t j = 0; j < fixed.size(); ++j) held[j] = held[j] || fixed[j];

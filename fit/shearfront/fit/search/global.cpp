@@ -43,7 +43,7 @@ class GlobalSearch {
       : objective_(&objective),
         spec_(spec),
         allowance_(objective.control(), spec.max_evaluations),
-        rounding_(rounding_misfit(objective)),
+        rounding_(objective.rounding_misfit()),
         rates_(rates_of(objective.coordinates())),
         cost_(objective.has_derivatives() ? 1 : 2 * static_cast<std::size_t>(start.size()) + 1) {
     best_.u = start;

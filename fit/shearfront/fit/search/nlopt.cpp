@@ -167,7 +167,7 @@ class NloptSearch {
     } else {
       run(*algorithm_, space_, {spec_.tolerance, spec_.tolerance, allowance_.left(), 0});
     }
-    if (best_.misfit > rounding_misfit(*objective_)) allowance_.report(best_);
+    if (best_.misfit > objective_->rounding_misfit()) allowance_.report(best_);
     return best_;
   }
 
@@ -181,7 +181,7 @@ class NloptSearch {
   /// Global algorithms find a valley, not its floor.
   void run_and_finish() {
     run(*algorithm_, space_, {spec_.tolerance, 0, allowance_.left() - allowance_.left() / 3, 0});
-    if (allowance_.must_stop() || best_.misfit <= rounding_misfit(*objective_)) return;
+    if (allowance_.must_stop() || best_.misfit <= objective_->rounding_misfit()) return;
     const NloptAlgorithm& local = *find_nlopt_algorithm("sbplx");
     run(local, NloptSpace(objective_->coordinates(), best_.u, local),
         {spec_.tolerance, spec_.tolerance, allowance_.left(), 0});
@@ -196,7 +196,7 @@ class NloptSearch {
     const auto n = static_cast<std::size_t>(best_.u.size()) + 1;
     run(*algorithm_, space_, {std::max(spec_.tolerance, kRough), spec_.tolerance, kFirst * n, 0});
     double step = kLongest;
-    while (!allowance_.must_stop() && best_.misfit > rounding_misfit(*objective_)) {
+    while (!allowance_.must_stop() && best_.misfit > objective_->rounding_misfit()) {
       const Objective::Evaluation& at = objective_->evaluate(best_.u, true);
       if (!at.is_valid) return;
       NloptSpace space = space_;
@@ -222,7 +222,7 @@ class NloptSearch {
     Session session(*objective_, space, allowance_, best_);
     session.set_optimiser(optimiser.get());
     nlopt_set_min_objective(optimiser.get(), &Session::misfit, &session);
-    nlopt_set_stopval(optimiser.get(), rounding_misfit(*objective_));
+    nlopt_set_stopval(optimiser.get(), objective_->rounding_misfit());
     const Index n_constraints = space.excess(v).size();
     if (n_constraints > 0) {
       const std::vector<double> slack(static_cast<std::size_t>(n_constraints), 1e-9);

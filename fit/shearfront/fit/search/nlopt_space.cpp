@@ -23,13 +23,12 @@ NloptSpace::NloptSpace(const Coordinates& coordinates, const VectorXd& start_u,
     kind_ = Kind::values;
     constrained_ = steps_;
     for (Index j = 0; j < lower_.size(); ++j) {
-      const double lowest = coordinates.lowest_values()[j], highest = coordinates.highest_values()[j];
-      lower_[j] = coordinates.is_positive(j) ? std::log(lowest) : lowest;
-      upper_[j] = coordinates.is_positive(j) ? std::log(highest) : highest;
+      lower_[j] = coordinates.scaled(j, coordinates.lowest_values()[j]);
+      upper_[j] = coordinates.scaled(j, coordinates.highest_values()[j]);
     }
   } else if (algorithm.is_global) {
     kind_ = Kind::logarithmic_steps;
-    unit_ = kUnit * coordinates.values(start_u)[coordinates.shaped().front()];
+    unit_ = kUnit * coordinates.values(start_u)[coordinates.shaped().front()] / coordinates.step_unit();
     for (const Index k : steps_) upper_[k] = std::log1p(upper_[k] / unit_);
   }
 }
@@ -42,8 +41,7 @@ VectorXd NloptSpace::u(const VectorXd& x) const {
   if (kind_ == Kind::logarithmic_steps)
     for (const Index k : steps_) u[k] = unit_ * std::expm1(v[k]);
   if (kind_ != Kind::values) return u;
-  for (Index j = 0; j < v.size(); ++j)
-    if (coordinates_->is_positive(j)) u[j] = std::exp(v[j]);
+  for (Index j = 0; j < v.size(); ++j) u[j] = coordinates_->unscaled(j, v[j]);
   return coordinates_->unbounded(u);
 }
 
@@ -53,8 +51,7 @@ VectorXd NloptSpace::v(const VectorXd& u) const {
     for (const Index k : steps_) v[k] = std::log1p(u[k] / unit_);
   if (kind_ == Kind::values) {
     v = coordinates_->values(u);
-    for (Index j = 0; j < v.size(); ++j)
-      if (coordinates_->is_positive(j)) v[j] = std::log(v[j]);
+    for (Index j = 0; j < v.size(); ++j) v[j] = coordinates_->scaled(j, v[j]);
   }
   return v.cwiseMax(lower_).cwiseMin(upper_);
 }
@@ -65,8 +62,7 @@ MatrixXd NloptSpace::derivative(const VectorXd& u) const {
     for (const Index k : steps_) d[k] = u[k] + unit_;
   if (kind_ != Kind::values) return d.asDiagonal();
   const VectorXd p = coordinates_->values(u);
-  for (Index j = 0; j < u.size(); ++j)
-    if (coordinates_->is_positive(j)) d[j] = p[j];
+  for (Index j = 0; j < u.size(); ++j) d[j] = coordinates_->slope(j, p[j]);
   return coordinates_->derivative(u).partialPivLu().solve(MatrixXd(d.asDiagonal()));
 }
 
@@ -111,7 +107,9 @@ VectorXd NloptSpace::steps(const VectorXd& u) const {
     const double width = upper_[j] - lower_[j];
     step[j] = kShare;  // a logarithm: a tenth of the value
     if (kind_ != Kind::values && std::find(steps_.begin(), steps_.end(), j) != steps_.end())
-      step[j] = kind_ == Kind::coordinates ? kShare * std::max(u[j], kShare * p[j]) : kShare;
+      step[j] = kind_ == Kind::coordinates
+                    ? kShare * std::max(u[j], kShare * p[j] / coordinates_->step_unit())
+                    : kShare;
     else if (!coordinates_->is_positive(j))
       step[j] = kShare * (std::isfinite(width) ? width : std::max(1.0, std::abs(at[j])));
     if (std::isfinite(width)) step[j] = std::min(step[j], width / 4);

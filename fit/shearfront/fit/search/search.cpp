@@ -29,7 +29,7 @@ SearchResult search_once(Objective& objective, const VectorXd& start, const Sear
 /// From `start`, then from points of the box, each with an equal share of what is left.
 SearchResult search_many(Objective& objective, const VectorXd& start, const SearchSpec& spec) {
   const Allowance allowance(objective.control(), spec.max_evaluations);
-  const double rounding = rounding_misfit(objective);
+  const double rounding = objective.rounding_misfit();
   StartPoints points(objective.coordinates(), start, spec.seed);
   SearchResult best;
   std::size_t iterations = 0, converged = 0, done = 0;

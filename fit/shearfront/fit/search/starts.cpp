@@ -39,7 +39,7 @@ StartPoints::StartPoints(const Coordinates& coordinates, const VectorXd& start_u
       upper_[j] = std::log(std::min(upper_[j], start[j] * widest));
       continue;
     }
-    const double reach = std::max(1.0, std::abs(start[j]));
+    const double reach = std::max(coordinates.unit(j), std::abs(start[j]));
     if (!std::isfinite(lower_[j])) lower_[j] = start[j] - reach;
     if (!std::isfinite(upper_[j])) upper_[j] = start[j] + reach;
   }

@@ -13,7 +13,7 @@ namespace shearfront::fit {
 ///
 /// Guaranteed: inside the bounds; breaks in order; the shape kept (values sorted, the steps of a convex one
 /// raised to zero); the same points for the same seed. A parameter without finite bounds stays within
-/// max(1, |start|) of its start.
+/// max(unit, |start|) of its start.
 /// Source: Sobol, USSR Comput. Math. Math. Phys. 7 (1967); shift: Cranley & Patterson, SIAM J. Numer. Anal.
 /// 13 (1976).
 class StartPoints {

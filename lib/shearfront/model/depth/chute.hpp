@@ -30,7 +30,7 @@ struct Chute {
   static void fields(Self& self, Visit&& visit) {
     visit(FieldInfo{"amplitude", Range::positive}, self.amplitude);
     visit(FieldInfo{"decay", Range::positive}, self.decay);
-    visit(FieldInfo{"centre", Range::any, true}, self.centre);
+    visit(FieldInfo{"centre", Range::any, true, Measure::height}, self.centre);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {

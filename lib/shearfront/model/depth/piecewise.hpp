@@ -25,7 +25,7 @@ struct Piecewise {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"breaks"}, self.breaks);
+    visit(FieldInfo{.key = "breaks", .measure = Measure::height}, self.breaks);
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,

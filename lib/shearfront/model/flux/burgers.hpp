@@ -33,8 +33,8 @@ struct Burgers {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"lowest", Range::any, true}, self.lowest);
-    visit(FieldInfo{"highest", Range::any, true}, self.highest);
+    visit(FieldInfo{"lowest", Range::any, true, Measure::state}, self.lowest);
+    visit(FieldInfo{"highest", Range::any, true, Measure::state}, self.highest);
   }
   void check(const std::string& prefix, Complaints& complaints) const {
     if (is_finite(lowest) && !(lowest < 0))

@@ -71,8 +71,8 @@ struct FluxTable {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"phi"}, self.phi);
-    visit(FieldInfo{"values"}, self.values);
+    visit(FieldInfo{.key = "phi", .measure = Measure::state}, self.phi);
+    visit(FieldInfo{.key = "values", .measure = Measure::flux}, self.values);
   }
   void check(const std::string& prefix, Complaints& complaints) const {
     if (phi.size() < 2)

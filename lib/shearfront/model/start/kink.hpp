@@ -24,9 +24,9 @@ struct KinkInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"below"}, self.below);
-    visit(FieldInfo{"above"}, self.above);
-    visit(FieldInfo{"centre"}, self.centre);
+    visit(FieldInfo{.key = "below", .measure = Measure::state}, self.below);
+    visit(FieldInfo{.key = "above", .measure = Measure::state}, self.above);
+    visit(FieldInfo{.key = "centre", .measure = Measure::height}, self.centre);
     visit(FieldInfo{"width", Range::positive}, self.width);
   }
   static void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,

@@ -21,10 +21,10 @@ struct SineInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"mean", Range::any, true}, self.mean);
-    visit(FieldInfo{"amplitude"}, self.amplitude);
+    visit(FieldInfo{"mean", Range::any, true, Measure::state}, self.mean);
+    visit(FieldInfo{.key = "amplitude", .measure = Measure::state}, self.amplitude);
     visit(FieldInfo{"wavelength", Range::positive}, self.wavelength);
-    visit(FieldInfo{"origin", Range::any, true}, self.origin);
+    visit(FieldInfo{"origin", Range::any, true, Measure::height}, self.origin);
   }
   static void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,
                     Complaints&) {}

@@ -22,7 +22,7 @@ struct SkeletonInitial {
   /// Entries of the [initial] table, in the order of a scene file. Members: Scalar or std::vector<Scalar>.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"level"}, self.level);
+    visit(FieldInfo{.key = "level", .measure = Measure::state}, self.level);
   }
   /// Whatever must hold between entries; single numbers are checked by their Range, states by lowest(),
   /// highest().
