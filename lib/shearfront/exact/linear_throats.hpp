@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -18,7 +19,20 @@ struct LinearWay {
 
   void add(const Scalar& d, const Scalar& r1, const Scalar& r2, const Scalar& h) {
     if (!(d > 0)) return;
-    const Crossing<Scalar> c(d, r1, q_at(r1, h, Scalar(0)), r2, q_at(r2, h, Scalar(0)), h);
+    add(d, r1, q_at(r1, h, Scalar(0)), r2, q_at(r2, h, Scalar(0)), h);
+  }
+  /// To the end of a query: r rises by `rise`, which next to r1 = h knows more than r2 - r1.
+  void add_last(const Scalar& d, const Scalar& r1, const Scalar& rise, const Scalar& r2, const Scalar& h) {
+    using std::sqrt;
+    if (!(d > 0)) return;
+    const Scalar q2 = ((r1 - h) + rise) / r2;
+    add(d, r1, q_at(r1, h, Scalar(0)), r2, q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0), h);
+  }
+
+ private:
+  void add(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
+           const Scalar& h) {
+    const Crossing<Scalar> c(d, r1, q1, r2, q2, h);
     T += c.T;
     if (is_finite(c.T)) gain += c.X - h / Scalar(4) * c.T;
   }
@@ -72,11 +86,13 @@ class LinearThroats {
       if (is_above) {
         for (std::size_t k = throat.node; k < cell_below && way.T <= t; ++k)
           way.add(up.x[k + 1] - up.x[k], up.low[k], up.high[k], throat.h);
-        way.add(z - up.x[cell_below], up.low[cell_below], rate_below, throat.h);
+        const Scalar d = z - up.x[cell_below];
+        way.add_last(d, up.low[cell_below], Scalar(up.slope[cell_below] * d), rate_below, throat.h);
       } else if (z < z_i) {
         for (std::size_t k = throat.node - 1; k > cell_above && way.T <= t; --k)
           way.add(up.x[k + 1] - up.x[k], up.high[k], up.low[k], throat.h);
-        way.add(up.x[cell_above + 1] - z, up.high[cell_above], rate_above, throat.h);
+        const Scalar d = up.x[cell_above + 1] - z;
+        way.add_last(d, up.high[cell_above], Scalar(-up.slope[cell_above] * d), rate_above, throat.h);
       }
       if (!(way.T <= t)) continue;
       const Scalar left = t - way.T;
