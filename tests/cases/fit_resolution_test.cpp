@@ -33,8 +33,8 @@ FitSpec column_fit(double resolution) {
   fine.set("resolution", 0.0005);
   Observations data = observe(plan, truth, solve(truth, fine, request_of(plan, truth)));
   add_noise(data, 0.003, 5);
-  FitSpec spec = support::fit_of(settling(1, 1.4), std::move(data), {"shear_rate.values", "flux.exponent"},
-                                 {1.1, 1.6});
+  FitSpec spec =
+      support::fit_of(settling(1, 1.4), std::move(data), {"shear_rate.values", "flux.exponent"}, {1.1, 1.6});
   spec.forward.method = Method("front-tracking");
   spec.forward.method.set("resolution", resolution);
   return spec;

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                     UnitsCase{"TrackedSumsWithoutSigma", "front-tracking", Quantity::cumulative, false},
                     UnitsCase{"GodunovBins", "godunov", Quantity::bin, true, false},
                     UnitsCase{"GodunovSumsWithoutSigma", "godunov", Quantity::cumulative, false, false}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& c) { return c.param.name; });
 
 }  // namespace
 }  // namespace shearfront::fit

@@ -66,10 +66,10 @@ double median_noise(const Objective::Evaluation& at) {
   return median_deviation(std::move(residuals));
 }
 
-/// Rows in units of sigma, or in the unit of what they compare.
-ResidualRows with_unit(ResidualRows rows, std::string_view quantity, const FitSpec& spec,
-                       const Parameters& parameters) {
-  const bool is_height = quantity == BedHeightMisfit::kName, is_sum = quantity == CumulativeMisfit::kName;
+/// Rows in units of sigma, or of the data whatever they are compared as: weights take sigma = 1 of theirs.
+ResidualRows with_unit(ResidualRows rows, const FitSpec& spec, const Parameters& parameters) {
+  const Quantity measured = spec.observations.quantity;
+  const bool is_height = measured == Quantity::bed_height, is_sum = measured == Quantity::cumulative;
   if (!spec.observations.has_sigma())
     rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
   return rows;
@@ -86,7 +86,7 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Param
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
-  return with_unit(std::move(rows), quantity, spec, parameters);
+  return with_unit(std::move(rows), spec, parameters);
 }
 
 /// Residuals beside `size`, which has their unit.
@@ -309,13 +309,15 @@ class Run {
   /// for.
   void approach() {
     if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
-    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
     const bool is_point = spec_.observations.quantity == Quantity::point;
-    // Sums of points are wrong by about the spacing at every shock, whatever the noise.
-    if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
-    const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
-    if (is_point) first->set_tether(u_, 1);
-    search_from_here(*first, kNear);
+    {
+      ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
+      // Sums of points are wrong by about the spacing at every shock, whatever the noise.
+      if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
+      const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
+      if (is_point) first->set_tether(u_, 1);
+      search_from_here(*first, kNear);
+    }
     if (spec_.observations.quantity == Quantity::bin) narrow_bins();
     if (!is_point || control_.must_stop()) return;
     // Wrong in the cells of a shock only, where the loss forgives it.
@@ -336,7 +338,7 @@ class Run {
       search_from_here(
           *make_objective(
               with_unit(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(), spec_.scene.top(), n),
-                        BinMisfit::kName, spec_, parameters_),
+                        spec_, parameters_),
               find_loss(SquaredLoss::kName, 0)),
           kNear);
   }
