@@ -35,8 +35,6 @@ class Forward {
 
   /// Whether predict() gives derivatives, exact up to rounding.
   [[nodiscard]] bool has_derivatives() const { return has_derivatives_; }
-  /// Whether nothing but rounding makes the predictions jump.
-  [[nodiscard]] bool is_smooth() const { return is_smooth_; }
   /// No numeric differentiation below this step: what a grid or a polygonal flux adds to the solution jumps
   /// when a cell, a time step or a level appears.
   [[nodiscard]] double smallest_step() const { return is_smooth_ ? 1e-6 : 1e-3; }

@@ -116,11 +116,7 @@ void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* con
       at.jacobian.col(j) = difference(residuals, u, at.residuals, j, step_[j]);
       continue;
     }
-    // Short steps agree with each other within one level or cell, and are wrong together.
-    constexpr double kShortest = 8;
-    const double shortest = kShortest * forward_.smallest_step() * std::max(1.0, std::abs(u[j]));
-    const double first = forward_.is_smooth() ? step_[j] : std::max(step_[j], shortest);
-    const Difference best = best_difference(residuals, u, at.residuals, j, first);
+    const Difference best = best_difference(residuals, u, at.residuals, j, step_[j]);
     at.jacobian.col(j) = best.column;
     at.column_error[j] = best.error;
   }
