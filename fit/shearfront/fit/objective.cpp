@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/objective.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>

@@ -60,6 +60,8 @@ class RowBuilder {
  public:
   RowBuilder(const Observations& observations, Observable field) : observations_(&observations) {
     rows_.field = field;
+    rows_.rows.reserve(observations.rows.size());
+    rows_.points.reserve(observations.rows.size());
     for (const Observation& o : observations.rows)
       slack_ = std::max(slack_, kSamePlace * (std::abs(o.z) + o.width / 2));
   }

@@ -156,6 +156,8 @@ class Writer {
     if (parameters_.shape() != Shape::none) return false;
     const Flat flat = flat_around(minimum_.objective, minimum_.u, i);
     if (std::isinf(flat.down) && std::isinf(flat.up)) return false;
+    // A rate that no observation sees within a factor of e is not seen for any that one would guess.
+    if (is_relative(i) && flat.down + flat.up > 1) return false;
     const Parameter& p = parameters_[static_cast<std::size_t>(i)];
     // Steps of a method are far narrower than what data leave open.
     constexpr double kStep = 0.02;
