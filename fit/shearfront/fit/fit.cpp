@@ -39,7 +39,7 @@ constexpr int kMostRenewals = 6;
 /// Relative tolerance of the first stages: only a start for the last one.
 constexpr double kNear = 1e-2;
 /// The same while rows and noise of the last stage are not settled.
-constexpr double kRough = 1e-4;
+constexpr double kRoughTolerance = 1e-4;
 /// Bins taken together at first.
 constexpr std::size_t kWidestBin = 32;
 /// Further starts lie within this factor of the first: bounds are often far wider.
@@ -361,7 +361,7 @@ class Run {
       const Objective::Evaluation& at = objective_->evaluate(u_, false);
       const bool is_exact = at.is_valid && at.residuals.cwiseAbs().maxCoeff() <= kExact * rows_.unit;
       is_settled = is_settled || is_exact || round == kMostRenewals;
-      search_from_here(*objective_, is_settled ? 0 : kRough);
+      search_from_here(*objective_, is_settled ? 0 : kRoughTolerance);
       if (is_settled || control_.must_stop()) break;
     }
     left_out_ = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));

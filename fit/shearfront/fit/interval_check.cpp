@@ -23,7 +23,7 @@ constexpr double kLeastWidth = 1e-8;
 constexpr double kLeastGood = 0.85, kMostGood = 1.2;
 /// Refits end when the misfit changes by less than this share of the rise looked for.
 constexpr double kRefitTolerance = 0.02;
-constexpr std::size_t kMostEvaluations = 40;
+constexpr std::size_t kMostRuns = 40;
 
 /// Share of the way from u along `direction` that is inside the bounds, at most 1.
 double share_inside(const Coordinates& coordinates, const VectorXd& u, const VectorXd& direction) {
@@ -84,12 +84,12 @@ class Checker {
 
   /// The misfit there when the others are refitted.
   [[nodiscard]] double refitted(Index j, const VectorXd& at, double expected) const {
-    RunControl control(kMostEvaluations);
+    RunControl control(kMostRuns);
     const Objective& found = minimum_.objective;
     Objective objective(minimum_.parameters, found.coordinates(), minimum_.spec.forward, found.rows(),
                         found.loss(), control);
     SearchSpec search = minimum_.spec.search;
-    search.max_evaluations = kMostEvaluations;
+    search.max_evaluations = kMostRuns;
     search.tolerance =
         std::clamp(kRefitTolerance * expected / minimum_.at.misfit, minimum_.spec.search.tolerance, 1e-2);
     std::vector<bool> fixed(static_cast<std::size_t>(u_.size()), false);

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 
 /// Entries of a Jacobian this much smaller than the largest of their column are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfTerms = 1e-12;
 
 /// Huber's proposal 2: sum min(r^2 / s^2, k^2) = freedom E[min(x^2, k^2)] for a Gaussian x. Gross errors
 /// count as k each; unlike the median it does not vanish when a robust fit goes through more than half of the
@@ -52,7 +52,7 @@ Noise noise_from(const std::vector<double>& residuals, std::size_t n_free, bool 
 std::vector<bool> dependent_rows(const Eigen::MatrixXd& jacobian) {
   std::vector<bool> depends(static_cast<std::size_t>(jacobian.rows()), false);
   for (const auto column : jacobian.colwise()) {
-    const double least = kRounding * column.lpNorm<Eigen::Infinity>();
+    const double least = kRoundingOfTerms * column.lpNorm<Eigen::Infinity>();
     for (Index i = 0; i < column.size(); ++i)
       if (std::abs(column[i]) > least) depends[static_cast<std::size_t>(i)] = true;
   }

@@ -14,7 +14,7 @@ namespace {
 
 /// Of the range of the data: exact solutions agree to rounding, those of implicit schemes to what their
 /// iteration leaves.
-constexpr double kRounding = 1e-7;
+constexpr double kLeastSpread = 1e-7;
 /// Heights of different times that are one height up to rounding, relative to the largest.
 constexpr double kSameHeight = 1e-12;
 
@@ -25,7 +25,7 @@ std::vector<double> standardised(const Observations& observations, const std::ve
     low = std::min(low, o.value);
     high = std::max(high, o.value);
   }
-  const double floor = kRounding * (high > low ? high - low : std::max(std::abs(high), 1e-300));
+  const double floor = kLeastSpread * (high > low ? high - low : std::max(std::abs(high), 1e-300));
   std::vector<double> residuals;
   double squares = 0;
   std::size_t n = 0;
