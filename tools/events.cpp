@@ -15,6 +15,7 @@
 #include "cli/table.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/digits/exact_digits.hpp"
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -62,9 +63,11 @@ struct EventTable {
     const std::size_t n = timeline.interfaces.size();
     for (std::size_t i = 0; i < n; ++i) {
       const auto& at = timeline.interfaces[i];
-      const bool has_other = exact && i < exact->interfaces.size();
+      std::optional<double> other;
+      for (const auto& same : exact.value_or(Timeline<double>{}).interfaces)
+        if (same.z == at.z) other = same.*member;
       add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z), at.*member,
-          text.interfaces[i].*text_member, form, has_other ? exact->interfaces[i].*member : std::nullopt);
+          text.interfaces[i].*text_member, form, other);
     }
   }
   [[nodiscard]] std::string all() {
@@ -132,6 +135,17 @@ int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
   return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
 }
 
+/// Where pieces stand for the bed, digits beyond the estimated error are not known.
+void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>& scene,
+                           const Method& method) {
+  const ExactSolution<double> solution(
+      scene, {static_cast<std::size_t>(number_of(method, "layers")), number_of(method, "tolerance")});
+  if (!solution.is_exact())
+    refuse("--digits", arguments.digits,
+           fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",
+                       solution.n_layers(), solution.form().is_linear() ? "linear pieces" : "layers"));
+}
+
 int events(const EventsArguments& arguments) {
   const Method method = arguments.method.method();
   const int digits = arguments.digits.empty()
@@ -164,13 +178,16 @@ int events(const EventsArguments& arguments) {
     return report_unusable(result.summary);
   }
   TimelineText text = text_of(*result.timeline, arguments.json ? 0 : digits);
+  if (digits > 0 && method.guarantees().exact) refuse_unknown_digits(arguments, scene, method);
   if (digits > kDoubleDigits) {
     const auto begin = std::chrono::steady_clock::now();
-    text = exact_digits(arguments.scene, static_cast<std::size_t>(number_of(method, "layers")), digits);
+    text = exact_digits(arguments.scene, digits);
     result.summary.message = fmt::format("computed with {} digits", kComputedDigits);
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits);
+  if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
+    note(result.summary.message);
   return arguments.plot.empty() ? kDone
                                 : draw_events(arguments, scene, *result.timeline, progress.callback());
 }

@@ -15,7 +15,7 @@ namespace {
 
 TEST(ExactDigits, BeginWithThoseOfDouble) {
   const std::string path = SHEARFRONT_SOURCE_DIR "/datasets/may-2010-piecewise/scene.toml";
-  const TimelineText text = exact_digits(path, 0, 60);
+  const TimelineText text = exact_digits(path, 60);
   const auto timeline = exact_timeline(read_scene<double>(path));
   ASSERT_EQ(text.interfaces.size(), timeline.interfaces.size());
   const auto check = [](const std::optional<std::string>& digits, const std::optional<double>& x) {

@@ -330,6 +330,24 @@ TEST(LinearPieces, ATableMayJumpInsideTheBed) {
   EXPECT_FALSE(complaints({{0, 0.5, 0.4, 1}, {1, 2, 3, 4}}).empty());
 }
 
+/// A jump inside a flat piece: at its own height the fan stands still.
+TEST(LinearPieces, HaveDerivativesAtASourceInAFlatPiece) {
+  for (const auto& table :
+       {Table<double>{{0, 0.3, 0.6, 1}, {2, 1, 1, 0.5}}, Table<double>{{0, 0.3, 0.6, 1}, {0.5, 1, 1, 2}}}) {
+    const ExactSolution<double> exact{Scene<double>(scene_of(table, {0.5}, {0, 1}))};
+    const auto at = Derivatives<double>(exact).at(0.5, 0.05);
+    EXPECT_EQ(at.value.phi, 0.5);
+    EXPECT_NEAR(at.value.M, 0.05 / 4, 1e-16);
+    double sum = 0;
+    for (const double by : at.M) {
+      EXPECT_TRUE(std::isfinite(by));
+      sum += by;
+    }
+    for (const double by : at.phi) EXPECT_TRUE(std::isfinite(by));
+    EXPECT_TRUE(std::isfinite(sum));
+  }
+}
+
 /// Constant on both sides of its jumps, a table is a stack of layers: two engines, one solution.
 TEST(LinearPieces, ATableOfStepsIsAStackOfLayers) {
   const ExactSolution<double> table{

@@ -7,8 +7,8 @@
 
 namespace shearfront {
 
-TimelineText exact_digits(const std::string& path, std::size_t layers, int digits) {
-  return text_of(exact_timeline<Real110>(read_scene<Real110>(path), TimelineOptions{layers}), digits);
+TimelineText exact_digits(const std::string& path, int digits) {
+  return text_of(exact_timeline<Real110>(read_scene<Real110>(path)), digits);
 }
 
 }  // namespace shearfront

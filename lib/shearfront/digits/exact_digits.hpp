@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstddef>
 #include <string>
 
 #include "shearfront/solution/timeline.hpp"
@@ -11,8 +10,8 @@ namespace shearfront {
 inline constexpr int kMostDigits = 100, kComputedDigits = 110;
 
 /// Event times of a scene file by the exact solver with 1 <= digits <= kMostDigits significant digits, the numbers of
-/// the file read as the decimals they are. `layers`: of the staircase for a scene that varies smoothly.
-/// Precondition: the exact solver takes the scene. Errors: FileError from the file. Cost: milliseconds per event.
-[[nodiscard]] TimelineText exact_digits(const std::string& path, std::size_t layers, int digits);
+/// the file read as the decimals they are.
+/// Precondition: the exact solver takes the scene and represents it exactly. Errors: FileError from the file. Cost: milliseconds per event.
+[[nodiscard]] TimelineText exact_digits(const std::string& path, int digits);
 
 }  // namespace shearfront

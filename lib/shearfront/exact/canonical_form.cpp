@@ -26,12 +26,11 @@ bool is_layered(const std::optional<AnyDepthFunction>& function) {
   return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
 }
 
-/// Whether pieces with a linear rate stand for the scene, exactly or not: parabolas, and only the rate varies in a piece.
+/// Whether pieces with a linear rate stand for the scene, exactly or not: what varies smoothly is the rate of parabolas.
 template <Real Scalar>
 bool has_linear_pieces(const Scene<Scalar>& scene) {
-  return !scene.is_layered() && is_layered(scene.spec().solid_fraction) &&
-         std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
-                     [](const Flux<Scalar>& flux) { return flux.is_parabola(); });
+  return !scene.is_layered() && std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
+                                            [](const Flux<Scalar>& flux) { return flux.is_parabola(); });
 }
 
 /// Whether its rate is linear between its own knots.
@@ -39,7 +38,8 @@ template <Real Scalar>
 bool is_linear_scene(const Scene<Scalar>& scene) {
   return std::visit([](const auto& model) { return !model.kIsLayered && is_linear_between_knots(model); },
                     scene.shear_rate()) &&
-         is_layered(scene.spec().temperature) && has_linear_pieces(scene);
+         is_layered(scene.spec().temperature) && is_layered(scene.spec().solid_fraction) &&
+         has_linear_pieces(scene);
 }
 
 /// A function at both ends of an interval without a knot inside.
@@ -140,7 +140,13 @@ void CanonicalForm<Scalar>::set_end_rates() {
       const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, lo, hi);
       ends = {ends.low * sqrt(T.low), ends.high * sqrt(T.high)};
     }
-    const Scalar factor = scene_->scale() * rate_factor(k);
+    Scalar factor = scene_->scale() * rate_factor(k);
+    if (!is_layered(scene_->spec().solid_fraction)) {
+      // c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
+      const EndValues<Scalar> c = ends_of<Scalar>(*scene_->spec().solid_fraction, lo, hi);
+      ends = {ends.low * c.low, ends.high * c.high};
+      factor = scene_->scale() * (Scalar(4) * depth_of<Scalar>(layers_.flux(k)));
+    }
     low_rates_.push_back(factor * ends.low);
     high_rates_.push_back(factor * ends.high);
   }

@@ -27,16 +27,15 @@ namespace shearfront::exact {
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
 /// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) is linear
 /// between its knots, all fluxes are parabolas, and c and T are constant in pieces, the image is linear in pieces as
-/// well: is_linear(). Any other smooth scene of
-/// parabolas is represented by linear pieces through its rate, by a staircase of layers where c varies smoothly or a flux is
-/// no parabola; unless a(z) alone varies in a bed of one parabola and is exponential: then it is one piece,
-/// exponential(). Precondition: refusal(scene) is empty.
+/// well: is_linear(). Any other smooth scene of parabolas is represented by linear pieces through its rate s a c sqrt(T), a
+/// smooth scene of other fluxes by a staircase of layers; unless a(z) alone varies in a bed of one parabola and is
+/// exponential: then it is one piece, exponential(). Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// `layers`: about how many for a smooth scene.
+  /// `layers`: about how many, pieces or layers, where it does not represent the scene exactly.
   CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers);
 
   [[nodiscard]] const Scene<Scalar>& scene() const { return *scene_; }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -141,7 +140,7 @@ class Events {
     events.t0 = at_wall(false);
     events.t1 = at_wall(true);
     events.t_star = is_steady(form_.initial_values()) ? Scalar(0) : last_time(medium_.steady_height());
-    if (!form_.scene().is_layered()) return events;
+    if (!form_.is_exact() || form_.exponential()) return events;
     for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i)
       events.interfaces.push_back(at_interface(i));
     return events;
@@ -198,19 +197,31 @@ class Events {
 }  // namespace
 
 template <Real Scalar>
-Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options) {
-  const std::size_t n = options.layers > 0 ? options.layers : ExactSolution<Scalar>::default_layers(scene);
-  const std::shared_ptr<const Scene<Scalar>> not_owned(std::shared_ptr<void>(), &scene);
-  const CanonicalForm<Scalar> form(not_owned, n);
-  const auto medium = exact::make_medium(form);
-  Timeline<Scalar> events = Events<Scalar>(form, *medium).all();
+Timeline<Scalar> exact_timeline(const ExactSolution<Scalar>& solution) {
+  const Scene<Scalar>& scene = solution.scene();
+  Timeline<Scalar> events = Events<Scalar>(solution.form(), solution.medium()).all();
   events.mass = scene.mass();
-  // Of a smooth c, not of its staircase.
-  events.steady_height = scene.is_layered() || form.is_identity() ? form.height_of(medium->steady_height())
-                                                                  : scene.steady_height();
+  // Of a smooth c, not of its pieces.
+  events.steady_height =
+      scene.is_layered() || solution.form().is_identity() ? solution.steady_height() : scene.steady_height();
   return events;
 }
 
-template Timeline<Instantiated> exact_timeline<Instantiated>(const Scene<Instantiated>&, TimelineOptions);
+template <Real Scalar>
+Scalar timeline_error(const ExactSolution<Scalar>& solution, const Timeline<Scalar>& times) {
+  if (solution.is_exact()) return Scalar(0);
+  const Timeline<Scalar> coarse = Events<Scalar>(*solution.coarse_form(), solution.coarse_medium()).all();
+  Scalar most(0);
+  for (const auto member : {&Timeline<Scalar>::t0, &Timeline<Scalar>::t1, &Timeline<Scalar>::t_star}) {
+    if (!(times.*member) || !(coarse.*member)) continue;
+    const Scalar change = *(times.*member) - *(coarse.*member);
+    most = std::max(most, change < 0 ? Scalar(-change) : change);
+  }
+  return most;
+}
+
+template Timeline<Instantiated> exact_timeline<Instantiated>(const ExactSolution<Instantiated>&);
+template Instantiated timeline_error<Instantiated>(const ExactSolution<Instantiated>&,
+                                                   const Timeline<Instantiated>&);
 
 }  // namespace shearfront

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstddef>
-
+#include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/timeline.hpp"
 
 namespace shearfront {
-
-struct TimelineOptions {
-  std::size_t layers =
-      0;  ///< layers of the staircase for a smooth a without closed forms; 0: the default of ExactSolution
-};
 
 /// The event times of a scene with an empty refusal() (meaning of each: solution/timeline.hpp).
 ///
@@ -23,13 +17,24 @@ struct TimelineOptions {
 /// Guarantees: a constant or linear in pieces, and exponential a: first arrivals to a few units in the last place of Scalar (times
 /// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
 /// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
-/// M: the change before it is reported); other smooth a: order 3/2 in the layer height. Only jumps of a
-/// layered scene are listed as interfaces. Errors: none. Cost: O((jumps + layers) * layers) for first
+/// M: the change before it is reported); where pieces or a staircase stand for the scene, timeline_error() estimates what
+/// they cost. Interfaces are the knots of a scene that is constant or linear in pieces: jumps, and kinks of a table, where
+/// a state that is neither 0 nor 1 changes at once. Errors: none. Cost: O((jumps + layers) * layers) for first
 /// arrivals, some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two
 /// layers.
 template <Real Scalar>
-[[nodiscard]] Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene, TimelineOptions options = {});
+[[nodiscard]] Timeline<Scalar> exact_timeline(const ExactSolution<Scalar>& solution);
+template <Real Scalar>
+[[nodiscard]] Timeline<Scalar> exact_timeline(const Scene<Scalar>& scene) {
+  return exact_timeline(ExactSolution<Scalar>(scene));
+}
 
-extern template Timeline<double> exact_timeline<double>(const Scene<double>&, TimelineOptions);
+/// How much `times`, which exact_timeline(solution) gave, change at most when half as many pieces or layers stand for the
+/// scene; 0 where it is represented exactly.
+template <Real Scalar>
+[[nodiscard]] Scalar timeline_error(const ExactSolution<Scalar>& solution, const Timeline<Scalar>& times);
+
+extern template Timeline<double> exact_timeline<double>(const ExactSolution<double>&);
+extern template double timeline_error<double>(const ExactSolution<double>&, const Timeline<double>&);
 
 }  // namespace shearfront

@@ -13,16 +13,6 @@
 namespace shearfront {
 
 template <Real Scalar>
-std::size_t ExactSolution<Scalar>::default_layers(const Scene<Scalar>& scene) {
-  const bool is_parabolic = std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
-                                        [](const auto& flux) { return flux.is_parabola(); });
-  const bool is_dense =
-      !scene.spec().solid_fraction ||
-      std::visit([](const auto& c) { return bool(c.kIsLayered); }, *scene.spec().solid_fraction);
-  return !is_parabolic ? kDefaultGeneralLayers : is_dense ? kDefaultPieces : kDefaultLayers;
-}
-
-template <Real Scalar>
 auto ExactSolution<Scalar>::represent(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers)
     -> Representation {
   Representation of;
@@ -34,11 +24,48 @@ auto ExactSolution<Scalar>::represent(std::shared_ptr<const Scene<Scalar>> scene
 template <Real Scalar>
 ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options) : mass_(scene.mass()) {
   SHEARFRONT_EXPECTS(exact::refusal(scene).empty(), "a scene with an exact solution");
-  const std::size_t n = options.layers > 0 ? options.layers : default_layers(scene);
+  const std::size_t n = options.layers > 0 ? options.layers : kDefaultLayers;
   const auto shared = std::make_shared<const Scene<Scalar>>(scene);
   fine_ = represent(shared, n);
-  if (!form().is_exact()) coarse_ = represent(shared, (n + 1) / 2);
+  resolution_ = n;
+  if (!form().is_exact()) {
+    coarse_ = represent(shared, (n + 1) / 2);
+    if (form().is_linear() && options.layers == 0) represent_within(shared, options.tolerance);
+  }
   steady_height_ = form().height_of(medium().steady_height());
+}
+
+/// Doubles the number of pieces until their error is within the tolerance. It falls to a quarter each time: what is not
+/// needed on the way is left out.
+template <Real Scalar>
+void ExactSolution<Scalar>::represent_within(const std::shared_ptr<const Scene<Scalar>>& scene,
+                                             double tolerance) {
+  for (std::size_t n = kDefaultLayers;;) {
+    probed_error_ = probe();
+    const double error = to_double(probed_error_);
+    meets_tolerance_ = error <= tolerance;
+    if (meets_tolerance_ || n >= kMostPieces) return;
+    std::size_t next = 2 * n;
+    for (double left = error / 4; left > tolerance && next < kMostPieces; left /= 4) next *= 2;
+    coarse_ = next == 2 * n ? std::move(fine_) : represent(scene, next / 2);
+    fine_ = represent(scene, next);
+    resolution_ = n = next;
+  }
+}
+
+/// Largest M_error over probe points, in heights of the bed: times from the first arrivals to the steady state.
+template <Real Scalar>
+Scalar ExactSolution<Scalar>::probe() const {
+  const Scalar height = scene().top() - scene().bottom();
+  const Scalar crossing = medium().pure_travel_time(medium().bottom(), medium().top());
+  constexpr int kHeights = 9;
+  Scalar worst(0);
+  for (const double share : {0.125, 0.25, 0.5, 1.0, 2.0})
+    for (int i = 1; i <= kHeights; ++i) {
+      const Scalar z = scene().bottom() + height * Scalar(i) / Scalar(kHeights + 1);
+      worst = std::max(worst, at(z, Scalar(crossing * Scalar(share))).M_error);
+    }
+  return worst / height;
 }
 
 template <Real Scalar>
@@ -113,10 +140,10 @@ auto ExactSolution<Scalar>::value_of(const Path& path, const Scalar& z, const Sc
   const exact::Medium<Scalar>& medium = *coarse_.medium;
   const Value coarse = in_scene(coarse_, image_value(medium, medium.best_path(y, t), y), z);
   const auto change = [](const Scalar& a, const Scalar& b) { return a > b ? Scalar(a - b) : Scalar(b - a); };
-  // Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of the change on average; stairs that fit a turning point by
-  // chance make the change smaller than that.
-  constexpr int kSafety = 3;
-  value.M_error = Scalar(kSafety) * change(coarse.M, value.M);
+  // Second order leaves a third of the change. Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of it on average; stairs that
+  // fit a turning point by chance make the change smaller than that.
+  const int safety = form().is_linear() ? 1 : 3;
+  value.M_error = Scalar(safety) * change(coarse.M, value.M);
   value.phi_error = change(coarse.phi, value.phi);
   return value;
 }

@@ -25,29 +25,32 @@ namespace shearfront {
 /// parabolas and c, T constant in pieces, and exponential a in a bed of one parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
-/// (3) other smooth a, c, T: the exact solution of linear pieces through the rate, where fluxes are parabolas and c is
-/// constant in pieces, of second order in their height (phi of order 3/2 where paths turn), else of a staircase of layers (harmonic
-/// means), of order 3/2 (2 where no path turns); Value::M_error and phi_error estimate what is left: three times the change
-/// of M, once the change of phi, from half as many layers. Their largest value over a set of points is what
-/// to go by: at single points errors change sign; (4) const member functions are safe to call from many
+/// (3) any other smooth a, c, T in beds of parabolas: the exact solution of linear pieces through the rate, of second order
+/// in their height (phi of order 3/2 where paths turn), halved until the estimated error of M is at most Options::tolerance
+/// times the height of the bed at a set of probe points (probed_error(); kMostPieces if that does not suffice); (4) smooth
+/// a, c, T with fluxes that are no parabolas: of a staircase of Options::layers layers (harmonic means), of order 3/2 (2
+/// where no path turns), whatever the tolerance. In (3) and (4) Value::M_error and phi_error estimate what is left, by the change from half as many
+/// pieces or layers (three times that of M in a staircase); their largest value over a set of points is what to go by: at
+/// single points errors change sign; (5) const member functions are safe to call from many
 /// threads. Cost: 2 layers < 1 us, 10 layers < 5 us, a table of 20 points < 10 us (tests/bench/exact_bench.cpp) for
-/// parabolas; construction
-/// O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone. Errors: none beyond those of
+/// parabolas; construction O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone, in (3) some 100
+/// queries besides. Errors: none beyond those of
 /// Scene. Source: Lax (1957), Hopf (1965); for jumps of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    std::size_t layers = 0;  ///< pieces, or layers of the staircase, for a smooth scene; 0: default_layers()
+    /// Of the staircase, or of linear pieces instead of the tolerance, where the scene has to be approximated; 0:
+    /// kDefaultLayers, or as many pieces as the tolerance takes.
+    std::size_t layers = 0;
+    double tolerance = 1e-6;  ///< error of M aimed at, in heights of the bed
   };
-  static constexpr std::size_t kDefaultPieces = 256;         ///< where pieces are linear
-  static constexpr std::size_t kDefaultLayers = 1024;        ///< where the solid fraction varies smoothly
-  static constexpr std::size_t kDefaultGeneralLayers = 128;  ///< where a flux is no parabola
-  [[nodiscard]] static std::size_t default_layers(const Scene<Scalar>& scene);
+  static constexpr std::size_t kDefaultLayers = 128;
+  static constexpr std::size_t kMostPieces = 4096;
 
   struct Value {
     Scalar phi{0}, M{0}, H{0};
-    Scalar M_error{0}, phi_error{0};  ///< estimates, staircases only, otherwise 0
+    Scalar M_error{0}, phi_error{0};  ///< estimates; 0 where the scene is represented exactly
   };
 
   explicit ExactSolution(const Scene<Scalar>& scene) : ExactSolution(scene, Options{}) {}
@@ -81,6 +84,18 @@ class ExactSolution {
   [[nodiscard]] const exact::Medium<Scalar>& medium() const { return *fine_.medium; }
   /// Whether the scene is represented without approximation.
   [[nodiscard]] bool is_exact() const { return !coarse_.form; }
+  /// The Options::layers that give the same pieces or layers, whatever the tolerance.
+  [[nodiscard]] std::size_t resolution() const { return resolution_; }
+  /// Whether pieces were refined until probed_error() was at most the tolerance: not in a staircase, nor where their number
+  /// was given or has come to kMostPieces.
+  [[nodiscard]] bool meets_tolerance() const { return meets_tolerance_; }
+  /// Largest M_error at the probe points, in heights of the bed; 0 where there is no tolerance to meet.
+  [[nodiscard]] const Scalar& probed_error() const { return probed_error_; }
+  /// The same scene by half as many pieces or layers; of its own, empty if is_exact().
+  [[nodiscard]] const std::shared_ptr<const exact::CanonicalForm<Scalar>>& coarse_form() const {
+    return coarse_.form;
+  }
+  [[nodiscard]] const exact::Medium<Scalar>& coarse_medium() const { return *coarse_.medium; }
 
  private:
   using Path = exact::Path<Scalar>;
@@ -91,13 +106,17 @@ class ExactSolution {
   };
   [[nodiscard]] static Representation represent(std::shared_ptr<const Scene<Scalar>> scene,
                                                 std::size_t layers);
+  void represent_within(const std::shared_ptr<const Scene<Scalar>>& scene, double tolerance);
+  [[nodiscard]] Scalar probe() const;
   [[nodiscard]] Value in_scene(const Representation& of, Value value, const Scalar& z) const;
   [[nodiscard]] static Value image_value(const exact::Medium<Scalar>& medium, const Path& path,
                                          const Scalar& y);
   [[nodiscard]] Value value_at_rest(const Scalar& z, bool is_initial) const;
 
   Representation fine_, coarse_;  ///< coarse_: half as many layers, for estimates of the error
-  Scalar mass_, steady_height_;
+  Scalar mass_, steady_height_, probed_error_{0};
+  std::size_t resolution_ = 0;
+  bool meets_tolerance_ = false;
 };
 
 extern template class ExactSolution<double>;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shearfront/exact/linear_arrival.hpp"
 #include "shearfront/exact/linear_gradient.hpp"
 #include "shearfront/exact/linear_search.hpp"
 #include "shearfront/numeric/instantiated.hpp"
@@ -63,11 +64,79 @@ Scalar LinearMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& 
   return time;
 }
 
+/// The value of a path is (M0 at its start + U) + sum X + H (t - sum T), U the height gained on its ways up, those in a turn
+/// counted to the far end of the piece: the bracket holds data only, and the other terms are small where H is. A turn
+/// from the rate r to h in a piece that ends at r_end has X = (r_end - h / (1 + q)) / |b| then.
 template <Real Scalar>
-Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& /*t*/,
+Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                        FinalAmount amount) const {
-  const bool full = amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward);
-  return (full ? Scalar(z - this->bottom()) : this->mass()) - path.value;
+  CompensatedSum<Scalar> sum;
+  if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
+    sum += z;
+    sum += -cells_.x.front();
+  } else {
+    sum += cells_.M.back();
+    sum += cells_.M_low.back();
+  }
+  sum += -cells_.M[path.source];
+  sum += -cells_.M_low[path.source];
+  if (path.kind == PathKind::constant || path.is_state) {
+    const TwoSum<Scalar> inside(path.foot, Scalar(-cells_.x[path.source]));
+    const TwoProduct<Scalar> initial(inside.high, cells_.phi[path.source]);
+    sum += -initial.high;
+    sum += -(initial.low + inside.low * cells_.phi[path.source]);
+  }
+  const Scalar h = Scalar(4) * path.H;
+  const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
+  const auto rise = [&](const Scalar& from, const Scalar& to) {
+    if (!(from < to)) return;
+    sum += from;
+    sum += -to;
+  };
+  Scalar T(0), X(0);
+  const auto run = [&](const Scalar& from, const Scalar& to, int times) {
+    const Scalar &lo = std::min(from, to), &hi = std::max(from, to), n(times);
+    for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
+      const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
+      if (!(b > a)) continue;
+      const Scalar r1 = pieces_.rate(k, a), r2 = pieces_.rate(k, b);
+      const Crossing<Scalar> c(b - a, r1, q(r1), r2, q(r2), h);
+      T += n * c.T;
+      X += n * c.X;
+    }
+  };
+  if (path.kind == PathKind::waiting) {
+    const Scalar& rest = cells_.x[path.interface];
+    rise(path.foot, rest);
+    rise(rest, z);
+    run(path.foot, rest, 1);
+    run(rest, z, 1);
+  } else if (path.turned) {
+    const bool is_up = path.upward != path.turned;
+    const std::size_t j = cells_.layer[path.interface];
+    const Scalar &near = pieces_.boundaries[is_up ? j : j + 1], &far = pieces_.boundaries[is_up ? j + 1 : j];
+    const Scalar outer = is_up ? std::max(path.foot, z) : std::min(path.foot, z);
+    const Scalar last = is_up ? std::max(outer, near) : std::min(outer, near);
+    is_up ? rise(path.foot, far) : rise(far, z);
+    run(path.foot, z, 1);
+    run(outer, last, 2);
+    const Scalar r = pieces_.rate(j, last), &r_end = is_up ? pieces_.high[j] : pieces_.low[j];
+    const Scalar slope = is_up ? Scalar(-pieces_.slope(j)) : pieces_.slope(j);
+    T += Scalar(4) / slope * artanh_of(q(r), r, h);
+    X += (r_end - h / (Scalar(1) + q(r))) / slope;
+  } else {
+    rise(path.foot, z);
+    if (h > 0) run(path.foot, z, 1);
+  }
+  if (!is_finite(T)) T = t, X = Scalar(0);
+  sum += Scalar(-X);
+  sum += Scalar(-path.H * (t - T));
+  return sum.value();
+}
+
+template <Real Scalar>
+std::optional<Scalar> LinearMedium<Scalar>::first_wave(std::size_t i) const {
+  return LinearArrival<Scalar>(*this, i).find();
 }
 
 template <Real Scalar>

@@ -33,6 +33,7 @@ class LinearMedium final : public Medium<Scalar> {
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override;
+  /// To a few u H t where paths lose little: amounts and heights are added up in twice the digits.
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override;
   [[nodiscard]] Scalar rate_at(const Scalar& z) const override {
@@ -41,7 +42,7 @@ class LinearMedium final : public Medium<Scalar> {
   [[nodiscard]] Scalar flux_at(const Scalar& z, const Scalar& phi) const override {
     return rate_at(z) * phi * (Scalar(1) - phi);
   }
-  [[nodiscard]] std::optional<Scalar> first_wave(std::size_t /*i*/) const override { return {}; }
+  [[nodiscard]] std::optional<Scalar> first_wave(std::size_t i) const override;
   [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
                                               const Scalar& t) const override;
 

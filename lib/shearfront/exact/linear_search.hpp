@@ -41,12 +41,14 @@ class LinearSearch : private LinearCandidates<Scalar> {
     const auto accept = [&](const LinearArc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
                             const Scalar& M0) {
       const Scalar h = Scalar(4) * r * arc.p * arc.missing;
-      const bool is_fan = kind == PathKind::fan, ends_up = arc.p > half;
+      // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
+      const bool is_fan = kind == PathKind::fan, is_flat = view_.slope[cell] == 0;
+      const bool ends_up = arc.p > half || (is_fan && is_flat);
       const bool starts_up = is_fan || arc.start_odds > Scalar(1),
                  starts_down = !is_fan && arc.start_odds < Scalar(1);
       if (starts_up && !ends_up && h < view_.high[cell]) return;
       if (starts_down && ends_up && h < view_.low[cell]) return;
-      const bool turned = h > 0 && (ends_up ? starts_down : starts_up);
+      const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
       const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
       offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
     };

@@ -18,11 +18,14 @@ class ExactField final : public Field {
   explicit ExactField(const ExactSolution<double>& solution) : solution_(solution) {}
 
   double t = 0;
-  mutable double worst_M = 0;  ///< largest estimated error of M so far
+  mutable bool has_values = false;
+  mutable double worst_M = 0, worst_phi = 0;  ///< largest estimated errors so far
 
   [[nodiscard]] Sample at(double z) const override {
     const auto value = solution_.at(z, t);
+    has_values = true;
     worst_M = std::max(worst_M, value.M_error);
+    worst_phi = std::max(worst_phi, value.phi_error);
     return {value.phi, value.M};
   }
   [[nodiscard]] double integral(const ShareFunction& g) const override {
@@ -33,13 +36,17 @@ class ExactField final : public Field {
   const ExactSolution<double>& solution_;
 };
 
+ExactSolution<double>::Options options_of(const ExactSolver::Options& options) {
+  return {static_cast<std::size_t>(options.layers), options.tolerance};
+}
+
 class ExactRun final : public Run {
  public:
   ExactRun(const Scene<double>& scene, const ExactSolver::Options& options, const Watch& watch)
-      : scene_(scene),
-        layers_(static_cast<std::size_t>(options.layers)),
+      : tolerance_(options.tolerance),
+        is_given_(options.layers > 0),
         progress_(watch.progress),
-        solution_(scene, {layers_}),
+        solution_(scene, options_of(options)),
         field_(solution_) {}
 
   Status advance(double t) override {
@@ -49,24 +56,41 @@ class ExactRun final : public Run {
   }
   [[nodiscard]] const Field& field() override { return field_; }
   [[nodiscard]] std::optional<Timeline<double>> timeline() override {
-    return exact_timeline(scene_, {.layers = layers_});
+    const Timeline<double> times = exact_timeline(solution_);
+    times_error_ = timeline_error(solution_, times);
+    return times;
   }
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
     summary.layers = solution_.n_layers();
-    summary.message = status_ != Status::ok ? "interrupted at t = " + number_text(field_.t)
-                      : solution_.is_exact()
-                          ? "exact to rounding"
-                          : "exact for " + std::to_string(solution_.n_layers()) +
-                                (solution_.form().is_linear() ? " linear pieces" : " layers as a staircase") +
-                                "; estimated error of M " + number_text(field_.worst_M);
+    summary.message = status_ != Status::ok  ? "interrupted at t = " + number_text(field_.t)
+                      : solution_.is_exact() ? "exact to rounding"
+                                             : approximation();
     return summary;
   }
 
  private:
-  const Scene<double>& scene_;
-  std::size_t layers_;
+  /// What stands for the scene, and how far what was asked for so far may be off.
+  [[nodiscard]] std::string approximation() const {
+    const std::string n = std::to_string(solution_.n_layers());
+    std::string text = "exact for " + n + " layers as a staircase";
+    if (solution_.form().is_linear()) {
+      text = "exact for " + n + " linear pieces";
+      if (!solution_.meets_tolerance())
+        text += is_given_ ? ", as many as asked for"
+                          : ", no more, although the tolerance of " + number_text(tolerance_) + " takes more";
+    }
+    const auto rounded = [](double x) { return number_text(x, 2); };
+    if (field_.has_values)
+      text += "; estimated error of M " + rounded(field_.worst_M) + ", of phi " + rounded(field_.worst_phi);
+    if (times_error_) text += "; estimated error of the event times " + rounded(*times_error_);
+    return text;
+  }
+
+  double tolerance_;
+  bool is_given_;
+  std::optional<double> times_error_;
   Progress progress_;
   ExactSolution<double> solution_;
   ExactField field_;
@@ -88,8 +112,12 @@ std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Op
 
 Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& options,
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
-                                     std::any&) {
-  const ExactSolution<double> solution(scene, {static_cast<std::size_t>(options.layers)});
+                                     std::any& memory) {
+  // The number of pieces is kept, so that the solution is a smooth function of the numbers of the scene.
+  ExactSolution<double>::Options settings = options_of(options);
+  if (const auto* pieces = std::any_cast<std::size_t>(&memory)) settings.layers = *pieces;
+  const ExactSolution<double> solution(scene, settings);
+  if (!solution.is_exact()) memory = solution.resolution();
   std::optional<Derivatives<double>> derivatives;
   if (!wanted.empty()) derivatives.emplace(solution);
   Linearisation result;

@@ -7,22 +7,30 @@ namespace shearfront {
 /// Exact solution by the Lax-Hopf formula in a bed of pieces (see exact/exact_solution.hpp).
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
-  static constexpr std::string_view kDescription = "Lax-Hopf formula, exact to rounding";
+  static constexpr std::string_view kDescription =
+      "Lax-Hopf formula, exact to rounding where a is constant or linear in pieces, or exponential";
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
-    std::uint64_t layers = 0;  ///< 0: ExactSolution::default_layers()
+    double tolerance = 1e-6;
+    std::uint64_t layers = 0;  ///< 0: ExactSolution::kDefaultLayers
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
       visit(
-          OptionInfo{"layers",
-                     "shear rates with no closed form (chute), smooth temperature or solid fraction: number "
-                     "of linear pieces or layers",
-                     {1, 1e6},
-                     {},
-                     "256, 1024 where the solid fraction varies, 128 where a flux is no parabola"},
-          self.layers);
+          OptionInfo{
+              "tolerance",
+              "aim for the error of M, in heights of the bed, where linear pieces stand for a smooth bed",
+              {0, 1, true}},
+          self.tolerance);
+      visit(OptionInfo{"layers",
+                       "layers that stand for a smooth bed with a flux that is no parabola; with parabolas, "
+                       "so many linear "
+                       "pieces instead of the tolerance",
+                       {1, 1e6},
+                       {},
+                       "128 layers, pieces by the tolerance"},
+            self.layers);
     }
   };
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "shearfront/exact/linear_medium.hpp"
+
+namespace shearfront::exact {
+
+/// First time at which phi next to boundary i of linear pieces (1 <= i < pieces) leaves its initial states phi_b | phi_a.
+///
+///   * 0 if the boundary sends out a wave, or if a state next to it is neither 0 nor 1 and its piece is not flat: there logit
+///     phi = logit phi_0 + b t.
+///   * Between pure states at rest nothing is faster than H = 0: the travel time of the nearest other state on the side that a
+///     state comes from.
+///   * Between flat pieces M(z_i, t) = M0 + H0 t until the edge of a fan comes, the characteristic of a state followed back to
+///     the first point that is not at rest, or a shock, which makes M less than that.
+///
+/// Empty if nothing ever comes. Error: a few u; of a shock u (top - bottom) over the change of H.
+template <Real Scalar>
+class LinearArrival {
+ public:
+  LinearArrival(const LinearMedium<Scalar>& medium, std::size_t i)
+      : medium_(medium), cells_(medium.cells()), at_(cells_.first[i]), z_(cells_.x[at_]) {}
+
+  [[nodiscard]] std::optional<Scalar> find() const {
+    if (!is_at_rest(at_)) return Scalar(0);
+    const bool is_pure = h(at_ - 1) == 0;
+    const Scalar first = is_pure ? of_pure_states() : of_flat_pieces();
+    if (!is_finite(first)) return std::nullopt;
+    return first;
+  }
+
+ private:
+  [[nodiscard]] bool is_flat(std::size_t cell) const {
+    const std::size_t k = cells_.layer[cell];
+    return medium_.pieces().low[k] == medium_.pieces().high[k];
+  }
+  [[nodiscard]] Scalar rate(std::size_t cell, bool is_high) const {
+    const std::size_t k = cells_.layer[cell];
+    return medium_.pieces().rate(k, cells_.x[is_high ? cell + 1 : cell]);
+  }
+  [[nodiscard]] Scalar q(std::size_t cell) const { return Scalar(2) * cells_.phi[cell] - Scalar(1); }
+  /// 4 H of a state that keeps it: pure, or in a flat piece.
+  [[nodiscard]] Scalar h(std::size_t cell) const {
+    return Scalar(4) * rate(cell, false) * cells_.phi[cell] * (Scalar(1) - cells_.phi[cell]);
+  }
+  [[nodiscard]] bool stays(std::size_t cell) const {
+    return cells_.phi[cell] == 0 || cells_.phi[cell] == 1 || is_flat(cell);
+  }
+  /// No wave leaves this inner point at t = 0, and the states beside it stay what they are.
+  [[nodiscard]] bool is_at_rest(std::size_t point) const {
+    const std::size_t b = point - 1, a = point;
+    if (!stays(b) || !stays(a)) return false;
+    const Scalar r_b = rate(b, true), r_a = rate(a, false), h_b = h(b), h_a = h(a);
+    if (r_b == r_a && cells_.phi[b] == cells_.phi[a]) return true;
+    const Scalar passing = std::min(q(b) > 0 ? h_b : r_b, q(a) < 0 ? h_a : r_a);
+    const Scalar slack = Scalar(32) * unit_roundoff<Scalar>() * std::min(r_a, r_b);
+    const auto equal = [&](const Scalar& some) { return some - passing <= slack && passing - some <= slack; };
+    return equal(h_b) && equal(h_a);
+  }
+
+  [[nodiscard]] Scalar of_pure_states() const {
+    Scalar first = infinity<Scalar>();
+    if (cells_.phi[at_ - 1] == 1) {
+      std::size_t c = at_ - 1;
+      while (c > 0 && cells_.phi[c - 1] == 1) --c;
+      if (c > 0) first = medium_.pure_travel_time(cells_.x[c], z_);
+    }
+    if (cells_.phi[at_] == 0) {
+      std::size_t c = at_;
+      while (c + 1 < cells_.n_cells() && cells_.phi[c + 1] == 0) ++c;
+      if (c + 1 < cells_.n_cells()) first = std::min(first, medium_.pure_travel_time(cells_.x[c + 1], z_));
+    }
+    return first;
+  }
+
+  [[nodiscard]] Scalar of_flat_pieces() const {
+    const Scalar H0 = h(at_ - 1) / Scalar(4), &M0 = cells_.M[at_];
+    // M is no more than either final amount.
+    Scalar first = (std::min(Scalar(z_ - medium_.bottom()), medium_.mass()) - M0) / H0;
+    for (const bool is_upward : {true, false}) first = std::min(first, edge(is_upward));
+    const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (medium_.top() - medium_.bottom());
+    const auto is_changed = [&](const Scalar& t) {
+      return medium_.best_path(z_, t).value < M0 + H0 * t - tie;
+    };
+    constexpr int kSamples = 200;  // what has come may leave again
+    for (int n = 1; n <= kSamples; ++n) {
+      Scalar hi = first * Scalar(n) / Scalar(kSamples), lo = first * Scalar(n - 1) / Scalar(kSamples);
+      if (!(hi > 0) || !is_changed(hi)) continue;
+      while (hi - lo > Scalar(4) * unit_roundoff<Scalar>() * hi) {
+        const Scalar t = lo + (hi - lo) / Scalar(2);
+        if (!(t > lo && t < hi)) break;
+        (is_changed(t) ? hi : lo) = t;
+      }
+      return hi;
+    }
+    return first;
+  }
+  /// When the end of the state on one side comes; never if the state does not come from there.
+  [[nodiscard]] Scalar edge(bool is_upward) const {
+    Scalar time(0);
+    for (std::size_t point = at_;;) {
+      const std::size_t c = is_upward ? point - 1 : point;
+      const Scalar over = is_upward ? q(c) : Scalar(-q(c));
+      if (!(over > 0)) return point == at_ ? infinity<Scalar>() : time;
+      time += (cells_.x[c + 1] - cells_.x[c]) / (rate(c, false) * over);
+      is_upward ? --point : ++point;
+      if (point == 0 || point + 1 == cells_.x.size() || !is_at_rest(point)) return time;
+    }
+  }
+
+  const LinearMedium<Scalar>& medium_;
+  const Cells<Scalar>& cells_;
+  std::size_t at_;
+  Scalar z_;
+};
+
+}  // namespace shearfront::exact
