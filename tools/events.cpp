@@ -138,8 +138,10 @@ int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
 /// Where pieces stand for the bed, digits beyond the estimated error are not known.
 void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>& scene,
                            const Method& method) {
-  const ExactSolution<double> solution(
-      scene, {static_cast<std::size_t>(number_of(method, "layers")), number_of(method, "tolerance")});
+  ExactSolution<double>::Options settings;
+  settings.layers = static_cast<std::size_t>(number_of(method, "layers"));
+  if (const double tolerance = number_of(method, "tolerance"); tolerance > 0) settings.tolerance = tolerance;
+  const ExactSolution<double> solution(scene, settings);
   if (!solution.is_exact())
     refuse("--digits", arguments.digits,
            fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",

@@ -123,7 +123,8 @@ struct LinearView {
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
     const Scalar most = std::min(low[a], q0[b] > 0 ? h(b, high[b]) : high[b]);
-    return least <= most * (one + slack);
+    // Between pure states a fan is no more than the path of the state, which is no moving one.
+    return most > 0 && least <= most * (one + slack);
   }
 };
 

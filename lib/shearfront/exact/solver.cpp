@@ -37,13 +37,16 @@ class ExactField final : public Field {
 };
 
 ExactSolution<double>::Options options_of(const ExactSolver::Options& options) {
-  return {static_cast<std::size_t>(options.layers), options.tolerance};
+  ExactSolution<double>::Options settings;
+  settings.layers = static_cast<std::size_t>(options.layers);
+  if (options.tolerance > 0) settings.tolerance = options.tolerance;
+  return settings;
 }
 
 class ExactRun final : public Run {
  public:
   ExactRun(const Scene<double>& scene, const ExactSolver::Options& options, const Watch& watch)
-      : tolerance_(options.tolerance),
+      : tolerance_(options_of(options).tolerance),
         is_given_(options.layers > 0),
         progress_(watch.progress),
         solution_(scene, options_of(options)),

@@ -12,7 +12,7 @@ struct ExactSolver {
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
-    double tolerance = 1e-6;
+    double tolerance = 0;      ///< 0: that of ExactSolution::Options
     std::uint64_t layers = 0;  ///< 0: ExactSolution::kDefaultLayers
 
     template <class Self, class Visit>
@@ -21,7 +21,9 @@ struct ExactSolver {
           OptionInfo{
               "tolerance",
               "aim for the error of M, in heights of the bed, where linear pieces stand for a smooth bed",
-              {0, 1, true}},
+              {0, 1, true},
+              {},
+              "1e-6"},
           self.tolerance);
       visit(OptionInfo{"layers",
                        "layers that stand for a smooth bed with a flux that is no parabola; with parabolas, "
