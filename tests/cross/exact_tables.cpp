@@ -98,8 +98,11 @@ void expect_convergence(int first, int count, std::size_t n_cells) {
   EXPECT_GT(n_falling, count / 2);
 }
 
-TEST(ExactTables, AreTheLimitOfAScheme) { expect_convergence(0, 40, 100); }
-TEST(SlowExactTables, AreTheLimitOfAScheme) { expect_convergence(0, 500, 200); }
+TEST(ExactTables, AreTheLimitOfAScheme) { expect_convergence(0, 40, 60); }
+
+class ExactTableBlocks : public testing::TestWithParam<int> {};
+TEST_P(ExactTableBlocks, AreTheLimitOfAScheme) { expect_convergence(GetParam(), 25, 100); }
+INSTANTIATE_TEST_SUITE_P(Slow, ExactTableBlocks, testing::Range(0, 500, 25));
 
 }  // namespace
 }  // namespace shearfront
