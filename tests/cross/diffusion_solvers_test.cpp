@@ -20,7 +20,7 @@
 namespace shearfront {
 namespace {
 
-constexpr double kSteady = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 SceneSpec<double> uniform(double D, double phi = 0.55) {
   SceneSpec<double> spec;
@@ -116,7 +116,7 @@ TEST(DiffusionSolvers, ReachTheSameSteadyState) {
     CrankNicolsonSolver::Options options;
     options.cells = 400;
     options.tolerance = 1e-6;
-    const auto [phi, M] = distance(Scene<double>(uniform(D)), {kSteady}, options);
+    const auto [phi, M] = distance(Scene<double>(uniform(D)), {kForever}, options);
     EXPECT_LT(phi, 1e-4) << D;
     EXPECT_LT(M, 1e-5) << D;
   }

@@ -33,7 +33,7 @@ Drawn draw(int number) {
   return {scene, std::exp(maker.uniform(-3, 3))};
 }
 
-using Tracked = Tracker<LevelGrid<double>>;
+using LevelTracker = Tracker<LevelGrid<double>>;
 
 constexpr double kResolution = 0.02;
 constexpr int kScenes = 600;
@@ -47,7 +47,7 @@ TEST_P(TrackerAgainstExact, AgreesWithinTheResolution) {
     const auto [scene, time] = draw(number);
     const ExactSolution<double> exact(scene);
     const TrackingSetup<double> setup(scene, kResolution);
-    Tracked tracker(setup);
+    LevelTracker tracker(setup);
     tracker.advance_to(time);
     EXPECT_NEAR(tracker.mass(), scene.mass(), 1e-13);
     EXPECT_EQ(verify(tracker, 1e-13, 1e-11), std::vector<std::string>{});
@@ -75,7 +75,7 @@ TEST(TrackerAgainstExactOrder, FirstInPhiSecondInMAndSecondWithLines) {
     const double exact_t_star = exact_timeline(scene).t_star.value();
     for (int i = 0; i < 2; ++i) {
       const TrackingSetup<double> setup(scene, i == 0 ? coarse : fine);
-      Tracked tracker(setup);
+      LevelTracker tracker(setup);
       tracker.advance_to(time);
       const auto s = errors_against(exact, tracker.profile(), time);
       const auto l = errors_against(exact, linear_profile(tracker), time);
@@ -99,7 +99,7 @@ TEST(TrackerAgainstExactTimes, FirstAndLastWavesAtWallsAndInterfaces) {
     const auto [scene, time] = draw(number);
     const Timeline<double> exact = exact_timeline(scene);
     const TrackingSetup<double> setup(scene, resolution);
-    Tracked tracker(setup);
+    LevelTracker tracker(setup);
     tracker.run_to_steady();
     const Timeline<double> tracked = tracked_timeline(tracker, scene, setup.stack);
     const auto near = [&](const std::optional<double>& a, const std::optional<double>& b, double slack,
@@ -134,7 +134,7 @@ TEST(TrackerAgainstExactDomain, MovedAndStretchedScenes) {
     moved.bottom = -3, moved.top = 1;
     const Scene<double> stretched(moved);
     const TrackingSetup<double> a(scene, kResolution), b(stretched, kResolution);
-    Tracked tracker(a), other(b);
+    LevelTracker tracker(a), other(b);
     tracker.advance_to(time);
     other.advance_to(4 * time);
     const auto p = tracker.profile(), q = other.profile();
