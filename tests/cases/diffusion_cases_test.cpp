@@ -63,7 +63,7 @@ TEST(DiffusionCases, CoarseCellsStayInTheRangeAndSayWhatTheyDo) {
         EXPECT_GE(at.phi, -1e-5) << D << ' ' << cells;
         EXPECT_LE(at.phi, 1 + 1e-5) << D << ' ' << cells;
       }
-      // 1600 cells, the most that are chosen, are as narrow as 2 D / (s a) = 8.3e-4 for the first D only.
+      // 1600 cells, the most that are chosen, are as narrow as 1.8 D / (s a) = 7.5e-4 for the first D only.
       EXPECT_EQ(result.summary.remark.empty(), D == 1e-3 && cells == 0) << D << ' ' << cells;
     }
   }

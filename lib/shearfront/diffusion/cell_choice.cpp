@@ -11,7 +11,7 @@ namespace shearfront::diffusion {
 namespace {
 
 /// Up to the rounding of widths.
-constexpr double kMostCellPeclet = 2 * (1 + 1e-12);
+constexpr double kMostCellPeclet = kCentralUpTo * (1 + 1e-12);
 
 }  // namespace
 
@@ -24,13 +24,16 @@ std::size_t chosen_cells(const Scene<double>& scene) {
 std::string raised_remark(const Problem& problem) {
   const double peclet = largest_cell_peclet(problem);
   if (peclet <= kMostCellPeclet) return "";
-  const double wanted = std::ceil(static_cast<double>(problem.n_cells) * peclet / 2);
+  const double wanted = std::ceil(static_cast<double>(problem.n_cells) * peclet / kCentralUpTo);
+  constexpr double kMostWorthwhile = 1e6;
   return "fronts are narrower than the " + std::to_string(problem.n_cells) + " cells: D is raised, up to " +
-         number_text(peclet / 2, 3) +
+         number_text(raised_share(peclet), 3) +
          " times, where phi would leave its range else, and the error falls with the first power of the "
-         "cells only; "
-         "second order takes " +
-         number_text(wanted, 3) + " cells, or cell_tolerance = 0.01";
+         "cells only; " +
+         (wanted <= kMostWorthwhile
+              ? "second order takes " + number_text(wanted, 3) + " cells, or cell_tolerance = 0.01"
+              : "so small a D makes no difference to be seen: the bed without diffusion has an exact "
+                "solution");
 }
 
 }  // namespace shearfront::diffusion

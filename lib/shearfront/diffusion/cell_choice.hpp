@@ -10,8 +10,8 @@ namespace shearfront::diffusion {
 
 inline constexpr std::size_t kUsualCells = 400, kMostChosenCells = 1600;
 
-/// How many equal cells a scene is given if nobody says it: kUsualCells, doubled until the cell Peclet number
-/// |r| W dz / D is at most 2 at every face, where central fluxes are monotone; at most kMostChosenCells.
+/// How many equal cells a scene is given if nobody says it: kUsualCells, doubled until Scheme::raised is central at
+/// every face; at most kMostChosenCells.
 /// Precondition: refusal(scene) is empty. Cost: O(cells + knots).
 [[nodiscard]] std::size_t chosen_cells(const Scene<double>& scene);
 

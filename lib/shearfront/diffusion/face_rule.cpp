@@ -23,8 +23,7 @@ struct FaceDiffusivity {
       case Scheme::central:
         break;
       case Scheme::raised:
-        if (std::abs(rate) * upwind > diffusivity) return all_upwind(rate, upwind);
-        break;
+        return raised(rate, diffusivity, upwind);
       case Scheme::fitted:
         return fitted(rate, diffusivity, upwind);
     }
@@ -35,6 +34,13 @@ struct FaceDiffusivity {
   static double sign(double rate) { return rate > 0 ? 1 : rate < 0 ? -1 : 0; }
   static FaceDiffusivity all_upwind(double rate, double upwind) {
     return {std::abs(rate) * upwind, sign(rate) * upwind, 0};
+  }
+  static FaceDiffusivity raised(double rate, double diffusivity, double upwind) {
+    const double p = std::abs(rate) * upwind / diffusivity, share = raised_share(p);
+    if (share == 1) return {diffusivity, 0, 1};
+    if (share == p) return all_upwind(rate, upwind);
+    const double slope = (p - kCentralUpTo) / (2 * (1 - kCentralUpTo));
+    return {diffusivity * share, sign(rate) * upwind * slope, share - p * slope};
   }
   /// D P coth(P).
   static FaceDiffusivity fitted(double rate, double diffusivity, double upwind) {
@@ -192,7 +198,7 @@ double largest_cell_peclet(const Problem& problem) {
   double largest = 0;
   for (std::size_t i = has_walls ? 1 : 0; i < (has_walls ? n : n + 1); ++i) {
     const double width = std::max(problem.width(i > 0 ? i - 1 : 0), problem.width(i < n ? i : n - 1));
-    largest = std::max(largest, std::abs(problem.rate[i]) * fastest * width / problem.diffusivity[i]);
+    largest = std::max(largest, std::abs(problem.rate[i]) * fastest * width / (2 * problem.diffusivity[i]));
   }
   return largest;
 }
