@@ -12,6 +12,7 @@
 
 #include "shearfront/diffusion/cole_hopf_kink.hpp"
 #include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/diffusion/face_rule.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
@@ -66,6 +67,44 @@ TEST(DiffusionCases, CoarseCellsStayInTheRangeAndSayWhatTheyDo) {
       // 1600 cells, the most that are chosen, are as narrow as 1.8 D / (s a) = 7.5e-4 for the first D only.
       EXPECT_EQ(result.summary.remark.empty(), D == 1e-3 && cells == 0) << D << ' ' << cells;
     }
+  }
+}
+
+// Why they stay in it: F never falls as the state below rises and never rises as the state above does.
+TEST(DiffusionCases, RaisedFluxesAreMonotone) {
+  constexpr std::size_t kCells = 24;
+  constexpr double kRounding = 1e-13;  // of r / dz, 68 at most
+  for (const bool is_equal : {true, false})
+    for (const double D : {1e-12, 1e-3, 0.02, 0.03, 0.05, 1.0}) {
+      diffusion::Problem problem;
+      problem.n_cells = kCells;
+      problem.diffusivity.assign(kCells + 1, D);
+      for (std::size_t i = 0; i <= kCells; ++i) problem.rate.push_back(i % 3 == 0 ? -1.7 : 1.1);
+      if (!is_equal) {  // widths 1, 2, 2 in turn
+        problem.faces.push_back(0);
+        for (std::size_t j = 0; j < kCells; ++j)
+          problem.faces.push_back(problem.faces.back() + (j % 3 == 0 ? 1.0 : 2.0) / 40);
+        problem.top = problem.faces.back();
+      }
+      const auto rule = diffusion::FaceRule::make(problem, diffusion::Scheme::raised);
+      diffusion::FaceFluxes at(kCells + 1);
+      for (std::size_t shift = 0; shift < 7; ++shift) {
+        std::vector<double> v;
+        for (std::size_t j = 0; j < kCells + 2; ++j)
+          v.push_back(static_cast<double>((5 * j + 3 * shift) % 11) / 10);
+        v.front() = v[1], v.back() = v[kCells];
+        rule->evaluate(v.data(), at);
+        for (std::size_t i = 1; i < kCells; ++i) {
+          EXPECT_GE(at.by_below[i], -kRounding) << D << ' ' << i;
+          EXPECT_LE(at.by_above[i], kRounding) << D << ' ' << i;
+        }
+      }
+    }
+  const double tiny = 1e-7;
+  for (double p = 0; p < 3; p += 0.01) {
+    const double h = diffusion::raised_share(p);
+    EXPECT_GE(h, std::max(1.0, p) * (1 - 1e-15)) << p;
+    EXPECT_NEAR(diffusion::raised_share(p + tiny) - h, h - diffusion::raised_share(p - tiny), 1e-12) << p;
   }
 }
 
