@@ -195,7 +195,7 @@ TEST(DiffusionCases, SecondOrderOnTheWayWhereRateAndDiffusivityJump) {
   spec.diffusion = Diffusion<double>{0.02, {}, true};
   const std::vector<double> z = middles(0, 1, 50);
   std::vector<SolverResult> results;
-  for (const std::uint64_t cells : {250, 500, 1000}) {
+  for (const std::uint64_t cells : {250U, 500U, 1000U}) {
     GridOptions options;
     options.cells = cells;
     options.tolerance = 1e-7;
@@ -317,7 +317,7 @@ TEST(DiffusionCases, CellsThatFollowFrontsCostNoMoreThanTwiceEqualOnes) {
   equal.cells = 1600;
   reference.cells = 4800;
   const SolverResult fine = on_grid(scene, {0.5, 1}, z, reference), even = on_grid(scene, {0.5, 1}, z, equal);
-  for (const std::uint64_t cells : {50, 100, 400}) {
+  for (const std::uint64_t cells : {50U, 100U, 400U}) {
     GridOptions options;
     options.cells = cells;
     options.cell_tolerance = 0.01;
