@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/overload.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/solid_profile.hpp"
@@ -36,6 +38,7 @@ std::string refusal_of_levels(const LayerStack<double>& stack, const TrackOption
 /// A flux that does not vanish at the ends of its range may bring more to a layer than that can carry.
 std::string refusal_between_layers(const Scene<double>& scene) {
   if (scene.is_uniform()) return {};
+  if (is_monotone(course_of(scene.fluxes().front()))) return overload(scene);
   for (const Flux<double>& flux : scene.fluxes())
     if (flux.value(flux.range().lowest) != 0 || flux.value(flux.range().highest) != 0)
       return "flux " + std::string(flux.name()) +

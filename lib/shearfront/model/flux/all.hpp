@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "shearfront/model/flux/buckley_leverett.hpp"
 #include "shearfront/model/flux/burgers.hpp"
+#include "shearfront/model/flux/course.hpp"
 #include "shearfront/model/flux/cubic.hpp"
 #include "shearfront/model/flux/flux.hpp"
 #include "shearfront/model/flux/lwr.hpp"
@@ -26,8 +28,9 @@ decltype(auto) with_model_of(TypeList<Model, Others...>, const AnyFlux& flux, Vi
 
 /// Every flux of the toolkit. To add one: copy skeleton.hpp, include it here, and name it in the list.
 template <Real Scalar>
-using FluxList = TypeList<Quadratic<Scalar>, Cubic<Scalar>, Lwr<Scalar>, LwrCubic<Scalar>, Triangular<Scalar>,
-                          RichardsonZaki<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
+using FluxList =
+    TypeList<Quadratic<Scalar>, Cubic<Scalar>, Lwr<Scalar>, LwrCubic<Scalar>, Triangular<Scalar>,
+             RichardsonZaki<Scalar>, BuckleyLeverett<Scalar>, Burgers<Scalar>, FluxTable<Scalar>>;
 
 /// Calls visit(model) for the model that a flux holds: for loops that evaluate it many times. For a model that is not in
 /// the list, one of a user of the library, it calls visit(flux): the same loop with a virtual call per evaluation.
