@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/riemann/overload.hpp"
+#include "shearfront/track/one_layer_grid.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/solid_profile.hpp"
@@ -46,6 +48,11 @@ std::string refusal_between_layers(const Scene<double>& scene) {
   return {};
 }
 
+bool has_several_extrema(const Scene<double>& scene) {
+  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
+                     [](const Flux<double>& flux) { return course_of(flux) == FluxCourse::several_extrema; });
+}
+
 std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& stack,
                        const TrackOptions& options) {
   if (stack.is_plain()) return refusal_of_levels(stack, options);
@@ -54,6 +61,7 @@ std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& sta
   if (options.reconstruct != Reconstruction::constant && has_smooth_solid_fraction(scene))
     return "the linear reconstruction is not known where c varies smoothly";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
+  if (has_several_extrema(scene)) return OneLayerGrid<double>::refusal(stack, options.resolution);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
 }
@@ -65,6 +73,16 @@ std::string refusal_at_once(const Scene<double>& scene, const TrackOptions& opti
   if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
   if (scene.has_diffusion()) return "there are no fronts where grains diffuse";
   return {};
+}
+
+/// Whether only pure states are at rest.
+bool separates(const Flux<double>& flux) {
+  bool is_negative = true, is_positive = true;
+  for (const double x : flux.extrema()) {
+    is_negative = is_negative && flux.value(x) < 0;
+    is_positive = is_positive && flux.value(x) > 0;
+  }
+  return is_negative || is_positive;
 }
 
 LayerStack<double> layers_of(const Scene<double>& scene, const TrackOptions& options) {
@@ -165,6 +183,11 @@ class TrackingOn final : public AnyTracking {
       status_ = Status::unsupported;
       return std::nullopt;
     }
+    if (!std::all_of(bed_->scene.fluxes().begin(), bed_->scene.fluxes().end(), separates)) {
+      refused_ = "event times are those of grains that go one way; this flux is 0 inside its range";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
     return tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
@@ -224,11 +247,13 @@ Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Prog
   if (why.empty()) {
     LayerStack<double> stack = layers_of(scene, options);
     why = refusal_of(scene, stack, options);
+    const auto on = [&]<class Grid>(std::type_identity<Grid>) {
+      return tracking_on<Grid>(scene, options, std::move(progress), std::move(stack));
+    };
     if (why.empty())
-      tracking_ =
-          LevelGrid<double>::refusal(stack).empty()
-              ? tracking_on<LevelGrid<double>>(scene, options, std::move(progress), std::move(stack))
-              : tracking_on<UnimodalGrid<double>>(scene, options, std::move(progress), std::move(stack));
+      tracking_ = LevelGrid<double>::refusal(stack).empty() ? on(std::type_identity<LevelGrid<double>>{})
+                  : has_several_extrema(scene)              ? on(std::type_identity<OneLayerGrid<double>>{})
+                                                            : on(std::type_identity<UnimodalGrid<double>>{});
   }
   if (!tracking_) throw InputError("method", "\"front-tracking\"", "must suit the scene: " + why);
 }
