@@ -190,13 +190,19 @@ class TrackingOn final : public AnyTracking {
     }
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
-    return tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+    const Timeline<double> timeline = tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+    rests_never_ = tracker_.is_steady() && !timeline.t_star;
+    return timeline;
   }
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message =
-        refused_.empty() ? message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable()) : refused_;
+    summary.message = !refused_.empty() ? refused_
+                      : rests_never_
+                          ? "the bed never rests, for its flux has no slope at a pure state; the last fronts "
+                            "of the polygon meet at t = " +
+                                number_text(tracker_.last_collision())
+                          : message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
     summary.collisions = tracker_.n_collisions();
     summary.fronts_max = tracker_.n_fronts_max();
     summary.levels = bed_->setup.grid.n_levels();
@@ -221,6 +227,7 @@ class TrackingOn final : public AnyTracking {
   Tracker<Grid, Observer> tracker_;
   Status status_ = Status::ok;
   std::string refused_;
+  bool rests_never_ = false;
 };
 
 template <class Grid>
