@@ -98,16 +98,21 @@ Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amo
 }
 
 /// The same for fluxes with straight branches: pure states then travel with the contacts behind them, and a
-/// moving path that ties with one at rest says nothing. M meets its final amount with a slope that is no
-/// smaller than that of a contact, so M itself tells the time, to `tie` over that slope. Precondition:
-/// `late` is no earlier. Cost: 60 queries.
+/// moving path that ties with one at rest says nothing. Before the time some path misses something, after it none does;
+/// what is missed is known to a few u of what its path carries, H t, and of paths at rest to rounding in twice the digits.
+/// Precondition: `late` is no earlier. Cost: 60 times two queries.
 template <Real Scalar>
 Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
                               const Scalar& late, const Scalar& height) {
-  const Scalar u = unit_roundoff<Scalar>(), tie = Scalar(64) * u * height;
+  const Scalar u = unit_roundoff<Scalar>();
+  const auto misses = [&](const Path<Scalar>& path, const Scalar& time) {
+    if (path.kind == PathKind::none) return false;
+    const Scalar rounding = Scalar(64) * u * (path.H > 0 ? Scalar(path.H * time) : Scalar(u * height));
+    return medium.shortfall(path, z, time, amount) > rounding;
+  };
   const auto is_reached = [&](const Scalar& time) {
-    const Path<Scalar> best = medium.best_free(z, time, infinity<Scalar>());
-    return best.kind == PathKind::none || !(medium.shortfall(best, z, time, amount) > tie);
+    return !misses(medium.best_free(z, time, infinity<Scalar>()), time) &&
+           !misses(medium.best_moving(z, time), time);
   };
   Scalar lo(0), hi = late;
   while (hi - lo > Scalar(4) * u * hi) {
