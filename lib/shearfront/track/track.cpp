@@ -142,7 +142,8 @@ class TrackingOn final : public AnyTracking {
              LayerStack<double> stack)
       : bed_(std::make_shared<const Bed>(scene, options, std::move(stack))),
         limits_{options.max_collisions, std::move(progress)},
-        tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends) {}
+        tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends, {},
+                 static_cast<std::size_t>(options.max_fronts)) {}
 
   [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override {
     return std::make_unique<TrackingOn>(*this);
@@ -197,12 +198,7 @@ class TrackingOn final : public AnyTracking {
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message = !refused_.empty() ? refused_
-                      : rests_never_
-                          ? "the bed never rests, for its flux has no slope at a pure state; the last fronts "
-                            "of the polygon meet at t = " +
-                                number_text(tracker_.last_collision())
-                          : message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+    summary.message = !refused_.empty() ? refused_ : message();
     summary.collisions = tracker_.n_collisions();
     summary.fronts_max = tracker_.n_fronts_max();
     summary.levels = bed_->setup.grid.n_levels();
@@ -211,6 +207,20 @@ class TrackingOn final : public AnyTracking {
   }
 
  private:
+  [[nodiscard]] std::string message() const {
+    if (tracker_.has_too_many_fronts())
+      return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
+             " fronts, more than allowed; use a coarser resolution or fewer layers, or allow more, at 64 "
+             "bytes "
+             "each and as much again while their list grows";
+    if (rests_never_)
+      return "the bed never rests, for its flux has no slope at a pure state; the last fronts of the polygon "
+             "meet "
+             "at t = " +
+             number_text(tracker_.last_collision());
+    return message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+  }
+
   /// What never changes; the tracker refers to it.
   struct Bed {
     Bed(const Scene<double>& of, const TrackOptions& options, LayerStack<double> stack)
