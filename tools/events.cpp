@@ -117,6 +117,7 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
           "k0, k1 rates s a below and above the interface\n");
     out.write(
         fmt::format("\nmass {}, steady height {}\n{}", text.mass, text.steady_height, summary_line(summary)));
+    if (!timeline.t_star) out.write(summary.message + '\n');
   }
   out.commit();
 }

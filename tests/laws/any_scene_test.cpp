@@ -131,7 +131,7 @@ TEST(AnyScene, SchemesOfFirstOrderContract) {
     const Scene<double> higher(std::move(other));
     const auto check = [&]<class S>(const S&) {
       const auto options = support::options_of<S>(kOptions);
-      if (!S::refusal(scene, options).empty()) return;
+      if (!S::refusal(scene, options).empty() || !S::refusal(higher, options).empty()) return;
       SolverRequest both = request();
       both.times = {0, kTime};
       const SolverResult u = solve<S>(scene, both, options), v = solve<S>(higher, both, options);

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -77,7 +78,12 @@ template <Real To, Real From>
   to.remarks = from.remarks;
   to.fluxes.clear();
   for (const Flux<From>& flux : from.fluxes)
-    to.fluxes.push_back(with_model(flux, [](const auto& f) -> Flux<To> { return model_cast<To>(f); }));
+    to.fluxes.push_back(with_model(flux, []<class Model>(const Model& f) -> Flux<To> {
+      if constexpr (std::same_as<Model, Flux<From>>)
+        throw std::logic_error("a flux that is not in the list has no other scalar");
+      else
+        return model_cast<To>(f);
+    }));
   to.flux_breaks = numbers_cast<To>(from.flux_breaks);
   const auto function = [](const DepthFunction<From>& model) {
     return std::visit([](const auto& m) -> DepthFunction<To> { return model_cast<To>(m); }, model);

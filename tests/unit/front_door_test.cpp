@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 
 #include "shearfront/model/flux/all.hpp"
@@ -56,6 +57,24 @@ TEST(Track, RecordsAreClosedWhenTheyAreRead) {
   EXPECT_GE(bed.fronts().size(), early.size());
   EXPECT_GT(bed.collisions().size(), n_early);
   EXPECT_EQ(bed.collisions().front().boundary, 1U);  // the fan reaches the interface first
+}
+
+// The kind of fault: work that grows without a bound on its memory.
+TEST(Track, StopsWithTooManyFronts) {
+  Tracking free = track(Scene<>(two_layers()), {.resolution = 0.02});
+  EXPECT_EQ(free.advance(kForever), Status::steady);
+  const std::uint64_t most = free.summary().fronts_max;
+  for (const std::uint64_t allowed : {std::uint64_t{10}, most - 1, most}) {  // 10: fewer than leave the jump
+    Tracking bed = track(Scene<>(two_layers()), {.resolution = 0.02, .max_fronts = allowed});
+    if (allowed == most) {
+      EXPECT_EQ(bed.advance(kForever), Status::steady);
+      continue;
+    }
+    EXPECT_EQ(bed.advance(kForever), Status::budget_reached);
+    EXPECT_NE(bed.summary().message.find("fronts, more than allowed"), std::string::npos)
+        << bed.summary().message;
+    EXPECT_FALSE(bed.timeline());
+  }
 }
 
 TEST(Track, IsAValue) {

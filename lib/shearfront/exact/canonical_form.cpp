@@ -156,7 +156,10 @@ template <Real Scalar>
 Scalar CanonicalForm<Scalar>::state_of(const Scalar& share, std::size_t k) const {
   if (is_identity_) return share;
   const std::size_t i = layers_.flux_index(k);
-  return (is_concave_ ? highest_[i] - share : share - lowest_[i]) / width_[i];
+  const Scalar u = (is_concave_ ? highest_[i] - share : share - lowest_[i]) / width_[i];
+  // What is nearly pure must not be rounded to what is: traces of grains travel, pure states rest.
+  const bool is_pure = share == lowest_[i] || share == highest_[i];
+  return is_pure ? u : std::min(u, Scalar(Scalar(1) - unit_roundoff<Scalar>()));
 }
 
 template <Real Scalar>

@@ -54,10 +54,11 @@ bool is_steady(const std::vector<Scalar>& states) {
 /// amounts would cost u (top - bottom) / H of the time. For the same reason a path with H = 0 that ties with
 /// the amount (a pure region that reached z before the wall's own path; `tie` tells it from one that misses a
 /// real volume) makes way for the best moving one, whose shortfall decides. Precondition: M(z, 0) < amount.
-/// `start` is any positive guess. Cost: about 10 queries.
+/// `start` is any positive guess, `near` the best moving path found so far, at this height or another. Cost: about 10
+/// queries.
 template <Real Scalar>
 Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount, const Scalar& start,
-                  const Scalar& height) {
+                  const Scalar& height, Path<Scalar>& near) {
   const Scalar u = unit_roundoff<Scalar>();
   const Scalar tie = Scalar(64) * u * height;
   const auto shortfall = [&](const Path<Scalar>& path, const Scalar& time) {
@@ -66,12 +67,13 @@ Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amo
   Scalar lo(0), hi = infinity<Scalar>(), t = start;
   constexpr int kMaxQueries = 4000;  // bisection of the whole exponent range
   for (int n = 0; n < kMaxQueries; ++n) {
-    Path<Scalar> best = medium.best_free(z, t, infinity<Scalar>());
+    Path<Scalar> best = medium.best_beside(near, z, t, false);
     Scalar missing = shortfall(best, t);
     if (best.kind != PathKind::none && best.H == 0 && missing <= tie) {
-      best = medium.best_moving(z, t);
+      best = medium.best_beside(near, z, t, true);
       missing = shortfall(best, t);
     }
+    if (best.kind != PathKind::none && best.H > 0) near = best;
     const bool none = best.kind == PathKind::none;
     (missing > 0 ? lo : hi) = t;
     Scalar next = t;
@@ -98,22 +100,35 @@ Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amo
 }
 
 /// The same for fluxes with straight branches: pure states then travel with the contacts behind them, and a
-/// moving path that ties with one at rest says nothing. M meets its final amount with a slope that is no
-/// smaller than that of a contact, so M itself tells the time, to `tie` over that slope. Precondition:
-/// `late` is no earlier. Cost: 60 queries.
+/// moving path that ties with one at rest says nothing. Before the time some path misses something, after it none does;
+/// what is missed is known to a few u of what its path carries, H t, and of paths at rest to rounding in twice the digits.
+/// Steps as Newton's from before it, where a path that is linear in t leads there at once, else by halves. Precondition:
+/// `late` is no earlier, and mostly it is the time. Cost: some four times two queries.
 template <Real Scalar>
 Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amount,
-                              const Scalar& late, const Scalar& height) {
-  const Scalar u = unit_roundoff<Scalar>(), tie = Scalar(64) * u * height;
-  const auto is_reached = [&](const Scalar& time) {
-    const Path<Scalar> best = medium.best_free(z, time, infinity<Scalar>());
-    return best.kind == PathKind::none || !(medium.shortfall(best, z, time, amount) > tie);
+                              const Scalar& late, const Scalar& height, const Path<Scalar>& near) {
+  const Scalar u = unit_roundoff<Scalar>();
+  const auto gain = [&](const Path<Scalar>& path, const Scalar& time) {  // time until the path misses nothing
+    if (path.kind == PathKind::none) return Scalar(0);
+    const Scalar rounding = Scalar(64) * u * (path.H > 0 ? Scalar(path.H * time) : Scalar(u * height));
+    const Scalar missing = medium.shortfall(path, z, time, amount);
+    return !(missing > rounding) ? Scalar(0) : path.H > 0 ? Scalar(missing / path.H) : infinity<Scalar>();
   };
-  Scalar lo(0), hi = late;
-  while (hi - lo > Scalar(4) * u * hi) {
-    const Scalar t = lo + (hi - lo) / Scalar(2);
+  const Scalar close = Scalar(4) * u;
+  Scalar lo(0), hi = late, t = late - close * late;
+  while (hi - lo > close * hi) {
+    if (!(t > lo && t < hi)) t = lo + (hi - lo) / Scalar(2);
     if (!(t > lo && t < hi)) break;
-    (is_reached(t) ? hi : lo) = t;
+    const Scalar left = std::max(gain(medium.best_beside(near, z, t, false), t),
+                                 gain(medium.best_beside(near, z, t, true), t));
+    if (left > 0) {
+      lo = t;
+      t += left + close * t;
+    } else {
+      const bool was_step = hi - t > close * hi;
+      hi = t;
+      t = was_step ? Scalar(t - close * t) : lo;
+    }
   }
   return hi;
 }
@@ -135,7 +150,7 @@ class Events {
   Events(const CanonicalForm<Scalar>& form, const Medium<Scalar>& medium)
       : form_(form), medium_(medium), has_contacts_(has_contacts(form.scene())) {}
 
-  Timeline<Scalar> all() const {
+  Timeline<Scalar> all() {
     Timeline<Scalar> events;
     events.t0 = at_wall(false);
     events.t1 = at_wall(true);
@@ -162,7 +177,7 @@ class Events {
     return std::nullopt;
   }
 
-  typename Timeline<Scalar>::InterfaceTimes at_interface(std::size_t i) const {
+  typename Timeline<Scalar>::InterfaceTimes at_interface(std::size_t i) {
     const Scalar& y = form_.boundaries()[i];
     typename Timeline<Scalar>::InterfaceTimes times{form_.layers().boundary(i), medium_.first_wave(i), {}};
     // Only 1 below or only 0 above: no flux ever passes y, which acts as a wall; the first wave there is the
@@ -177,21 +192,26 @@ class Events {
     return times;
   }
 
-  Scalar last_time(const Scalar& y) const {
+  Scalar last_time(const Scalar& y) {
     const Scalar steady_height = medium_.steady_height();
     const auto amount = y < steady_height   ? FinalAmount::full_below
                         : y > steady_height ? FinalAmount::all_mass
                                             : FinalAmount::both;
-    const Scalar start =
-        std::max(medium_.pure_travel_time(medium_.bottom(), y), medium_.pure_travel_time(medium_.top(), y));
+    const Scalar start = last_ > 0 && is_finite(last_)
+                             ? last_
+                             : std::max(medium_.pure_travel_time(medium_.bottom(), y),
+                                        medium_.pure_travel_time(medium_.top(), y));
     const Scalar height = medium_.top() - medium_.bottom();
-    const Scalar t = final_time(medium_, y, amount, start, height);
-    return has_contacts_ ? final_time_of_contacts(medium_, y, amount, t, height) : t;
+    const Scalar t = final_time(medium_, y, amount, start, height, near_);
+    last_ = t;
+    return has_contacts_ ? final_time_of_contacts(medium_, y, amount, t, height, near_) : t;
   }
 
   const CanonicalForm<Scalar>& form_;
   const Medium<Scalar>& medium_;
   bool has_contacts_;
+  Scalar last_{0};     ///< change at the height asked for before this one
+  Path<Scalar> near_;  ///< by which it came, as mostly does that at the next height
 };
 
 }  // namespace

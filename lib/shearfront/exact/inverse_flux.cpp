@@ -13,6 +13,7 @@ template <Real Scalar>
 InverseFlux<Scalar>::InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
   const auto range = flux_.range();
   is_concave_ = flux_.curvature() == Curvature::concave;
+  lowest_ = range.lowest, highest_ = range.highest;
   width_ = range.highest - range.lowest;
   extremum_ = flux_.extrema().front();
   depth_ = size(flux_.value(extremum_));
@@ -77,6 +78,34 @@ Scalar InverseFlux<Scalar>::inverse_of(const Model& f, const Scalar& e, bool up)
     d = next;
   }
   return d;
+}
+
+/// G is concave, so Newton's method from below never passes the root.
+template <Real Scalar>
+template <class Model>
+Scalar InverseFlux<Scalar>::distance_of(const Model& f, const Scalar& G, bool up) const {
+  const Scalar& pure = pure_share(up);
+  const Scalar most = reach(up);
+  Scalar distance = G * depth_ / (size(f.derivative(pure)) * width_);
+  constexpr int kMostSteps = 200;
+  for (int n = 0; n < kMostSteps && distance < most; ++n) {
+    const Scalar x = place_beside(distance, up);
+    const Scalar rest = G * depth_ - size(f.secant(pure, x)) * (width_ * distance);
+    const Scalar next = distance + rest / (size(f.derivative(x)) * width_);
+    if (!(next > distance)) break;
+    distance = next;
+  }
+  return distance < most ? distance : most;
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::flux_beside(const Scalar& distance, bool up) const {
+  return size(flux_.secant(pure_share(up), place_beside(distance, up))) * (width_ * distance / depth_);
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::distance_beside(const Scalar& G, bool up) const {
+  return with_model(flux_, [&](const auto& f) { return distance_of(f, G, up); });
 }
 
 template <Real Scalar>

@@ -13,7 +13,9 @@ namespace shearfront::exact {
 /// they lack to the capacity, e = 1 - G: e(d) is increasing and convex with e(0) = 0. Near the peak this
 /// keeps the digits that G itself loses. The inverse branches d(e) are a root for parabolas and otherwise
 /// found by Newton's method, which falls monotonically to the root because e is convex; it is exact after one
-/// step on straight pieces. Guarantees: e, d to a few u absolutely, relative accuracy for parabolas. Cost: up
+/// step on straight pieces. Next to the pure states G and the distance from them have their own functions, for the same
+/// reason. Guarantees: e, d to a few u absolutely, relative accuracy for parabolas; G and the distance from a pure state
+/// with relative accuracy. Cost: up
 /// to 10 evaluations of f per inverse. Precondition: the flux passes refusal(). Source: none, elementary.
 template <Real Scalar>
 class InverseFlux {
@@ -36,12 +38,22 @@ class InverseFlux {
   [[nodiscard]] Scalar bend(const Scalar& d, bool up) const;
   /// d(e), 0 <= e <= 1.
   [[nodiscard]] Scalar inverse(const Scalar& e, bool up) const;
+  /// G of the state at this distance from the pure one of a side.
+  [[nodiscard]] Scalar flux_beside(const Scalar& distance, bool up) const;
+  /// The distance from the pure state of a side at which the flux is G, 0 <= G < 1: reach(up) - d(1 - G).
+  [[nodiscard]] Scalar distance_beside(const Scalar& G, bool up) const;
 
  private:
   [[nodiscard]] static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
   [[nodiscard]] Scalar place(const Scalar& d, bool up) const {
     return up == is_concave_ ? extremum_ - width_ * d : extremum_ + width_ * d;
   }
+  [[nodiscard]] const Scalar& pure_share(bool up) const { return up == is_concave_ ? lowest_ : highest_; }
+  [[nodiscard]] Scalar place_beside(const Scalar& distance, bool up) const {
+    return up == is_concave_ ? lowest_ + width_ * distance : highest_ - width_ * distance;
+  }
+  template <class Model>
+  [[nodiscard]] Scalar distance_of(const Model& f, const Scalar& G, bool up) const;
   template <class Model>
   [[nodiscard]] Scalar lack_of(const Model& f, const Scalar& d, bool up) const;
   template <class Model>
@@ -53,7 +65,7 @@ class InverseFlux {
 
   Flux<Scalar> flux_;
   bool is_concave_ = false;
-  Scalar width_{1}, extremum_{0}, depth_{1}, peak_{0};
+  Scalar lowest_{0}, highest_{1}, width_{1}, extremum_{0}, depth_{1}, peak_{0};
   Scalar kink_[2] = {Scalar(0), Scalar(0)};  ///< e'(0) down and up
 };
 

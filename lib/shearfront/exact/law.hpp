@@ -215,14 +215,19 @@ struct UnimodalLaw : Geometry<Scalar> {
   [[nodiscard]] Scalar h_of(std::size_t k, const Scalar& phi) const {
     if (phi == Scalar(0) || phi == Scalar(1)) return Scalar(0);
     const Scalar over = excess(k, phi, true);
-    const Scalar e = over > 0 ? lack(k, true, over) : lack(k, false, Scalar(-over));
-    return this->rate[k] * std::max(Scalar(0), Scalar(Scalar(1) - e));
+    const bool up = over > 0;
+    const Scalar e = lack(k, up, up ? over : Scalar(-over));
+    if (e + e > Scalar(1)) return this->rate[k] * flux(k).flux_beside(up ? Scalar(Scalar(1) - phi) : phi, up);
+    return this->rate[k] * (Scalar(1) - e);
   }
   [[nodiscard]] const Scalar& pure_slowness(std::size_t k, bool upward) const {
     return pure_slowness_[upward][k];
   }
   [[nodiscard]] Scalar peaks(const Scalar& x, const Scalar& z) const { return peaks_to(z) - peaks_to(x); }
-  [[nodiscard]] Scalar loss(std::size_t k, bool upward, const Scalar& q, const Scalar& /*H*/) const {
+  /// From H where the state is nearly pure, for q has lost the digits.
+  [[nodiscard]] Scalar loss(std::size_t k, bool upward, const Scalar& q, const Scalar& H) const {
+    const Scalar G = Scalar(4) * H * this->inverse_rate[k];
+    if (G + G < Scalar(1)) return flux(k).distance_beside(G, upward);
     return std::max(Scalar(0), Scalar(flux(k).reach(upward) - q / Scalar(2)));
   }
   [[nodiscard]] Scalar momentum(std::size_t k, bool upward, const Scalar& q, const Scalar& /*H*/) const {

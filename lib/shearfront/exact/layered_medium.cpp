@@ -71,9 +71,36 @@ Path<Scalar> LayeredMedium<Scalar, Law>::best_moving(const Scalar& z, const Scal
 }
 
 template <Real Scalar, class Law>
-Path<Scalar> LayeredMedium<Scalar, Law>::search(const Query& query) const {
-  const auto& [z, t, upper, k, moving_only] = query;
+Path<Scalar> LayeredMedium<Scalar, Law>::best_beside(const Path<Scalar>& near, const Scalar& z,
+                                                     const Scalar& t, bool is_moving) const {
+  const Query query{z, t, infinity<Scalar>(), law_.layer_at(z), is_moving};
   Path<Scalar> best;
+  try_start_of(near, query, best);
+  return search(query, best);
+}
+
+template <Real Scalar, class Law>
+void LayeredMedium<Scalar, Law>::try_start_of(const Path<Scalar>& near, const Query& query,
+                                              Path<Scalar>& best) const {
+  const bool is_fan = near.kind == PathKind::fan;
+  if (!is_fan && near.kind != PathKind::constant) return;
+  const std::size_t cell = is_fan && !near.upward ? near.source - 1 : near.source;
+  const std::size_t layer = cells_.layer[cell], k = query.k;
+  if (near.upward ? layer > k : layer < k) return;
+  Sweep<Scalar> sweep{
+      near.upward, k, k,
+      near.upward ? Scalar(query.z - law_.boundary(k)) : Scalar(law_.boundary(k + 1) - query.z)};
+  if (layer != k) sweep.cross(law_, sweep.d_own);
+  while (sweep.start != layer) sweep.cross(law_, law_.height[sweep.start]);
+  if (is_fan)
+    try_source(query, sweep, near.source, true, best);
+  else
+    try_cell(query, sweep, cell, best);
+}
+
+template <Real Scalar, class Law>
+Path<Scalar> LayeredMedium<Scalar, Law>::search(const Query& query, Path<Scalar> best) const {
+  const auto& [z, t, upper, k, moving_only] = query;
   for (const bool upward : {true, false}) {
     Sweep<Scalar> sweep{upward, k, k,
                         upward ? Scalar(z - law_.boundary(k)) : Scalar(law_.boundary(k + 1) - z)};

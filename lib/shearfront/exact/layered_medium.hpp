@@ -28,7 +28,7 @@ namespace shearfront::exact {
 ///   * No state is faster than the pure ones: starts outside the domain of dependence reach z too late.
 ///
 /// Cost of a query: O(layers crossed) per source that survives, O(log jumps) ranges per layer when the data
-/// have many jumps. Immutable after construction, safe to share between threads.
+/// have many jumps. Few survive once the best one is known: best_beside() tries the last one first. Immutable after construction, safe to share between threads.
 template <Real Scalar, class Law>
 class LayeredMedium final : public Medium<Scalar> {
  public:
@@ -38,6 +38,8 @@ class LayeredMedium final : public Medium<Scalar> {
   [[nodiscard]] std::size_t numbers_per_piece() const override { return 1; }
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
+  [[nodiscard]] Path<Scalar> best_beside(const Path<Scalar>& near, const Scalar& z, const Scalar& t,
+                                         bool is_moving) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override {
     return exact::pure_travel_time<Scalar>(law_, from, to);
   }
@@ -69,7 +71,10 @@ class LayeredMedium final : public Medium<Scalar> {
     bool moving_only = false;  ///< leave out H = 0
   };
   [[nodiscard]] bool may_emit(std::size_t i, bool upward) const;
-  [[nodiscard]] Path<Scalar> search(const Query& query) const;
+  /// All candidates that can be better than `best`, which may be none.
+  [[nodiscard]] Path<Scalar> search(const Query& query, Path<Scalar> best = {}) const;
+  /// The path that starts where `near` does, if there is one.
+  void try_start_of(const Path<Scalar>& near, const Query& query, Path<Scalar>& best) const;
   void search_layer(const Query& query, Sweep<Scalar>& sweep, Path<Scalar>& best) const;
   void search_range(const Query& query, Sweep<Scalar>& sweep, std::size_t begin, std::size_t end,
                     Path<Scalar>& best) const;

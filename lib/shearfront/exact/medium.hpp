@@ -68,6 +68,12 @@ class Medium {
                                                const Scalar& upper) const = 0;
   /// The same among paths with H > 0 only.
   [[nodiscard]] virtual Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const = 0;
+  /// The best path as best_free() or best_moving() find it, for those who ask at many places near one another: `near` is
+  /// what came out at the last one. It makes a search shorter where its start is a good one here, too.
+  [[nodiscard]] virtual Path<Scalar> best_beside(const Path<Scalar>& /*near*/, const Scalar& z,
+                                                 const Scalar& t, bool is_moving) const {
+    return is_moving ? best_moving(z, t) : best_free(z, t, infinity<Scalar>());
+  }
   /// Time a pure state (H = 0) needs from one height to another: |int dz / (s a)| for the quadratic flux.
   [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& from, const Scalar& to) const = 0;
   /// Final amount minus the value of a path that best_free(z, t) returned.

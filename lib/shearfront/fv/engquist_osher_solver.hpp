@@ -33,7 +33,8 @@ struct EngquistOsherOptions : GridOptions {
 struct EngquistOsherSolver : fv::GridSolver<fv::EngquistOsherOptions> {
   static constexpr std::string_view kName = "engquist-osher";
   static constexpr std::string_view kDescription = "Engquist-Osher scheme, first order, one rate per face";
-  static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
+  static constexpr std::string_view kScenes =
+      "any flux in a uniform bed, else with one extremum or none, open ends";
 };
 static_assert(Solver<EngquistOsherSolver>);
 

@@ -18,6 +18,7 @@ FluxShape::FluxShape(const Flux<double>& model) : flux(model) {
   turns.push_back(hi);
   for (const double x : turns) turn_values.push_back(value(x));
   if (has_one_extremum() && turn_values[1] > turn_values[0]) sign = -1;
+  if (has_two_branches()) turn = turning_state(flux);
   vanishes = turn_values.front() == 0 && turn_values.back() == 0;
 }
 
@@ -48,7 +49,7 @@ namespace {
 
 double godunov(const FaceSide& below, const FaceSide& above) {
   const FluxShape &f_l = *below.flux, &f_r = *above.flux;
-  if (!f_l.has_one_extremum()) {
+  if (!f_l.has_two_branches()) {
     const auto [least, most] = f_l.extent(below.x, above.x);
     return below.coefficient * (below.x < above.x ? least : most);
   }
@@ -85,7 +86,7 @@ double face_flux(Rule rule, const FaceSide& below, const FaceSide& above, double
     case Rule::godunov:
       return godunov(below, above);
     case Rule::engquist_osher: {
-      if (below.flux != above.flux) return godunov(below, above);
+      if (below.flux != above.flux || below.flux->is_monotone()) return godunov(below, above);
       const FluxShape& f = *below.flux;
       return face_coefficient * (f.turn_values[0] + f.parts(below.x).rise + f.parts(above.x).fall);
     }

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/model/flux/flux.hpp"
+#include "shearfront/model/flux/course.hpp"
 
 namespace shearfront::fv {
 
@@ -23,8 +23,9 @@ namespace shearfront::fv {
 /// all three terms, also where a jumps: any value between the two sides will do, the cells next to the jump
 /// adapt. With each side's own coefficient in its term nothing could stand for f(m): to vanish, the flux between
 /// (0 | 0) needs k_l f(m), that between (1 | 1) needs k_r f(m); without any f(m) the scheme does not converge.
-/// For a flux with no extremum, or several, both take the extremum of f between the states and
-/// f(lo) + rise(x_l) + fall(x_r), with equal k. The other two lack the balance k_l f_l = k_r f_r at jumps.
+/// A monotone flux has its minimum at an end of its range, and both are then Godunov's: the flux of the side the waves
+/// come from (that no layer is given more than it can take: riemann/overload.hpp). For a flux with several extrema they
+/// take the extremum of f between the states and f(lo) + rise(x_l) + fall(x_r), with equal k. The other two lack the balance k_l f_l = k_r f_r at jumps.
 /// Sources: Engquist & Osher (1981), Math. Comp. 36; Towers (2000), SIAM J. Numer. Anal. 38 (coefficients
 /// staggered against states); Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42 (Godunov);
 /// classical_godunov and upwind: the thesis named in docs/packing.md, Sections 4.2, 4.3.
@@ -42,10 +43,13 @@ struct FluxShape {
   explicit FluxShape(const Flux<double>& flux);
 
   [[nodiscard]] bool has_one_extremum() const { return turns.size() == 3; }
+  [[nodiscard]] bool is_monotone() const { return turns.size() == 2; }
+  /// Falls to one state and rises after it, or the other way round; that state may be an end of its range.
+  [[nodiscard]] bool has_two_branches() const { return has_one_extremum() || is_monotone(); }
   [[nodiscard]] double value(double x) const { return flux.value(x); }
   [[nodiscard]] double derivative(double x) const { return flux.derivative(x); }
-  /// Where f has its extremum, if it has one.
-  [[nodiscard]] double extremum() const { return turns[1]; }
+  /// Where f has its extremum; of a monotone f the end of its range where it is least.
+  [[nodiscard]] double extremum() const { return turn; }
   /// Least and largest f between two states.
   struct Extent {
     double least, most;
@@ -68,6 +72,7 @@ struct FluxShape {
 
   Flux<double> flux;
   double lo = 0, hi = 1;
+  double turn = 0;                  ///< turning_state(), if f has two branches
   double sign = 1;                  ///< 1: the extremum is a minimum, or there is not one; -1: a maximum
   std::vector<double> turns;        ///< lo, the extrema, hi
   std::vector<double> turn_values;  ///< f there

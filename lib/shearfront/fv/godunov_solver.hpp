@@ -18,7 +18,8 @@ namespace shearfront {
 struct GodunovSolver : fv::GridSolver<fv::RuleOptions<fv::Rule::godunov>> {
   static constexpr std::string_view kName = "godunov";
   static constexpr std::string_view kDescription = "Godunov scheme, first order, one rate per cell";
-  static constexpr std::string_view kScenes = "any flux in a uniform bed, else with one extremum, open ends";
+  static constexpr std::string_view kScenes =
+      "any flux in a uniform bed, else with one extremum or none, open ends";
 };
 static_assert(Solver<GodunovSolver>);
 

@@ -164,6 +164,7 @@ March::March(const Scheme& scheme, const Scene<double>& scene, const Grid& grid)
 }
 
 void March::set_face_rates(const Scene<double>& scene, const Grid& grid) {
+  if (parts_.front().flux.is_monotone()) return;  // each cell has its own
   const bool is_smooth = scheme_.limiter && !scene.is_layered();
   if (scheme_.rule != Rule::engquist_osher && !is_smooth) return;
   const bool is_value = is_smooth || scheme_.face_coefficient == FaceCoefficient::value;
@@ -243,8 +244,8 @@ void March::second_order_step(double scale) {
 
 void March::cross_faces(const Part& part, std::size_t first, std::size_t end, const double* below,
                         const double* above, double scale, double* crossing) const {
-  const bool is_godunov = scheme_.rule == Rule::godunov;
-  if (limit_ != 1 || !part.flux.has_one_extremum()) {
+  const bool is_godunov = scheme_.rule == Rule::godunov || part.flux.is_monotone();
+  if (limit_ != 1 || !part.flux.has_two_branches()) {
     for (std::size_t j = first; j < end; ++j) {
       const double flux =
           face_flux(scheme_.rule, side(part, j - 1, below[j - first]), side(part, j, above[j - first]),

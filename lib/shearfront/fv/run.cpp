@@ -9,6 +9,7 @@
 
 #include "shearfront/fv/cell_profile.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/overload.hpp"
 
 namespace shearfront::fv {
 namespace {
@@ -212,12 +213,13 @@ std::string refusal(const Scheme& scheme, const Scene<double>& scene, const Grid
       return name + " has no values for shares beyond its range, where this scheme goes";
     if (scheme.limiter && !(has_one && scene.fluxes().size() == 1 && scene.has_walls()))
       return "it takes one flux with one extremum that vanishes at both ends of its range, and walls";
-    if (!has_one && !scene.is_uniform())
+    if (flux.is_monotone() || scene.is_uniform()) continue;
+    if (!has_one)
       return name +
              " has no exact flux between cells of unequal rate or solid fraction: it must have one extremum "
-             "and "
-             "vanish at both ends of its range";
+             "and vanish at both ends of its range, or none";
   }
+  if (!scene.is_uniform() && is_monotone(course_of(scene.fluxes().front()))) return overload(scene);
   return "";
 }
 

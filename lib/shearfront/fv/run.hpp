@@ -12,7 +12,7 @@ namespace shearfront::fv {
 /// on the interfaces.
 [[nodiscard]] Grid grid_of(const Scene<double>& scene, const GridOptions& options);
 
-/// Why the scheme cannot solve the scene: diffusion; options out of range; a flux with other than one extremum, or one
+/// Why the scheme cannot solve the scene: diffusion; options out of range; a flux with several extrema, or one
 /// that does not vanish at the ends of its range, between cells of unequal rate or solid fraction, or for muscl
 /// anywhere; more for muscl than one flux between walls; for the rules without balance all but parabolas.
 [[nodiscard]] std::string refusal(const Scheme& scheme, const Scene<double>& scene,

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -256,19 +257,19 @@ class Checker {
   /// to take.
   void neighbours() {
     for (std::size_t i = 0; i + 1 < spec_.fluxes.size(); ++i) {
-      const auto is_minimum = [](const Flux<Scalar>& flux) -> std::optional<bool> {
-        const auto extrema = flux.extrema();
-        if (extrema.size() != 1) return {};
-        return flux.value(extrema[0]) < end_flux(flux, false);
+      const FluxCourse below = course_of(spec_.fluxes[i]), above = course_of(spec_.fluxes[i + 1]);
+      if (is_monotone(below) && below == above) continue;
+      const auto has_one = [](FluxCourse course) {
+        return course == FluxCourse::minimum || course == FluxCourse::maximum;
       };
-      const auto below = is_minimum(spec_.fluxes[i]), above = is_minimum(spec_.fluxes[i + 1]);
       const std::string key = flux_prefix(spec_, i + 1) + "model";
-      if (!below || !above)
+      if (!has_one(below) || !has_one(above))
+        return add(
+            key, std::string(spec_.fluxes[i + 1].name()),
+            "must have one extremum, like the flux beside it, or rise or fall all the way as that does");
+      if (below != above)
         return add(key, std::string(spec_.fluxes[i + 1].name()),
-                   "must have one extremum, like the flux beside it");
-      if (*below != *above)
-        return add(key, std::string(spec_.fluxes[i + 1].name()),
-                   "must have a " + std::string(*below ? "minimum" : "maximum") +
+                   "must have a " + std::string(below == FluxCourse::minimum ? "minimum" : "maximum") +
                        " like the flux below it: a minimum facing a maximum is not covered");
       for (const bool is_highest : {false, true})
         if (end_flux(spec_.fluxes[i], is_highest) != 0 || end_flux(spec_.fluxes[i + 1], is_highest) != 0)

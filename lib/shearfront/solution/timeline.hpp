@@ -17,7 +17,8 @@ namespace shearfront {
 ///   first   first wave at an interface: 0 if the initial states there are not at rest.
 ///   last    last wave at an interface: afterwards phi keeps its final value on both sides. Empty if there is
 ///           none at all.
-///   t_star  steady time: nothing moves any more. 0 if the initial state is steady.
+///   t_star  steady time: nothing moves any more. 0 if the initial state is steady, empty if the bed never rests: a flux
+///           without slope at a pure state lets the last grains settle ever more slowly.
 template <Real Scalar>
 struct Timeline {
   struct InterfaceTimes {

@@ -33,11 +33,13 @@ class FrontSystem {
     std::optional<Scalar> first, last;
   };
 
+  /// Beyond `max_fronts` no initial jump is solved any more: has_too_many_fronts(), and nothing else may be asked.
   FrontSystem(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
-              Observer observer)
+              Observer observer, std::size_t max_fronts)
       : grid_(&grid),
+        max_fronts_(max_fronts),
         observer_(std::move(observer)),
-        fronts_(grid, count_fronts(grid, pieces)),
+        fronts_(grid, std::min(count_fronts(grid, pieces), max_fronts)),
         outside_(ends.outside),
         is_periodic_(ends.is_periodic) {
     start(pieces);
@@ -59,6 +61,7 @@ class FrontSystem {
   [[nodiscard]] std::uint64_t n_collisions() const { return collisions_; }
   [[nodiscard]] std::size_t n_fronts() const { return fronts_.n_fronts(); }
   [[nodiscard]] std::size_t n_fronts_max() const { return n_fronts_max_; }
+  [[nodiscard]] bool has_too_many_fronts() const { return n_fronts_max_ > max_fronts_; }
 
   /// Handles the meeting of node i with its upper neighbour, and of all others that meet in the same point,
   /// at the time predicted for it.
@@ -125,6 +128,8 @@ class FrontSystem {
     else
       start_boundary(0, 0, pieces.front().state);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+      n_fronts_max_ = n_fronts();
+      if (has_too_many_fronts()) return;
       const Piece<Scalar>& piece = pieces[i];
       if (i + 1 == pieces.size()) {
         start_boundary(n - 1, piece.state, 0);
@@ -294,6 +299,7 @@ class FrontSystem {
   }
 
   const Grid* grid_;
+  std::size_t max_fronts_;
   Observer observer_;
   CollisionView<Scalar> view_{};
   FrontList<Scalar> fronts_;

@@ -14,6 +14,7 @@
 #include "shearfront/solution/timeline.hpp"
 #include "shearfront/track/level_grid.hpp"
 #include "shearfront/track/pieces.hpp"
+#include "shearfront/track/slowest_arrival.hpp"
 #include "shearfront/track/track.hpp"
 #include "shearfront/track/tracker.hpp"
 
@@ -146,7 +147,8 @@ struct TrackingSetup {
   }
 };
 
-/// Event times of a tracker that has reached its steady state.
+/// Event times of a tracker that has reached its steady state. The last fronts of a polygon can meet long before the bed
+/// rests, or in a bed that never does: what it cannot see is bounded by SlowestArrival.
 template <class AnyTracker, Real Scalar>
 [[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
                                                 const LayerStack<Scalar>& stack) {
@@ -155,10 +157,21 @@ template <class AnyTracker, Real Scalar>
   timeline.steady_height = scene.steady_height();
   timeline.t0 = tracker.first_wave(0);
   timeline.t1 = tracker.first_wave(stack.n_layers());
-  if (tracker.is_steady()) timeline.t_star = tracker.last_collision();
+  const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
+  const SlowestArrival<Scalar> slowest(stack, initial.states, initial.tops);
+  const auto later = [](std::optional<Scalar> tracked, const Scalar& least) {
+    if (tracked) *tracked = std::max(*tracked, least);
+    return tracked && is_finite(*tracked) ? tracked : std::nullopt;
+  };
+  if (tracker.is_steady())
+    timeline.t_star = tracker.n_collisions() == 0
+                          ? tracker.last_collision()
+                          : later(tracker.last_collision(), slowest.at(timeline.steady_height));
   for (std::size_t k = 1; k < stack.n_layers(); ++k)
     if (stack.is_break(k))
-      timeline.interfaces.push_back({stack.boundary(k), tracker.first_wave(k), tracker.last_wave(k)});
+      timeline.interfaces.push_back(
+          {stack.boundary(k), tracker.first_wave(k),
+           later(tracker.last_wave(k), slowest.at_interface(k, timeline.steady_height))});
   return timeline;
 }
 

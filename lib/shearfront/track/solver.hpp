@@ -12,7 +12,8 @@ namespace shearfront {
 struct FrontTrackingSolver {
   static constexpr std::string_view kName = "front-tracking";
   static constexpr std::string_view kDescription = "event-driven front tracking, exact for a polygonal flux";
-  static constexpr std::string_view kScenes = "fluxes with one extremum, open ends";
+  static constexpr std::string_view kScenes =
+      "any flux in a uniform bed, else with one extremum or none, open ends";
 
   using Options = TrackOptions;
 

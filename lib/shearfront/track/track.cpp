@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
+#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/overload.hpp"
+#include "shearfront/track/one_layer_grid.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/solid_profile.hpp"
@@ -36,11 +40,17 @@ std::string refusal_of_levels(const LayerStack<double>& stack, const TrackOption
 /// A flux that does not vanish at the ends of its range may bring more to a layer than that can carry.
 std::string refusal_between_layers(const Scene<double>& scene) {
   if (scene.is_uniform()) return {};
+  if (is_monotone(course_of(scene.fluxes().front()))) return overload(scene);
   for (const Flux<double>& flux : scene.fluxes())
     if (flux.value(flux.range().lowest) != 0 || flux.value(flux.range().highest) != 0)
       return "flux " + std::string(flux.name()) +
              " must vanish at both ends of its range where a, c or T vary";
   return {};
+}
+
+bool has_several_extrema(const Scene<double>& scene) {
+  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
+                     [](const Flux<double>& flux) { return course_of(flux) == FluxCourse::several_extrema; });
 }
 
 std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& stack,
@@ -51,6 +61,7 @@ std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& sta
   if (options.reconstruct != Reconstruction::constant && has_smooth_solid_fraction(scene))
     return "the linear reconstruction is not known where c varies smoothly";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
+  if (has_several_extrema(scene)) return OneLayerGrid<double>::refusal(stack, options.resolution);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
 }
@@ -62,6 +73,16 @@ std::string refusal_at_once(const Scene<double>& scene, const TrackOptions& opti
   if (!(options.resolution > 0)) return "resolution = " + number_text(options.resolution) + "; must be > 0";
   if (scene.has_diffusion()) return "there are no fronts where grains diffuse";
   return {};
+}
+
+/// Whether only pure states are at rest.
+bool separates(const Flux<double>& flux) {
+  bool is_negative = true, is_positive = true;
+  for (const double x : flux.extrema()) {
+    is_negative = is_negative && flux.value(x) < 0;
+    is_positive = is_positive && flux.value(x) > 0;
+  }
+  return is_negative || is_positive;
 }
 
 LayerStack<double> layers_of(const Scene<double>& scene, const TrackOptions& options) {
@@ -121,7 +142,8 @@ class TrackingOn final : public AnyTracking {
              LayerStack<double> stack)
       : bed_(std::make_shared<const Bed>(scene, options, std::move(stack))),
         limits_{options.max_collisions, std::move(progress)},
-        tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends) {}
+        tracker_(bed_->setup.grid, bed_->setup.pieces, bed_->setup.ends, {},
+                 static_cast<std::size_t>(options.max_fronts)) {}
 
   [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override {
     return std::make_unique<TrackingOn>(*this);
@@ -162,15 +184,21 @@ class TrackingOn final : public AnyTracking {
       status_ = Status::unsupported;
       return std::nullopt;
     }
+    if (!std::all_of(bed_->scene.fluxes().begin(), bed_->scene.fluxes().end(), separates)) {
+      refused_ = "event times are those of grains that go one way; this flux is 0 inside its range";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
-    return tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+    const Timeline<double> timeline = tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+    rests_never_ = tracker_.is_steady() && !timeline.t_star;
+    return timeline;
   }
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message =
-        refused_.empty() ? message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable()) : refused_;
+    summary.message = !refused_.empty() ? refused_ : message();
     summary.collisions = tracker_.n_collisions();
     summary.fronts_max = tracker_.n_fronts_max();
     summary.levels = bed_->setup.grid.n_levels();
@@ -179,6 +207,20 @@ class TrackingOn final : public AnyTracking {
   }
 
  private:
+  [[nodiscard]] std::string message() const {
+    if (tracker_.has_too_many_fronts())
+      return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
+             " fronts, more than allowed; use a coarser resolution or fewer layers, or allow more, at 64 "
+             "bytes "
+             "each and as much again while their list grows";
+    if (rests_never_)
+      return "the bed never rests, for its flux has no slope at a pure state; the last fronts of the polygon "
+             "meet "
+             "at t = " +
+             number_text(tracker_.last_collision());
+    return message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+  }
+
   /// What never changes; the tracker refers to it.
   struct Bed {
     Bed(const Scene<double>& of, const TrackOptions& options, LayerStack<double> stack)
@@ -195,6 +237,7 @@ class TrackingOn final : public AnyTracking {
   Tracker<Grid, Observer> tracker_;
   Status status_ = Status::ok;
   std::string refused_;
+  bool rests_never_ = false;
 };
 
 template <class Grid>
@@ -221,11 +264,13 @@ Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Prog
   if (why.empty()) {
     LayerStack<double> stack = layers_of(scene, options);
     why = refusal_of(scene, stack, options);
+    const auto on = [&]<class Grid>(std::type_identity<Grid>) {
+      return tracking_on<Grid>(scene, options, std::move(progress), std::move(stack));
+    };
     if (why.empty())
-      tracking_ =
-          LevelGrid<double>::refusal(stack).empty()
-              ? tracking_on<LevelGrid<double>>(scene, options, std::move(progress), std::move(stack))
-              : tracking_on<UnimodalGrid<double>>(scene, options, std::move(progress), std::move(stack));
+      tracking_ = LevelGrid<double>::refusal(stack).empty() ? on(std::type_identity<LevelGrid<double>>{})
+                  : has_several_extrema(scene)              ? on(std::type_identity<OneLayerGrid<double>>{})
+                                                            : on(std::type_identity<UnimodalGrid<double>>{});
   }
   if (!tracking_) throw InputError("method", "\"front-tracking\"", "must suit the scene: " + why);
 }

@@ -31,6 +31,8 @@ struct TrackOptions {
   Reconstruction reconstruct = Reconstruction::constant;
   std::uint64_t layers = 0;
   std::uint64_t max_collisions = 4'000'000'000;
+  std::uint64_t max_fronts =
+      50'000'000;        ///< alive at one time; 3 GB, and as much again while their list grows
   bool fronts = false;   ///< keep all fronts
   bool history = false;  ///< keep all fronts and collisions
 
@@ -51,6 +53,9 @@ struct TrackOptions {
           self.layers);
     visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true},
           self.max_collisions);
+    visit(
+        OptionInfo{"max-fronts", "stop with so many fronts alive, of 64 bytes each", {1, 2e9}, {}, {}, true},
+        self.max_fronts);
   }
 };
 

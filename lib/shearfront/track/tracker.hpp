@@ -57,9 +57,10 @@ class Tracker {
   /// `pieces` fill the domain from bottom to top; every interface must be the top of a piece. The state is
   /// taken at time 0. `grid` must outlive the tracker. A periodic bed has no steady state that rounding would not
   /// disturb: give it finite times. Where ends are not walls, mass is kept only between what comes in and goes out.
+  /// With more than `max_fronts` alive it stops, and keeps no more than twice the memory of these.
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
-          Observer observer = {})
-      : system_(grid, pieces, ends, std::move(observer)), changes_(ends.changes) {}
+          Observer observer = {}, std::size_t max_fronts = SIZE_MAX)
+      : system_(grid, pieces, ends, std::move(observer), max_fronts), changes_(ends.changes) {}
   /// What a TrackingSetup holds, which must outlive the tracker.
   template <class Setup>
   explicit Tracker(const Setup& setup, Observer observer = {}) requires requires {
@@ -109,6 +110,8 @@ class Tracker {
   [[nodiscard]] std::uint64_t n_collisions() const { return system_.n_collisions(); }
   [[nodiscard]] std::size_t n_fronts() const { return system_.n_fronts(); }
   [[nodiscard]] std::size_t n_fronts_max() const { return system_.n_fronts_max(); }
+  /// Whether budget_reached was that of the fronts.
+  [[nodiscard]] bool has_too_many_fronts() const { return system_.has_too_many_fronts(); }
   /// Fronts that would meet only after the largest representable time.
   [[nodiscard]] std::size_t n_unreachable() const { return system_.agenda().n_unreachable(); }
 
@@ -162,6 +165,7 @@ class Tracker {
     // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
     // Denormal speeds have no finite skew; then in the order of t.
     const Scalar skew = Scalar(1) / (Scalar(2) * grid().fastest());
+    if (system_.has_too_many_fronts()) return Status::budget_reached;
     auto& agenda = system_.agenda();
     // In a periodic bed what happens at the top has its effect at the bottom.
     agenda.collect(system_.fronts(), t, is_finite(skew) && !system_.is_periodic() ? skew : Scalar(0));
@@ -171,6 +175,7 @@ class Tracker {
         return Status::budget_reached;
       }
       system_.collide(next->id);
+      if (system_.has_too_many_fronts()) return Status::budget_reached;
       agenda.tidy(system_.fronts());
       if (n_collisions() % kCollisionsPerReport == 0 && limits.keep_going &&
           !limits.keep_going(to_double(time()), n_collisions()))

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
@@ -26,7 +27,7 @@ class Curve {
  public:
   Curve(const Flux<S>& flux, S strength, bool is_reversed)
       : flux_(flux), strength_(std::move(strength)), is_reversed_(is_reversed) {
-    const S extremum = flux.extrema().front();
+    const S extremum = turning_state(flux);
     range_ = flux.range();
     width_ = range_.highest - range_.lowest;
     middle_ = distance(extremum);
@@ -91,11 +92,6 @@ class Curve {
   StateRange<S> range_;
   S width_, middle_, at_extremum_, capacity_;
 };
-
-template <Real S>
-bool has_maximum(const Flux<S>& flux) {
-  return flux.value(flux.extrema().front()) > flux.value(flux.range().lowest);
-}
 
 }  // namespace
 
@@ -162,6 +158,7 @@ class UnimodalGrid<S>::Draft {
   struct Branches {
     S falling, rising;
     std::vector<S> all_falling, all_rising;
+    std::size_t falling_from = 0, rising_from = 0;  ///< the first level at which there is a state
     bool is_done = false;
   };
 
@@ -174,8 +171,9 @@ class UnimodalGrid<S>::Draft {
     const auto add = [&](std::size_t id, const S& y, std::optional<std::size_t> number) {
       const Curve<S>& curve = curves_[id];
       const bool is_falling = !(y > curve.middle());
-      const S to_middle = is_falling ? S((curve.middle() - y) / curve.middle())
-                                     : S((y - curve.middle()) / (curve.width() - curve.middle()));
+      const S branch = is_falling ? curve.middle() : S(curve.width() - curve.middle());
+      const S distance = is_falling ? S(curve.middle() - y) : S(y - curve.middle());
+      const S to_middle = branch > 0 ? S(distance / branch) : S(0);
       specials.push_back({std::min(curve.h(y), curve.capacity()), y, to_middle, id, is_falling, number});
     };
     for (std::size_t id = 0; id < curves_.size(); ++id) {
@@ -228,6 +226,7 @@ class UnimodalGrid<S>::Draft {
       };
       const auto falling = given(true), rising = given(false);
       if (falling || !b.all_falling.empty()) {
+        if (b.all_falling.empty()) b.falling_from = number;
         b.falling = falling ? *falling : curve.solve(h, b.falling, curve.middle());
         b.all_falling.resize(number, S(0));
         b.all_falling.push_back(b.falling);
@@ -235,8 +234,11 @@ class UnimodalGrid<S>::Draft {
       if (falling && *falling == curve.middle()) {
         b.rising = *falling;
         b.is_done = true;
+        if (b.all_rising.empty()) b.rising_from = number;
+        b.all_rising.resize(number, curve.width());
         grid_.classes_[id].top = static_cast<State>(number);
       } else if (rising || !b.all_rising.empty()) {
+        if (b.all_rising.empty()) b.rising_from = number;
         b.rising = rising ? *rising : curve.solve(h, b.rising, curve.middle());
         b.all_rising.resize(number, curve.width());
         b.all_rising.push_back(b.rising);
@@ -248,10 +250,13 @@ class UnimodalGrid<S>::Draft {
     for (std::size_t id = 0; id < curves_.size(); ++id) {
       Class& c = grid_.classes_[id];
       const Branches& b = branches_[id];
-      c.share.reserve(index(2 * c.top + 1));
-      for (const S& y : b.all_falling) c.share.push_back(curves_[id].share(y));
+      std::vector<S> share;
+      share.reserve(index(2 * c.top + 1));
+      for (const S& y : b.all_falling) share.push_back(curves_[id].share(y));
       for (auto y = b.all_rising.rbegin(); y != b.all_rising.rend(); ++y)
-        c.share.push_back(curves_[id].share(*y));
+        share.push_back(curves_[id].share(*y));
+      const auto first = static_cast<State>(b.falling_from), last = static_cast<State>(b.rising_from);
+      c.polygon = {grid_.fluxes_[c.flux], std::move(share), first, 2 * c.top - last, grid_.is_reversed_};
     }
   }
 
@@ -261,58 +266,13 @@ class UnimodalGrid<S>::Draft {
   std::vector<Branches> branches_;
 };
 
-namespace {
-
-/// Slopes that differ by no more than rounding made equal: fronts on a straight branch of the flux never
-/// meet.
-template <Real S>
-void straighten(const std::vector<S>& share, std::vector<S>& slope) {
-  constexpr double kLargestSlack = 1e-6;
-  S steepest(0);
-  for (const S& v : slope) steepest = std::max(steepest, v < 0 ? S(-v) : v);
-  for (std::size_t i = 1; i < slope.size(); ++i) {
-    // A secant of states that are off by a rounding each.
-    const S step = std::min(share[i + 1] - share[i], share[i] - share[i - 1]);
-    const S slack =
-        std::min(S(S(kRoundings) * unit_roundoff<S>() * steepest / step), S(steepest * S(kLargestSlack)));
-    const S bend = slope[i] - slope[i - 1];
-    if (bend <= slack && bend >= -slack) slope[i] = slope[i - 1];
-  }
-}
-
-/// Vertices and bends of a polygon with the slopes `slope` between neighbouring states.
-template <Real S>
-struct Shape {
-  std::vector<State> next, previous, convex_to, concave_to;
-
-  explicit Shape(const std::vector<S>& slope) {
-    const std::size_t n = slope.size() + 1;
-    S steepest(0);
-    for (const S& v : slope) steepest = std::max(steepest, v < 0 ? S(-v) : v);
-    const S slack = S(kRoundings) * unit_roundoff<S>() * steepest;
-    next.resize(n), previous.resize(n), convex_to.resize(n), concave_to.resize(n);
-    const auto state = [](std::size_t i) { return static_cast<State>(i); };
-    previous[0] = 0;
-    for (std::size_t i = 1; i < n; ++i)
-      previous[i] = i == 1 || slope[i - 2] != slope[i - 1] ? state(i - 1) : previous[i - 1];
-    next[n - 1] = convex_to[n - 1] = concave_to[n - 1] = state(n - 1);
-    for (std::size_t i = n - 1; i-- > 0;) {
-      const bool is_last = i + 2 == n;
-      next[i] = is_last || slope[i] != slope[i + 1] ? state(i + 1) : next[i + 1];
-      convex_to[i] = !is_last && slope[i + 1] >= slope[i] - slack ? convex_to[i + 1] : state(i + 1);
-      concave_to[i] = !is_last && slope[i + 1] <= slope[i] + slack ? concave_to[i + 1] : state(i + 1);
-    }
-  }
-};
-
-}  // namespace
-
 template <Real S>
 std::string UnimodalGrid<S>::refusal(const LayerStack<S>& stack, const S& resolution) {
   for (const Flux<S>& flux : stack.fluxes()) {
-    if (flux.extrema().size() != 1)
-      return "flux " + std::string(flux.name()) + " has several extrema or none; fluxes with one are covered";
-    if (has_maximum<S>(flux) != has_maximum<S>(stack.fluxes().front())) return "a minimum faces a maximum";
+    const FluxCourse course = course_of(flux), first = course_of(stack.fluxes().front());
+    if (course == FluxCourse::several_extrema)
+      return "flux " + std::string(flux.name()) + " has several extrema";
+    if (course != first) return "a minimum faces a maximum";
   }
   // Every level is kept for every layer that differs.
   constexpr double kMostStates = 2e8;
@@ -330,32 +290,21 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
   UnimodalGrid& grid = built.grid;
   grid.boundaries_ = stack.boundaries();
   grid.fluxes_ = stack.fluxes();
-  grid.is_reversed_ = has_maximum<S>(stack.fluxes().front());
+  grid.is_reversed_ = course_of(stack.fluxes().front()) == FluxCourse::maximum;
   std::map<std::pair<std::size_t, S>, std::uint32_t> ids;
   for (std::size_t k = 0; k < stack.n_layers(); ++k) {
     const S strength = stack.rate(k) * stack.solid_fraction(k);
     const auto [it, is_new] =
         ids.try_emplace({stack.flux_index(k), strength}, static_cast<std::uint32_t>(grid.classes_.size()));
-    if (is_new) grid.classes_.push_back({stack.flux_index(k), strength, 0, {}, {}, {}, {}, {}, {}});
+    if (is_new) grid.classes_.push_back({stack.flux_index(k), strength, 0, {}});
     grid.layers_.push_back({stack.rate(k), stack.solid_fraction(k), it->second});
   }
   built.states = Draft(grid, resolution).build(wanted);
 
   const auto zero = std::find(grid.levels_.begin(), grid.levels_.end(), S(0));
   if (zero != grid.levels_.end()) grid.zero_rank_ = -static_cast<State>(zero - grid.levels_.begin());
-  for (Class& c : grid.classes_) {
-    const Flux<S>& flux = grid.fluxes_[c.flux];
-    for (std::size_t i = 0; i + 1 < c.share.size(); ++i)
-      c.slope.push_back(flux.secant(c.share[i], c.share[i + 1]));
-    straighten(c.share, c.slope);
-    Shape<S> shape(c.slope);
-    c.next = std::move(shape.next), c.previous = std::move(shape.previous);
-    if (flux.curvature() == (grid.is_reversed_ ? Curvature::concave : Curvature::convex)) continue;
-    c.convex_to = std::move(shape.convex_to), c.concave_to = std::move(shape.concave_to);
-  }
   for (const Layer& layer : grid.layers_)
-    for (const S& v : grid.classes_[layer.id].slope)
-      grid.fastest_ = std::max(grid.fastest_, S(layer.rate * (v < 0 ? S(-v) : v)));
+    grid.fastest_ = std::max(grid.fastest_, S(layer.rate * grid.classes_[layer.id].polygon.steepest()));
   return built;
 }
 

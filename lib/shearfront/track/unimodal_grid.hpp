@@ -9,19 +9,21 @@
 #include "shearfront/numeric/scalar.hpp"
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/track/flux_polygon.hpp"
 #include "shearfront/track/pieces.hpp"
 
 namespace shearfront {
 
 /// Grids of states for layers of any fluxes with one extremum each, of one kind (all minima or all maxima),
-/// convex or not, built on flux LEVELS shared by all layers.
+/// convex or not, built on flux LEVELS shared by all layers; or of fluxes that all rise, or all fall: each has
+/// its minimum at an end of its range, and one of the two branches is empty.
 ///
 /// A level is a value h of the flux, counted down from 0 (up, where extrema are maxima: the state index then
 /// runs from the highest state to the lowest). Layer k has a state on the falling and one on the rising
 /// branch of its flux for every level between its end values and its extremum, so the interface Riemann
 /// problem maps grid states to grid states. State index i = 0 ... 2 top(k): i <= top is level i on the
 /// falling branch, i > top is level 2 top - i on the rising one; where the flux does not vanish at the ends
-/// of its range, the first and last indices belong to no state.
+/// of its range, the first and last indices belong to no state. Precondition for monotone fluxes in unequal layers: overload(scene) is empty.
 ///
 /// Levels: extrema, ends, initial states, and between them as few as keep the spacing of neighbouring states
 /// in every layer within `resolution` of its range. The polygon through the states lies on the true flux: its
@@ -50,7 +52,7 @@ class UnimodalGrid {
   [[nodiscard]] State bottom_state(std::size_t layer) const { return top(layer); }
 
   [[nodiscard]] S phi(std::size_t layer, State i) const {
-    return layers_[layer].solid_fraction * class_of(layer).share[index(i)];
+    return layers_[layer].solid_fraction * class_of(layer).polygon.share(i);
   }
   [[nodiscard]] S flux(std::size_t layer, State i) const {
     const S& h = levels_[index(level(layer, i))];
@@ -62,30 +64,27 @@ class UnimodalGrid {
   [[nodiscard]] State rising_state(std::size_t layer, State rank) const { return 2 * top(layer) + rank; }
   [[nodiscard]] bool is_reversed() const { return is_reversed_; }
 
-  [[nodiscard]] State next_vertex(std::size_t layer, State i) const { return class_of(layer).next[index(i)]; }
+  [[nodiscard]] State next_vertex(std::size_t layer, State i) const {
+    return class_of(layer).polygon.next_vertex(i);
+  }
   [[nodiscard]] State previous_vertex(std::size_t layer, State i) const {
-    return class_of(layer).previous[index(i)];
+    return class_of(layer).polygon.previous_vertex(i);
   }
   [[nodiscard]] Bend bend(std::size_t layer, State lo, State hi) const {
-    const Class& c = class_of(layer);
-    if (c.convex_to.empty()) return Bend::convex;
-    if (c.convex_to[index(lo)] >= hi) return Bend::convex;
-    return c.concave_to[index(lo)] >= hi ? Bend::concave : Bend::mixed;
+    return class_of(layer).polygon.bend(lo, hi);
   }
   [[nodiscard]] State run_end(std::size_t layer, State i, Bend kind) const {
-    const Class& c = class_of(layer);
-    if (c.convex_to.empty()) return kind == Bend::convex ? n_states(layer) - 1 : c.next[index(i)];
-    return (kind == Bend::convex ? c.convex_to : c.concave_to)[index(i)];
+    return class_of(layer).polygon.run_end(i, kind);
   }
 
   [[nodiscard]] S speed(std::size_t layer, State l, State r) const {
     const Class& c = class_of(layer);
     const State lo = l < r ? l : r, hi = l < r ? r : l;
-    if (hi <= c.next[index(lo)]) return layers_[layer].rate * c.slope[index(lo)];
+    if (c.polygon.is_on_one_edge(lo, hi)) return layers_[layer].rate * c.polygon.slope(lo);
     const S rise = flux(layer, hi) - flux(layer, lo), run = phi(layer, hi) - phi(layer, lo);
     const S width = phi(layer, 2 * c.top) - phi(layer, 0);
     if (S(kLongChord) * (run < 0 ? S(-run) : run) > (width < 0 ? S(-width) : width)) return rise / run;
-    return layers_[layer].rate * fluxes_[c.flux].secant(c.share[index(lo)], c.share[index(hi)]);
+    return layers_[layer].rate * fluxes_[c.flux].secant(c.polygon.share(lo), c.polygon.share(hi));
   }
   /// Bound for |speed| in all layers.
   [[nodiscard]] const S& fastest() const { return fastest_; }
@@ -93,17 +92,13 @@ class UnimodalGrid {
   /// which they move apart. A contact along a straight piece of the flux is none.
   [[nodiscard]] bool is_fan_step(std::size_t layer, State l, State r) const {
     const Class& c = class_of(layer);
-    const State lo = l < r ? l : r, hi = l < r ? r : l;
-    if (lo == hi || c.next[index(lo)] != hi) return false;
-    if (!(slope_change(c, l, r) > 0)) return false;
-    return !is_straight(fluxes_[c.flux], c.share[index(lo)], c.share[index(hi)]);
+    return c.polygon.is_fan_step(fluxes_[c.flux], l, r);
   }
   /// |d(speed)/d(phi)| inside the step l | r of a fan.
   [[nodiscard]] S fan_rate(std::size_t layer, State l, State r) const {
     const Class& c = class_of(layer);
-    const S turn = slope_change(c, l, r), run = c.share[index(r)] - c.share[index(l)];
-    const S rate = layers_[layer].rate * turn / (layers_[layer].solid_fraction * run);
-    return rate < 0 ? S(-rate) : rate;
+    const S rate = layers_[layer].rate * c.polygon.fan_rate(fluxes_[c.flux], l, r);
+    return (rate < 0 ? S(-rate) : rate) / layers_[layer].solid_fraction;
   }
 
  private:
@@ -112,10 +107,7 @@ class UnimodalGrid {
     std::size_t flux;
     S strength;  ///< rate times solid fraction: the flux of a layer is strength f(share)
     State top = 0;
-    std::vector<S> share;                      ///< of every state
-    std::vector<S> slope;                      ///< secant of f from every state to the next one
-    std::vector<State> next, previous;         ///< vertices
-    std::vector<State> convex_to, concave_to;  ///< how far up it bends one way; empty: convex everywhere
+    FluxPolygon<S> polygon;  ///< through the shares of all states
   };
   struct Layer {
     S rate, solid_fraction;
@@ -125,10 +117,6 @@ class UnimodalGrid {
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
 
   [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
-  /// f' at the second state less f' at the first.
-  [[nodiscard]] S slope_change(const Class& c, State from, State to) const {
-    return fluxes_[c.flux].derivative(c.share[index(to)]) - fluxes_[c.flux].derivative(c.share[index(from)]);
-  }
   [[nodiscard]] const Class& class_of(std::size_t layer) const { return classes_[layers_[layer].id]; }
   [[nodiscard]] State top(std::size_t layer) const { return class_of(layer).top; }
   [[nodiscard]] State level(std::size_t layer, State i) const {

@@ -15,12 +15,16 @@
 namespace shearfront {
 
 /// A flux of any model: what model/flux/model.hpp says of it, without its type. So what holds a flux need not be compiled
-/// again when a model changes; loops that want the model itself use with_model() of model/flux/all.hpp.
+/// again when a model changes; loops that want the model itself use with_model() of model/flux/all.hpp. The model need not
+/// be in the list there: any type that is a FluxModel will do, and every engine takes it (scene files do not).
 ///
 /// A value: copies are independent. Cost of a call: that of the model and a virtual call.
 template <Real Scalar>
 class Flux {
  public:
+  /// Known of no Flux before it is asked: is_parabola().
+  static constexpr bool kIsParabola = false;
+
   Flux() : Flux(Quadratic<Scalar>{}) {}
   template <FluxModel<Scalar> Model>
   Flux(Model model) : held_(std::make_unique<Held<Model>>(std::move(model))), type_(&kTypeOf<Model>) {}

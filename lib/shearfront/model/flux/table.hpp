@@ -16,7 +16,7 @@ namespace shearfront {
 ///
 /// Between two points f is a cubic with the slopes of Fritsch & Butland at its ends: the weighted harmonic
 /// mean of the two adjoining secants, 0 where they differ in sign. So f is monotone between points, all its
-/// extrema are points, and it bends no more than they do.
+/// extrema are points, and it bends no more than they do. The ends of level pieces count as extrema.
 /// Domain: at least two points, phi strictly increasing; states [phi.front(), phi.back()]. Cost of a value:
 /// O(log points). Source: Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304.
 template <Real Scalar>
@@ -32,7 +32,7 @@ struct FluxTable {
   [[nodiscard]] std::vector<Scalar> extrema() const {
     std::vector<Scalar> all;
     for (std::size_t i = 1; i + 1 < phi.size(); ++i)
-      if (secant_of(i - 1) * secant_of(i) < 0) all.push_back(phi[i]);
+      if (turns_at(i)) all.push_back(phi[i]);
     return all;
   }
   [[nodiscard]] Curvature curvature() const {
@@ -108,6 +108,11 @@ struct FluxTable {
   }
   [[nodiscard]] Scalar secant_of(std::size_t i) const {
     return (values[i + 1] - values[i]) / (phi[i + 1] - phi[i]);
+  }
+  /// An extremum, or an end of a level piece: between those f rises, falls or is constant.
+  [[nodiscard]] bool turns_at(std::size_t i) const {
+    const Scalar below = secant_of(i - 1), above = secant_of(i);
+    return (below < 0) != (above < 0) || (below > 0) != (above > 0);
   }
   [[nodiscard]] Scalar slope(std::size_t i) const {
     if (i == 0) return end_slope(0, 1);
