@@ -23,7 +23,18 @@ SceneSpec<double> mixed() {
 
 const std::vector<double> kTimes{0.1, 0.4, 1, 2, 4};
 
-/// exp(-z / 0.3) in a bed of temperature 4 is the exponential shear rate of scale 2.
+/// exp(-3 z) in a bed of temperature 4 exp(-z / 1.5) is the exponential shear rate exp(-z / 0.3) of scale 2.
+SceneSpec<double> exponential_in_disguise(SceneSpec<double> spec) {
+  spec.shear_rate = Exponential<double>{1, 1.0 / 3};
+  spec.temperature = Exponential<double>{4, 1.5};
+  return spec;
+}
+SceneSpec<double> chute_with_temperature(SceneSpec<double> spec) {
+  spec.shear_rate = Chute<double>{0.5, 0.2, 0.4};
+  spec.temperature = Exponential<double>{1, 3};
+  return spec;
+}
+
 TEST(Tolerance, BoundsMBesideATemperature) {
   auto spec = mixed();
   spec.shear_rate = Exponential<double>{1, 0.3};
@@ -31,7 +42,7 @@ TEST(Tolerance, BoundsMBesideATemperature) {
   const ExactSolution<double> exact{Scene<double>(spec)};
   ASSERT_TRUE(exact.is_exact());
   spec.scale = 1;
-  spec.temperature = Piecewise<double>{{}, {4}};
+  spec = exponential_in_disguise(spec);
   std::size_t n_last = 0;
   for (const double tolerance : {1e-3, 1e-5, 1e-6, 1e-7}) {
     const ExactSolution<double> pieces(Scene<double>(spec), {.tolerance = tolerance});
@@ -74,7 +85,7 @@ TEST(Tolerance, BoundsMOfASmoothSolidFraction) {
 
 TEST(Tolerance, IsSaidToBeMissed) {
   auto spec = mixed();
-  spec.shear_rate = Chute<double>{0.5, 0.2, 0.4};
+  spec = chute_with_temperature(spec);
   const Scene<double> scene(spec);
   const ExactSolution<double> pieces(scene, {.tolerance = 1e-13});
   EXPECT_FALSE(pieces.meets_tolerance());
@@ -94,7 +105,7 @@ TEST(Tolerance, StatesTheErrorOfEventTimes) {
   spec.scale = 2;
   const auto exact = exact_timeline(Scene<double>(spec));
   spec.scale = 1;
-  spec.temperature = Piecewise<double>{{}, {4}};
+  spec = exponential_in_disguise(spec);
   const ExactSolution<double> pieces{Scene<double>(spec)};
   const auto times = exact_timeline(pieces);
   const double stated = timeline_error(pieces, times);
@@ -107,7 +118,7 @@ TEST(Tolerance, StatesTheErrorOfEventTimes) {
 /// A fit asks for the solution again and again: with the pieces of the first time.
 TEST(Tolerance, ChoosesPiecesOncePerFit) {
   auto spec = mixed();
-  spec.shear_rate = Chute<double>{0.5, 0.2, 0.4};
+  spec = chute_with_temperature(spec);
   std::any memory;
   const std::vector<Place> places{{0.5, 0.3}, {1, 0.6}};
   const auto first = ExactSolver::linearise(Scene<double>(spec), {}, places, {}, memory);

@@ -8,7 +8,7 @@ namespace shearfront {
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription =
-      "Lax-Hopf formula, exact to rounding where a is constant or linear in pieces, or exponential";
+      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces";
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
