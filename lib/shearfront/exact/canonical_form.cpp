@@ -52,6 +52,16 @@ EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& l
       function);
 }
 
+/// The form that comes nearer to the rate in the middle of a piece.
+template <Real Scalar>
+RateForm nearer_form(const Scalar& low, const Scalar& middle, const Scalar& high) {
+  using std::sqrt;
+  const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
+  const Scalar linear = low + (high - low) / Scalar(2), exponential = sqrt(low) * sqrt(high);
+  return size(Scalar(middle - exponential)) < size(Scalar(middle - linear)) ? RateForm::exponential
+                                                                            : RateForm::linear;
+}
+
 /// |f| at its extremum.
 template <Real Scalar>
 Scalar depth_of(const Flux<Scalar>& flux) {
@@ -118,23 +128,36 @@ void CanonicalForm<Scalar>::set_layers() {
 template <Real Scalar>
 void CanonicalForm<Scalar>::set_end_rates() {
   if (!has_pieces_) return;
-  using std::sqrt;
+  const auto& c = scene_->spec().solid_fraction;
   for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
     const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
-    EndValues<Scalar> ends = ends_of<Scalar>(scene_->shear_rate(), lo, hi);
-    if (scene_->spec().temperature) {
-      const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, lo, hi);
-      ends = {ends.low * sqrt(T.low), ends.high * sqrt(T.high)};
+    // A smooth c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
+    const bool has_smooth_c = !is_layered(c);
+    const Scalar factor =
+        scene_->scale() *
+        (has_smooth_c ? Scalar(Scalar(4) * depth_of<Scalar>(layers_.flux(k))) : rate_factor(k));
+    const auto ends = [&](const Scalar& from, const Scalar& to) -> EndValues<Scalar> {
+      using std::sqrt;
+      EndValues<Scalar> rates = ends_of<Scalar>(scene_->shear_rate(), from, to);
+      if (scene_->spec().temperature) {
+        const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, from, to);
+        rates = {rates.low * sqrt(T.low), rates.high * sqrt(T.high)};
+      }
+      if (has_smooth_c) {
+        const EndValues<Scalar> fraction = ends_of<Scalar>(*c, from, to);
+        rates = {rates.low * fraction.low, rates.high * fraction.high};
+      }
+      return {factor * rates.low, factor * rates.high};
+    };
+    const EndValues<Scalar> rates = ends(lo, hi);
+    low_rates_.push_back(rates.low);
+    high_rates_.push_back(rates.high);
+    if (is_exact_) {
+      rate_forms_.push_back(is_exponential_ ? RateForm::exponential : RateForm::linear);
+    } else {
+      rate_forms_.push_back(
+          nearer_form(rates.low, ends(lo, Scalar(lo + (hi - lo) / Scalar(2))).high, rates.high));
     }
-    Scalar factor = scene_->scale() * rate_factor(k);
-    if (!is_layered(scene_->spec().solid_fraction)) {
-      // c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
-      const EndValues<Scalar> c = ends_of<Scalar>(*scene_->spec().solid_fraction, lo, hi);
-      ends = {ends.low * c.low, ends.high * c.high};
-      factor = scene_->scale() * (Scalar(4) * depth_of<Scalar>(layers_.flux(k)));
-    }
-    low_rates_.push_back(factor * ends.low);
-    high_rates_.push_back(factor * ends.high);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "shearfront/exact/rate_form.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
@@ -25,8 +26,8 @@ namespace shearfront::exact {
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
 /// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, all
 /// fluxes are parabolas, and c and T are constant in pieces, the image is linear or exponential in pieces as well:
-/// has_pieces(), is_exponential(). Any other smooth scene of parabolas is represented by linear pieces through its rate s a c
-/// sqrt(T), a smooth scene of other fluxes by a staircase of layers. Precondition: refusal(scene) is empty.
+/// has_pieces(). Any other smooth scene of parabolas is represented by pieces through its rate s a c sqrt(T), each linear or
+/// exponential, whichever is nearer in its middle, a smooth scene of other fluxes by a staircase of layers. Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
@@ -42,11 +43,11 @@ class CanonicalForm {
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
   /// Whether it represents the scene without approximation.
   [[nodiscard]] bool is_exact() const { return is_exact_; }
-  /// Whether the layers are pieces in which the rate is not constant, of the scene itself or linear ones through its values at
+  /// Whether the layers are pieces in which the rate is not constant, of the scene itself or through its values at
   /// their ends: then rates() are their harmonic means, and these the values at their lower and upper ends.
   [[nodiscard]] bool has_pieces() const { return has_pieces_; }
-  /// Whether the rate is exponential between them, not linear.
-  [[nodiscard]] bool is_exponential() const { return is_exponential_; }
+  /// How the rate runs between them.
+  [[nodiscard]] const std::vector<RateForm>& rate_forms() const { return rate_forms_; }
   /// Whether u does not decrease in z but at shocks and boundaries. It may in pieces: in a linear one in a state, in any where
   /// paths come from others.
   [[nodiscard]] bool is_monotone() const {
@@ -123,6 +124,7 @@ class CanonicalForm {
   std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
 
   std::vector<Scalar> rates_, low_rates_, high_rates_;
+  std::vector<RateForm> rate_forms_;
   Scalar mass_{0};
 };
 

@@ -57,8 +57,7 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   const Scalar unit = is_far ? Scalar(std::ldexp(1.0, exponent)) : Scalar(1);
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
-  SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high),
-                              form.is_exponential() ? RateForm::exponential : RateForm::linear);
+  SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
   auto medium = std::make_unique<const SlopedMedium<Scalar>>(
       std::move(pieces), Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries()),
       form.mass());

@@ -7,6 +7,7 @@
 
 #include "shearfront/exact/cells.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
+#include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
@@ -19,10 +20,11 @@ struct SlopedPieces {
   std::vector<RateForm> form;
   std::vector<Scalar> bend;  ///< exact/rate_form.hpp; its sign is that of the slope
 
-  SlopedPieces(std::vector<Scalar> heights, std::vector<Scalar> lows, std::vector<Scalar> highs, RateForm all)
-      : boundaries(std::move(heights)), low(std::move(lows)), high(std::move(highs)) {
+  SlopedPieces(std::vector<Scalar> heights, std::vector<Scalar> lows, std::vector<Scalar> highs,
+               std::vector<RateForm> forms)
+      : boundaries(std::move(heights)), low(std::move(lows)), high(std::move(highs)), form(std::move(forms)) {
     for (std::size_t k = 0; k < size(); ++k) {
-      form.push_back(low[k] == high[k] ? RateForm::linear : all);
+      if (low[k] == high[k]) form[k] = RateForm::linear;
       bend.push_back(bend_between(form[k], low[k], high[k], width(k)));
     }
   }
@@ -55,7 +57,8 @@ struct SlopedView {
   std::vector<Scalar> M;          ///< int phi(z, 0) dz from the true bottom, at the nodes
   std::vector<Scalar> low, high;  ///< r at the ends of each cell
   std::vector<RateForm> form;
-  std::vector<Scalar> bend;        ///< of r in each cell
+  std::vector<Scalar> bend;  ///< of r in each cell
+  std::vector<RelativeBends<Scalar>> bends;
   std::vector<Scalar> p, missing;  ///< initial state of each cell, and what it lacks to 1
   std::vector<Scalar> q0;          ///< 2 p - 1
   std::vector<Scalar> pure;        ///< int dz / r from the first node
@@ -84,6 +87,7 @@ struct SlopedView {
         std::reverse(all->begin(), all->end());
       std::reverse(form.begin(), form.end());
     }
+    for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
     pure = {Scalar(0)};
     emits.assign(x.size(), false);
     for (std::size_t i = 0; i < n_cells(); ++i) {

@@ -24,24 +24,9 @@
 /// sum T), whose last term is 0 where T(h) = t: errors of h enter quadratically.
 namespace shearfront::exact {
 
-/// (artanh(x) / x - 1) / x^2 = 1/3 + x^2/5 + ... by x^2, 0 <= x^2 < 1.
+/// (artanh(x) / x - 1) / x^2 = 1/3 + x^2/5 + ... by x^2, 0 <= x^2 <= 1/8.
 template <Real Scalar>
-[[nodiscard]] Scalar artanh_rest(const Scalar& x2) {
-  using std::log1p;
-  using std::sqrt;
-  if constexpr (std::numeric_limits<Scalar>::digits == 53) {
-    if (x2 <= 1.0 / 64) {  // the first term left out is 2^-60 / 23
-      double sum = 1.0 / 21;
-      for (const double c :
-           {1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3})
-        sum = sum * x2 + c;
-      return sum;
-    }
-  }
-  if (x2 > Scalar(1) / Scalar(8)) {
-    const Scalar x = sqrt(x2);
-    return (log1p(Scalar(Scalar(2) * x / (Scalar(1) - x))) / (Scalar(2) * x) - Scalar(1)) / x2;
-  }
+[[nodiscard]] Scalar artanh_series(const Scalar& x2) {
   Scalar sum(0), power(1);
   for (int n = 3; n < 400; n += 2) {
     const Scalar term = power / Scalar(n);
@@ -52,10 +37,28 @@ template <Real Scalar>
   return sum;
 }
 
-/// artanh(x) / x by x^2 where x is small.
+/// artanh(x) / x by x^2 <= 1/64.
 template <Real Scalar>
 [[nodiscard]] Scalar artanh_ratio(const Scalar& x2) {
-  return Scalar(1) + x2 * artanh_rest(x2);
+  if constexpr (std::numeric_limits<Scalar>::digits == 53) {
+    // The first term left out is 2^-54 / 19.
+    double sum = 1.0 / 17;
+    for (const double c : {1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3, 1.0})
+      sum = sum * x2 + c;
+    return sum;
+  } else {
+    return Scalar(1) + x2 * artanh_series(x2);
+  }
+}
+
+/// (artanh(x) / x - 1) / x^2 by x^2 < 1.
+template <Real Scalar>
+[[nodiscard]] Scalar artanh_rest(const Scalar& x2) {
+  using std::log1p;
+  using std::sqrt;
+  if (x2 <= Scalar(1) / Scalar(8)) return artanh_series(x2);
+  const Scalar x = sqrt(x2);
+  return (log1p(Scalar(Scalar(2) * x / (Scalar(1) - x))) / (Scalar(2) * x) - Scalar(1)) / x2;
 }
 
 /// int dz / r of a piece that is exponential: the time of a pure state.
@@ -75,22 +78,17 @@ struct Crossing {
 
   Crossing(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
            const Scalar& q2, const Scalar& h) {
-    const Scalar sum = q1 + q2;
-    if (!(sum > 0)) {
-      T = X = d > 0 ? infinity<Scalar>() : Scalar(0);
-    } else if (form == RateForm::linear) {
-      linear(d, r1, q1, r2, q2, h);
-    } else {
-      exponential(d, r1, q1, r2, q2, h);
-    }
-  }
-
- private:
-  void linear(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-              const Scalar& h) {
     using std::log;
     const Scalar one(1), two(2);
     const Scalar R1 = one + q1, R2 = one + q2, sum = q1 + q2, product = R1 * R2;
+    if (!(sum > 0)) {
+      T = X = d > 0 ? infinity<Scalar>() : Scalar(0);
+      return;
+    }
+    if (form == RateForm::exponential) {
+      exponential(d, r1, q1, r2, q2, h);
+      return;
+    }
     const Scalar w1 = r1 * R1 * R1, w2 = r2 * R2 * R2;
     const Scalar y = two * d * product / (sum * (w1 + w2));
     const Scalar x = (r2 - r1) * (two * product) / (sum * (w1 + w2));
@@ -100,6 +98,8 @@ struct Crossing {
                : d * h * h * (R2 * r2 * R2 + R1 * r1 * R1) /
                      (Scalar(4) * product * product * r1 * r2 * (r1 * q1 + r2 * q2));
   }
+
+ private:
   void exponential(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
                    const Scalar& h) {
     const Scalar one(1), two(2), R1 = one + q1, R2 = one + q2, both = R1 + R2;

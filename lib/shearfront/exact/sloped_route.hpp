@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "shearfront/exact/sloped_crossing.hpp"
+#include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
@@ -20,14 +21,19 @@ struct SlopedRoute {
     bool twice;
   };
   boost::container::small_vector<Run, 24> runs;
+  SlopedStretches<Scalar> stretches;  ///< of the runs
   Scalar least = infinity<Scalar>();
   Scalar turn_bend{0};  ///< |bend| of the piece in which it turns; 0: it does not
   RateForm turn_form = RateForm::linear;
   Scalar turn_rate{0};  ///< r where it enters that piece for good
 
-  void add(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& r2, bool twice) {
+  explicit SlopedRoute(std::size_t n_pieces) : stretches(n_pieces) {}
+
+  void add(RateForm form, const RelativeBends<Scalar>& bends, const Scalar& d, const Scalar& r1,
+           const Scalar& r2, bool twice) {
     least = std::min({least, r1, r2});
     if (d > 0) runs.push_back({d, r1, r2, form, twice});
+    stretches.add(bends, d, r1, r2, twice);
   }
 };
 

@@ -75,9 +75,10 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
 
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
-    Route route;
+    Route route(n_);
     if (below_ != above_) turned_states(route, below_, z_, above_, rate_above_);
-    route.add(view_.form[below_], z_ - view_.x[below_], rate_below_, view_.low[below_], false);
+    route.add(view_.form[below_], view_.bends[below_], z_ - view_.x[below_], rate_below_, view_.low[below_],
+              false);
     for (std::size_t k = below_; k-- > 0;) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
@@ -89,22 +90,24 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       }
       state(route, k);
       turned_states(route, k, z_, above_, rate_above_);
-      route.add(view_.form[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k], false);
+      route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
+                false);
     }
   }
 
   /// Everything that starts at or above z, sets out upwards and turns.
   void from_above() {
-    Route route;
+    Route route(n_);
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
       turned_fans(route, above_, z_, above_, rate_above_, true);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
       if (k > above_ || z_ == view_.x[k]) state_that_turns_at_once(route, k);
       if (k == above_)
-        route.add(view_.form[k], view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
+        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
       else
-        route.add(view_.form[k], view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k], false);
+        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k],
+                  false);
       const std::size_t node = k + 1;
       if (node == n_ || view_.pure[node] - pure_z_ > late_) return;
       turned_states(route, k, view_.x[node], node, view_.low[node]);
@@ -119,47 +122,92 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
 
   void turned_fans(const Route& once, std::size_t node, const Scalar& from, std::size_t first,
                    const Scalar& rate, bool skip_first) {
-    turns(once, view_.M[node], node, from, first, rate, skip_first,
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+    turns(once, view_.M[node], node, from, first, rate, skip_first, {Scalar(0), infinity<Scalar>()},
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
+              const auto& fill) {
+            if (!turn_times(way, j, lo, hi).may_be(t_)) return;
+            fill();
             turned_fan(way, node, j, lo, hi, top);
           });
   }
   void turned_states(const Route& once, std::size_t k, const Scalar& from, std::size_t first,
                      const Scalar& rate) {
     if (!has_moving_state(k)) return;
-    turns(once, view_.least_amount(k), k + 1, from, first, rate, false,
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+    turns(once, view_.least_amount(k), k + 1, from, first, rate, false, h_of_cell(k),
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
+              const auto& fill) {
+            const Range h = h_of_cell(k);
+            const Scalar h0 = std::max(lo, h.least), h1 = std::min(hi, h.most);
+            auto times = turn_times(way, j, h0, h1);
+            times.most += most_from_state(k, h0, h1);
+            if (!times.may_be(t_)) return;
+            fill();
             turned_state(way, k, j, lo, hi, top);
           });
   }
 
-  /// Calls found(route, j, least h, largest h, height above which it turns) for every cell j, `first` and above, in which
-  /// paths can turn that pass `node` upwards, with M0 at their start, and have `once` to pass besides.
+  struct Range {
+    Scalar least, most;
+  };
+  /// h of the state of cell k.
+  [[nodiscard]] Range h_of_cell(std::size_t k) const {
+    return {view_.h(k, std::min(view_.low[k], view_.high[k])),
+            view_.h(k, std::max(view_.low[k], view_.high[k]))};
+  }
+  using Stretches = SlopedStretches<Scalar>;
+  [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Scalar& h0,
+                                                     const Scalar& h1) const {
+    return way.stretches.times_with_turn(h0, h1, way.turn_rate, view_.bends[j]);
+  }
+  /// Most time from a start in cell k to its upper end.
+  [[nodiscard]] Scalar most_from_state(std::size_t k, const Scalar& h0, const Scalar& h1) const {
+    if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
+    return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
+  }
+
+  /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, `first` and above, in which
+  /// paths can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass besides.
+  /// fill() gives the route its runs: most are ruled out without them.
   template <class Found>
   void turns(const Route& once, const Scalar& M0, std::size_t node, const Scalar& from, std::size_t first,
-             const Scalar& rate, bool skip_first, const Found& found) {
+             const Scalar& rate, bool skip_first, const Range& range, const Found& found) {
     Route& way = scratch_;
-    way.runs.assign(once.runs.begin(), once.runs.end());
+    way.stretches = once.stretches;
     way.least = once.least;
     way.turn_bend = Scalar(0);
+    bool is_filled = false;
+    std::size_t filled = first;
+    const auto entry_of = [&](std::size_t j) -> const Scalar& { return j == first ? rate : view_.low[j]; };
+    const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from : view_.x[j]; };
     for (std::size_t j = first; j < n_; ++j) {
-      const Scalar &entry = j == first ? rate : view_.low[j], &height = j == first ? from : view_.x[j];
+      const Scalar &entry = entry_of(j), &height = height_of(j);
       // Out of reach, or dearer than what there is: the height is gained, on one of both ways.
       if (j > first && Scalar(2) * view_.pure[j] - view_.pure[node] - pure_z_ > late_) return;
       if (M0 + gained(view_.x[node], height) > limit()) return;
       const Scalar least = std::min(way.least, entry);
-      if (view_.bend[j] < 0 && view_.high[j] < least && !(j == first && skip_first)) {
+      if (least < range.least) return;
+      if (view_.bend[j] < 0 && view_.high[j] < least && !(view_.high[j] > range.most) &&
+          !(j == first && skip_first)) {
         const Scalar kept = way.least;
         way.least = least;
         way.turn_form = view_.form[j];
         way.turn_bend = -view_.bend[j];
         way.turn_rate = entry;
-        found(way, j, view_.high[j], least, height);
+        const auto fill = [&] {
+          if (!is_filled) way.runs.assign(once.runs.begin(), once.runs.end());
+          is_filled = true;
+          for (; filled < j; ++filled) {
+            const Scalar d = view_.x[filled + 1] - height_of(filled);
+            if (d > 0)
+              way.runs.push_back({d, entry_of(filled), view_.high[filled], view_.form[filled], true});
+          }
+        };
+        found(way, j, view_.high[j], least, height, fill);
         way.least = kept;
         way.turn_bend = Scalar(0);
       }
-      way.add(view_.form[j], view_.x[j + 1] - height, entry, view_.high[j], true);
-      way.least = std::min({way.least, entry, view_.high[j]});
+      way.stretches.add(view_.bends[j], Scalar(view_.x[j + 1] - height), entry, view_.high[j], true);
+      way.least = std::min(least, view_.high[j]);
     }
   }
 
@@ -167,6 +215,11 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (view_.missing[k] == 0) return pure_state(k);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
+    const Range h = h_of_cell(k);
+    if (h.least > route.least) return;
+    auto times = route.stretches.times(h.least, std::min(h.most, route.least));
+    times.most += most_from_state(k, h.least, std::min(h.most, route.least));
+    if (!times.may_be(t_)) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
     if (view_.bend[k] == 0)
@@ -227,7 +280,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
           view_.high[k], Scalar(1));
   }
 
-  Route scratch_;
+  Route scratch_{n_};
 };
 
 }  // namespace shearfront::exact
