@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shearfront/exact/arc.hpp"
+#include "shearfront/exact/initial_amount.hpp"
 #include "shearfront/exact/sloped_arrival.hpp"
 #include "shearfront/exact/sloped_gradient.hpp"
 #include "shearfront/exact/sloped_search.hpp"
@@ -80,21 +81,7 @@ template <Real Scalar>
 Scalar SlopedMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                        FinalAmount amount) const {
   CompensatedSum<Scalar> sum;
-  if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
-    sum += z;
-    sum += -cells_.x.front();
-  } else {
-    sum += cells_.M.back();
-    sum += cells_.M_low.back();
-  }
-  sum += -cells_.M[path.source];
-  sum += -cells_.M_low[path.source];
-  if (path.kind == PathKind::constant || path.is_state) {
-    const TwoSum<Scalar> inside(path.foot, Scalar(-cells_.x[path.source]));
-    const TwoProduct<Scalar> initial(inside.high, cells_.phi[path.source]);
-    sum += -initial.high;
-    sum += -(initial.low + inside.low * cells_.phi[path.source]);
-  }
+  add_final_less_initial(cells_, path, z, amount, sum);
   const Scalar h = Scalar(4) * path.H;
   const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
   const auto rise = [&](const Scalar& from, const Scalar& to) {
