@@ -45,14 +45,14 @@ std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
 }
 
 /// Refuses fits of other data, quantities or losses than the first. Errors: FileError that names both files.
-void check_comparable(const std::vector<std::string>& files, const std::vector<fit::FitSpec>& specs) {
+void check_comparable(const std::vector<std::string>& names, const std::vector<fit::FitFile>& files) {
   Complaints complaints;
   std::string report;
-  for (std::size_t i = 1; i < specs.size(); ++i) {
-    const std::string why = fit::incomparable(specs.front(), specs[i]);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    const std::string why = fit::incomparable(files.front().spec, files[i].spec);
     if (why.empty()) continue;
     complaints.push_back(
-        {printable(files[i]), "", fmt::format("cannot be compared with {}: {}", printable(files[0]), why)});
+        {printable(names[i]), "", fmt::format("cannot be compared with {}: {}", printable(names[0]), why)});
     report += fmt::format("{}{}: {}", report.empty() ? "" : "\n", complaints.back().key,
                           complaints.back().constraint);
   }
@@ -131,9 +131,7 @@ int fit_files(const FitArguments& arguments) {
   if (!is_one && !arguments.plot.empty()) refuse("--plot", arguments.plot, "needs a single fit file");
   check_picture_name("--plot", arguments.plot);
   const std::vector<fit::FitFile> files = read_files(arguments.files);
-  std::vector<fit::FitSpec> specs;
-  for (const fit::FitFile& file : files) specs.push_back(file.spec);
-  check_comparable(arguments.files, specs);
+  check_comparable(arguments.files, files);
   for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
     check_outputs(input, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
   std::optional<OutputFile> output;
@@ -146,16 +144,16 @@ int fit_files(const FitArguments& arguments) {
 
   const InterruptGuard guard;
   std::vector<fit::Estimate> estimates;
-  for (std::size_t i = 0; i < specs.size(); ++i) estimates.push_back(run(specs[i], arguments.files[i]));
+  for (std::size_t i = 0; i < files.size(); ++i) estimates.push_back(run(files[i].spec, arguments.files[i]));
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
   if (output && estimate.usable()) {
-    write_residuals_csv(*output, specs[0].observations, estimate);
+    write_residuals_csv(*output, files[0].spec.observations, estimate);
     output->commit();
   }
   const int code = print_one(estimate, arguments.json);
   if (arguments.plot.empty()) return code;
-  return std::max(code, draw_fit(arguments.plot, specs[0], estimate));
+  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate));
 }
 
 }  // namespace

@@ -21,7 +21,6 @@ namespace shearfront {
 namespace {
 
 using diffusion::CrankNicolson;
-using diffusion::Ends;
 using diffusion::Problem;
 using support::SceneMaker;
 using support::seed_of;
@@ -32,7 +31,7 @@ double kink_error_on_unequal_cells(std::size_t n) {
   Problem p;
   p.bottom = -1;
   p.top = 1;
-  p.ends = Ends::neumann;
+  p.ends = diffusion::Ends::neumann;
   p.faces = {-1};
   for (const auto& [end, parts] : {std::pair{-0.6, 1}, {-0.35, 2}, {-0.2, 4}, {0.1, 2}, {0.4, 4}, {1.0, 1}}) {
     const double begin = p.faces.back();

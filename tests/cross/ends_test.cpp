@@ -117,7 +117,7 @@ TEST(Ends, ChangingStatesAgreeWithGodunov) {
     const auto tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.002});
     ASSERT_EQ(tracked.samples.size(), 40u) << tracked.summary.message;
     double coarse_error = 0, fine_error = 0;
-    for (const std::uint64_t cells : {200, 1600}) {
+    for (const std::uint64_t cells : {200U, 1600U}) {
       const auto grid = solve<GodunovSolver>(scene, request, {{.cells = cells}});
       ASSERT_EQ(grid.samples.size(), 40u) << grid.summary.message;
       double& error = cells == 200 ? coarse_error : fine_error;

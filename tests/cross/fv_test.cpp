@@ -24,28 +24,14 @@
 #include "support/godunov.hpp"
 #include "support/printed_engquist_osher.hpp"
 #include "support/random_scene.hpp"
+#include "support/source_examples.hpp"
 
 namespace shearfront {
 namespace {
 
 using support::cell_states;
-
-Scene<double> example_1() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
-
-Scene<double> example_2() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Exponential<double>{0.87 / 0.205, 0.205};
-  spec.scale = 13.60;
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
+using support::example_1;
+using support::example_2;
 
 /// L1 error of the solver's profile.
 template <class Solver>

@@ -12,30 +12,17 @@
 
 #include "shearfront/solver/all.hpp"
 #include "support/random_scene.hpp"
+#include "support/source_examples.hpp"
 
 namespace shearfront {
 namespace {
 
+using support::example_1;
+using support::example_2;
+
 Scene<double> one_layer(double rate) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{}, {rate}};
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
-
-Scene<double> example_1() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
-
-Scene<double> example_2() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Exponential<double>{0.87 / 0.205, 0.205};
-  spec.scale = 13.60;
   spec.initial_breaks = {0.5};
   spec.initial_values = {0, 1};
   return Scene<double>(spec);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Event times seen in profiles converge to the exact ones.
 #include "support/observed_events.hpp"
+#include "support/source_examples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +15,9 @@
 namespace shearfront {
 namespace {
 
+using support::example_1;
 using support::observed_events;
 using support::ProfileSeries;
-
-Scene<double> example_1() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
 
 std::vector<double> spaced(double end, int n) {
   std::vector<double> times;

@@ -27,7 +27,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Soak, testing::Values(1, 21, 41, 61));
 // Tables that once broke a law in the exact engine: knots within rounding of each other, where a path crossed a jump of a
 // in no time without cost; states of 1e-18 that found no start; a height one rounding beside a throat; rates of 1e-237 and 1e219, whose products overflow.
 TEST(SoakScenes, ThatOnceFailed) {
-  for (const std::uint64_t seed : {26, 900006, 900014, 900135, 900143, 910243, 911193, 912560, 912770})
+  for (const std::uint64_t seed :
+       {26U, 900006U, 900014U, 900135U, 900143U, 910243U, 911193U, 912560U, 912770U})
     check_scene(seed);
 }
 

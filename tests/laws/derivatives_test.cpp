@@ -99,7 +99,8 @@ Difference difference(const SceneSpec<Real110>& spec, std::size_t entry, const R
 }
 
 TYPED_TEST(ExactDerivatives, AreDifferencesInManyDigits) {
-  int n_scenes = 0, n_compared = 0, n_refused = 0, number = 0;
+  int n_scenes = 0, n_compared = 0, n_refused = 0;
+  std::size_t number = 0;
   support::SceneMaker make(support::seed_of(5501));
   this->for_each_scene([&](const SceneSpec<double>& spec) {
     // Of each flux the initial states in turn: many digits take time.

@@ -24,7 +24,7 @@ using fv::March;
 using fv::Rule;
 using support::Grains, support::SceneMaker;
 
-SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(12000 + std::uint64_t(number))); }
+SceneMaker maker_with_ends(int number) { return SceneMaker(support::seed_of(12000 + std::uint64_t(number))); }
 
 /// Layers of one or several fluxes of the same kind, solid fraction, temperature, two open ends or a ring.
 SceneSpec<double> random_ends(SceneMaker& maker, bool is_ring) {
@@ -58,7 +58,7 @@ TEST(FvEnds, AmountChangesByWhatComesIn) {
   support::Checked checked({"ring", "open"});
   for (int number = 0; number < 60; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_ends(number);
     const Scene<double> scene(random_ends(maker, number % 3 == 0));
     const fv::Grid grid = fv::equal_cells(scene, 40);
     for (const Rule rule : {Rule::godunov, Rule::engquist_osher}) {
@@ -82,7 +82,7 @@ TEST(FvEnds, AmountChangesByWhatComesIn) {
 TEST(FvEnds, ContractInL1AndKeepTheOrder) {
   for (int number = 0; number < 60; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_ends(number);
     SceneSpec<double> spec = random_ends(maker, number % 3 == 0), upper = spec, other = spec;
     for (double& x : upper.initial_values) x += (1 - x) * maker.uniform(0, 1);
     for (double& x : other.initial_values) x = maker.uniform(0, 1);
@@ -180,7 +180,7 @@ TYPED_TEST(FvTraffic, AnOutsideStateThatSendsNoWavesInDoesNotMatter) {
 
 TYPED_TEST(FvTraffic, RingKeepsItsCarsAndHasNoBeginning) {
   for (int number = 0; number < 20; ++number) {
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_ends(number);
     constexpr std::size_t n = 48;
     SceneSpec<double> spec, turned;
     spec.fluxes = {Triangular<double>{0.25, 1.0}};
@@ -212,7 +212,7 @@ TYPED_TEST(FvTraffic, RingKeepsItsCarsAndHasNoBeginning) {
 // A flux beside itself is no interface.
 TEST(FvFluxes, TheSameFluxTwiceIsOneFlux) {
   for (int number = 0; number < 20; ++number) {
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_ends(number);
     SceneSpec<double> spec = maker.data(3, maker.order(), 5);
     spec.fluxes = {Cubic<double>{}};
     const Scene<double> one(spec);
@@ -230,7 +230,7 @@ TEST(FvFluxes, TheSameFluxTwiceIsOneFlux) {
 TEST(FvFluxes, DifferentFluxesComeToRestBetweenWalls) {
   for (int number = 0; number < 20; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_ends(number);
     SceneSpec<double> spec = random_ends(maker, true);
     spec.is_periodic = false;
     const Scene<double> scene(spec);

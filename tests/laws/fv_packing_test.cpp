@@ -19,7 +19,9 @@ namespace {
 
 using support::Grains, support::SceneMaker;
 
-SceneMaker maker_of(int number) { return SceneMaker(support::seed_of(11000 + std::uint64_t(number))); }
+SceneMaker maker_with_packing(int number) {
+  return SceneMaker(support::seed_of(11000 + std::uint64_t(number)));
+}
 
 SolverResult solved(const Scene<double>& scene, std::vector<double> times, std::size_t cells, auto solver,
                     bool is_aligned = false) {
@@ -36,7 +38,7 @@ void expect_within_packing(int n_scenes, std::size_t cells) {
   int n_jumps = 0;
   for (int number = 0; number < n_scenes; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_packing(number);
     const Scene<double> scene(support::solid_data(maker, number % 2 == 0 ? Grains::small : Grains::large));
     const auto result =
         solved(scene, {0, 0.02, 0.1, 0.4, 1, 3, infinity<double>()}, cells, Solver{}, number % 3 == 0);
@@ -61,7 +63,7 @@ TEST(FvPacking, MusclNeverExceedsThePacking) { expect_within_packing<MusclSolver
 TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
   for (int number = 0; number < 20; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_packing(number);
     SceneSpec<double> spec;
     const double most = maker.uniform(0.5, 0.7), least = maker.uniform(0.2, 0.4);
     const bool is_small = number % 2 == 0;
@@ -85,7 +87,7 @@ TEST(FvPacking, SchemesThatDoNotMatchFluxesOvershoot) {
 TEST(FvPacking, PackedLayersAreThickerLayers) {
   for (int number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_packing(number);
     SceneSpec<double> spec = maker.data(maker.integer(2, 5), maker.order(), 0);
     const auto& rate = std::get<Piecewise<double>>(spec.shear_rate);
     spec.fluxes = {Quadratic<double>{}};
@@ -129,7 +131,7 @@ TEST(FvPacking, PackedLayersAreThickerLayers) {
 TEST(FvPacking, SmallAndLargeGrainsFillTheBed) {
   for (int number = 0; number < 60; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
-    SceneMaker maker = maker_of(number);
+    SceneMaker maker = maker_with_packing(number);
     SceneSpec<double> spec = support::solid_data(maker, Grains::small);
     const Scene<double> small(spec);
     spec.fluxes = {Lwr<double>{}};
@@ -151,7 +153,7 @@ TEST(FvPacking, SmallAndLargeGrainsFillTheBed) {
 
 // A bed of constant solid fraction is a bed without, times c; times do not depend on c.
 TEST(FvPacking, ConstantPackingScalesPhi) {
-  SceneMaker maker = maker_of(0);
+  SceneMaker maker = maker_with_packing(0);
   SceneSpec<double> spec = maker.data(3, maker.order(), 5);
   const Scene<double> plain(spec);
   spec.solid_fraction = Piecewise<double>{{}, {0.64}};

@@ -303,19 +303,19 @@ TEST(LinearPieces, TendToAnExponentialWithTheSecondOrder) {
 TEST(LinearPieces, L1ErrorsAreThoseOfAQuadrature) {
   const ExactSolution<double> exact{Scene<double>(four_pieces())};
   const double t = 0.3;
-  const int n = 40;
+  constexpr std::size_t n = 40;
   std::vector<double> z{0}, phi;
-  for (int i = 1; i <= n; ++i) {
-    z.push_back(i / double(n));
+  for (std::size_t i = 1; i <= n; ++i) {
+    z.push_back(double(i) / n);
     phi.push_back((exact.M(z[i], t) - exact.M(z[i - 1], t)) * n);
   }
   const Profile<double> profile(z, phi, phi);
   const auto errors = errors_against(exact, profile, t);
   double sum = 0;
   constexpr int kFine = 4000;  // a shock costs the rule no more than half a step
-  for (int i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i)
     for (int j = 0; j < kFine; ++j)
-      sum += std::abs(phi[i] - exact.phi((i + (j + 0.5) / kFine) / n, t)) / (double(n) * kFine);
+      sum += std::abs(phi[i] - exact.phi((double(i) + (j + 0.5) / kFine) / n, t)) / (double(n) * kFine);
   EXPECT_NEAR(errors.l1, sum, 2e-5);
 }
 

@@ -95,7 +95,8 @@ MatrixXd noise_to_coordinates(const ResidualRows& rows, const Observations& obse
   for (Index i = rows.size(); i-- > 0;) {
     const ResidualRows::Row& row = rows.rows[static_cast<std::size_t>(i)];
     sum += row.weight * pseudo_inverse.col(i);
-    for (const Term& term : row.data) moved.col(static_cast<Index>(term.index)) += term.coefficient * sum;
+    for (const Term& term : rows.data(static_cast<std::size_t>(i)))
+      moved.col(static_cast<Index>(term.index)) += term.coefficient * sum;
     if (!row.continues) sum.setZero();
   }
   for (Index k = 0; k < moved.cols(); ++k) {

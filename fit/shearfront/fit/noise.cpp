@@ -83,7 +83,7 @@ Noise noise_of(const Objective& objective, const Observations& observations, con
   bool depends_later = false;  // some row whose sum row i is part of
   for (std::size_t i = rows.size(); i-- > 0;) {
     depends_later = depends_later || depends[i];
-    for (const Term& term : rows[i].data)
+    for (const Term& term : objective.rows().data(i))
       if (depends_later && std::isfinite(predicted[term.index])) is_used[term.index] = true;
     if (!rows[i].continues) depends_later = false;
   }

@@ -38,10 +38,11 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
   const double size = (rows_.field == Observable::phi ? 1 : parameters.height()) *
                       (rows_.field == Observable::bed_height ? 1 : parameters.states());
   std::size_t n = 0;
-  for (const ResidualRows::Row& row : rows_.rows) {
+  for (std::size_t i = 0; i < rows_.rows.size(); ++i) {
+    const ResidualRows::Row& row = rows_.rows[i];
     double terms = 0;
-    for (const Term& term : row.model) terms += std::abs(term.coefficient);
-    n = (row.continues ? n : 0) + row.data.size();
+    for (const Term& term : rows_.model(i)) terms += std::abs(term.coefficient);
+    n = (row.continues ? n : 0) + rows_.data(i).size();
     terms *= 1 + static_cast<double>(n);
     const double error = kUlps * std::numeric_limits<double>::epsilon() * row.weight * size * terms;
     rounding_misfit_ += error * error / 2;

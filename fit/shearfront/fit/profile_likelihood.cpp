@@ -225,7 +225,7 @@ class Profiler {
     RunControl control(local_.max_evaluations, progress_);
     Objective refitted(parameters_, coordinates_, forward_, objective_.rows(), objective_.loss(), control);
     std::array<End, 2> ends;
-    for (const std::size_t i : {0, 1}) {
+    for (std::size_t i = 0; i < ends.size(); ++i) {
       Side side(refitted, local_, coordinates_.coordinates(parameters_.start()), u_, best_.misfit, j,
                 i == 0 ? -1 : 1);
       ends[i] = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j),

@@ -35,7 +35,7 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   const VectorXd r = rows.residuals(at.values);
   // Rows may stand in another order than the data; in its own quantity each has one observation.
   for (std::size_t i = 0; i < rows.rows.size(); ++i)
-    predicted[rows.rows[i].data.front().index] =
+    predicted[rows.data(i).front().index] =
         rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
   return predicted;
 }

@@ -14,7 +14,8 @@ Eigen::VectorXd ResidualRows::residuals(const Eigen::VectorXd& values) const {
   for (Index i = 0; i < size(); ++i) {
     const Row& row = rows[static_cast<std::size_t>(i)];
     if (!row.continues) model = 0;
-    for (const Term& term : row.model) model += term.coefficient * values[static_cast<Index>(term.index)];
+    for (const Term& term : this->model(static_cast<std::size_t>(i)))
+      model += term.coefficient * values[static_cast<Index>(term.index)];
     r[i] = row.weight * (model - row.target);
   }
   return r;
@@ -26,7 +27,7 @@ Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const
   for (Index i = 0; i < size(); ++i) {
     const Row& row = rows[static_cast<std::size_t>(i)];
     if (!row.continues) model.setZero();
-    for (const Term& term : row.model)
+    for (const Term& term : this->model(static_cast<std::size_t>(i)))
       model += term.coefficient * derivatives.row(static_cast<Index>(term.index));
     j.row(i) = row.weight * model;
   }
@@ -34,14 +35,25 @@ Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const
 }
 
 bool ResidualRows::are_single() const {
-  return std::all_of(rows.begin(), rows.end(),
-                     [](const Row& row) { return row.data.size() == 1 && !row.continues; });
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].continues || data(i).size() != 1) return false;
+  return true;
 }
 
 ResidualRows ResidualRows::selected(const std::vector<bool>& keep) const {
-  ResidualRows some{field, points, {}, unit};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (keep[i]) some.rows.push_back(rows[i]);
+  ResidualRows some;
+  some.field = field;
+  some.points = points;
+  some.unit = unit;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!keep[i]) continue;
+    const auto of_model = model(i), of_data = data(i);
+    some.model_terms.insert(some.model_terms.end(), of_model.begin(), of_model.end());
+    some.data_terms.insert(some.data_terms.end(), of_data.begin(), of_data.end());
+    Row& row = some.rows.emplace_back(rows[i]);
+    row.model_end = some.model_terms.size();
+    row.data_end = some.data_terms.size();
+  }
   return some;
 }
 
@@ -54,26 +66,24 @@ std::size_t RowBuilder::place(double t, double z) {
 }
 
 /// Terms of one place added up; what cancels is left out.
-static void merge(Terms& terms) {
+static void merge(std::vector<Term>& terms) {
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.index < b.index; });
-  Terms merged;
+  std::size_t n = 0;
   for (const Term& term : terms) {
-    if (!merged.empty() && merged.back().index == term.index)
-      merged.back().coefficient += term.coefficient;
+    if (n > 0 && terms[n - 1].index == term.index)
+      terms[n - 1].coefficient += term.coefficient;
     else
-      merged.push_back(term);
+      terms[n++] = term;
   }
-  merged.erase(
-      std::remove_if(merged.begin(), merged.end(), [](const Term& term) { return term.coefficient == 0; }),
-      merged.end());
-  terms = std::move(merged);
+  terms.resize(n);
+  std::erase_if(terms, [](const Term& term) { return term.coefficient == 0; });
 }
 
 void RowBuilder::data(std::size_t k, double coefficient) {
-  if (!row_.data.empty() && row_.data.back().index == k)
-    row_.data.back().coefficient += coefficient;
+  if (!data_.empty() && data_.back().index == k)
+    data_.back().coefficient += coefficient;
   else
-    row_.data.push_back({k, coefficient});
+    data_.push_back({k, coefficient});
 }
 
 void RowBuilder::finish_row() {
@@ -82,13 +92,13 @@ void RowBuilder::finish_row() {
 }
 
 void RowBuilder::finish_row_of_sum() {
-  merge(row_.model);
+  merge(model_);
   const auto variance_of = [&](const Term& term) {
     if (term.coefficient == 0) return 0.0;
     const double sigma = observations_->rows[term.index].sigma;
     return std::pow(term.coefficient * (sigma > 0 ? sigma : 1), 2);
   };
-  for (const Term& term : row_.data) {
+  for (const Term& term : data_) {
     target_ += term.coefficient * observations_->rows[term.index].value;
     if (last_.coefficient != 0 && last_.index != term.index) {
       variance_ += variance_of(last_);
@@ -96,15 +106,19 @@ void RowBuilder::finish_row_of_sum() {
     }
     last_ = {term.index, last_.coefficient + term.coefficient};
   }
-  row_.target = target_;
-  row_.weight = 1 / std::sqrt(variance_ + variance_of(last_));
-  rows_.rows.push_back(std::move(row_));
-  row_ = {};
-  row_.continues = true;
+  rows_.model_terms.insert(rows_.model_terms.end(), model_.begin(), model_.end());
+  rows_.data_terms.insert(rows_.data_terms.end(), data_.begin(), data_.end());
+  rows_.rows.push_back({rows_.model_terms.size(), rows_.data_terms.size(), target_,
+                        1 / std::sqrt(variance_ + variance_of(last_)), continues_});
+  model_.clear();
+  data_.clear();
+  continues_ = true;
 }
 
 void RowBuilder::end_sum() {
-  row_ = {};
+  model_.clear();
+  data_.clear();
+  continues_ = false;
   last_ = {};
   target_ = variance_ = 0;
 }

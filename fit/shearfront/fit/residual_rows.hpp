@@ -2,10 +2,10 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,9 +20,6 @@ struct Term {
   double coefficient = 0;
 };
 
-/// Mostly one or two.
-using Terms = boost::container::small_vector<Term, 1>;
-
 /// Residuals that are linear in the solution and in the data:
 ///
 ///     r_i = weight_i ( sum_j c_ij X(point_j) - sum_k d_ik y_k ),     X = phi or M, y_k the observations.
@@ -32,19 +29,29 @@ using Terms = boost::container::small_vector<Term, 1>;
 /// the one before: memory and time are linear in the observations.
 struct ResidualRows {
   struct Row {
-    Terms model;  ///< c_ij, index into points
-    Terms data;   ///< d_ik, index into the observations
+    std::size_t model_end = 0,
+                data_end = 0;  ///< where its terms end; they begin where those of the row before do
     double target = 0, weight = 1;
-    bool continues =
-        false;  ///< the sums go on from the row before; model and data are what is added, target is not
+    /// The sums go on from the row before; model and data are what is added, target is not.
+    bool continues = false;
   };
   Observable field = Observable::phi;
   std::vector<Place> points;
   std::vector<Row> rows;
+  std::vector<Term> model_terms,
+      data_terms;  ///< of all rows: one block each, for there may be a million rows
   /// Size of what the residuals are differences of: they are numbers beside it. 1 where they are in units of sigma.
   double unit = 1;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
+  /// c_ij of row i, index into points.
+  [[nodiscard]] std::span<const Term> model(std::size_t i) const {
+    return terms(model_terms, i > 0 ? rows[i - 1].model_end : 0, rows[i].model_end);
+  }
+  /// d_ik of row i, index into the observations.
+  [[nodiscard]] std::span<const Term> data(std::size_t i) const {
+    return terms(data_terms, i > 0 ? rows[i - 1].data_end : 0, rows[i].data_end);
+  }
   /// weight_i (model - target) for values at the points.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& values) const;
   /// The same combination of derivatives at the points (row = point).
@@ -53,6 +60,12 @@ struct ResidualRows {
   [[nodiscard]] bool are_single() const;
   /// Only the rows marked; the points stay. Precondition: no row continues another.
   [[nodiscard]] ResidualRows selected(const std::vector<bool>& keep) const;
+
+ private:
+  [[nodiscard]] static std::span<const Term> terms(const std::vector<Term>& all, std::size_t begin,
+                                                   std::size_t end) {
+    return std::span(all).subspan(begin, end - begin);
+  }
 };
 
 /// Puts rows together; every place is asked of the solver once.
@@ -67,7 +80,7 @@ class RowBuilder {
   }
 
   /// A coefficient of X(t, z) in the row being built.
-  void model(double t, double z, double coefficient) { row_.model.push_back({place(t, z), coefficient}); }
+  void model(double t, double z, double coefficient) { model_.push_back({place(t, z), coefficient}); }
   /// A coefficient of observation k; the same k again right afterwards adds up.
   void data(std::size_t k, double coefficient);
   void finish_row();
@@ -91,7 +104,8 @@ class RowBuilder {
   const Observations* observations_;
   double slack_ = 0;
   ResidualRows rows_;
-  ResidualRows::Row row_;
+  std::vector<Term> model_, data_;  ///< of the row being built
+  bool continues_ = false;
   double target_ = 0, variance_ = 0;  ///< of the sum so far, without the last observation in the variance
   Term last_;                         ///< that observation
   std::map<Place, std::size_t> places_;

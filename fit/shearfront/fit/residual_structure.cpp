@@ -164,8 +164,8 @@ std::optional<ResidualStructure> residual_structure(const Observations& observat
   structure.lag1_height = height.is_tested() ? height.correlation() : kUnknown;
   structure.lag1_time = time.is_tested() ? time.correlation() : kUnknown;
   structure.runs_z_score = runs.is_tested() ? runs.z_score() : kUnknown;
-  structure.is_structured =
-      worst > boost::math::quantile(boost::math::complement(boost::math::normal(), kLevel / (2 * n_tests)));
+  structure.is_structured = worst > boost::math::quantile(boost::math::complement(
+                                        boost::math::normal(), kStructureLevel / (2 * n_tests)));
   return structure;
 }
 

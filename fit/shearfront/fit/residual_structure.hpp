@@ -21,7 +21,7 @@ namespace shearfront::fit {
 /// x = sign(e) Phi^-1((1 + rank |e| / (n + 1)) / 2): given the sizes |e|, the products of independent
 /// residuals with symmetric laws have independent signs, so z has mean 0 and variance 1 whatever their
 /// variances, and single gross residuals decide nothing. is_structured: one of the tests fails on either side
-/// at the level kLevel divided by the number of tests done (Bonferroni), so independent noise is called
+/// at the level kStructureLevel divided by the number of tests done (Bonferroni), so independent noise is called
 /// structured in at most 1 % of all fits. No mean is subtracted: a shift of a whole profile is structure.
 ///
 /// A number is NaN where its test has fewer than kFewestPairs pairs (residuals for the runs). Empty if all
@@ -31,6 +31,6 @@ namespace shearfront::fit {
                                                                   const std::vector<double>& predicted);
 
 inline constexpr std::size_t kFewestPairs = 20;
-inline constexpr double kLevel = 0.01;
+inline constexpr double kStructureLevel = 0.01;
 
 }  // namespace shearfront::fit

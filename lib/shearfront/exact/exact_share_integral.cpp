@@ -15,7 +15,7 @@
 namespace shearfront {
 namespace {
 
-using Node = exact::PathNode<double>;
+using exact::PathNode;
 
 /// c g(x) dz in the coordinates of the canonical form: g(share of u) times d(solid) / dy.
 class Integrand {
@@ -57,8 +57,8 @@ class ShareIntegral {
       const bool is_top = k + 2 == z.size();
       pieces.split(
           pieces.node(z[k]), is_top ? pieces.node(z[k + 1]) : pieces.below(z[k + 1]),
-          [&](const Node& a, const Node& b) { add_smooth(a, b); },
-          [&](const Node& a, const Node& b) { add_gap(a, b); });
+          [&](const PathNode<double>& a, const PathNode<double>& b) { add_smooth(a, b); },
+          [&](const PathNode<double>& a, const PathNode<double>& b) { add_gap(a, b); });
     }
     return sum_.value();
   }
@@ -82,12 +82,12 @@ class ShareIntegral {
     return sum_.value();
   }
 
-  void add_gap(const Node& a, const Node& b) {
+  void add_gap(const PathNode<double>& a, const PathNode<double>& b) {
     sum_ += (b.z - a.z) * ((integrand_(a.phi) + integrand_(b.phi)) / 2);
   }
 
   /// A piece on which phi is smooth: cut at the kinks of g.
-  void add_smooth(const Node& a, const Node& b) {
+  void add_smooth(const PathNode<double>& a, const PathNode<double>& b) {
     if (!(b.z > a.z)) return;
     double lo = a.z;
     if (b.phi != a.phi) {
@@ -110,7 +110,7 @@ class ShareIntegral {
   [[nodiscard]] double state_at(double y) const {
     return exact_.image_value(exact_.medium().best_path(y, t_), y).phi;
   }
-  [[nodiscard]] double height_of(double phi, const Node& a, const Node& b) const {
+  [[nodiscard]] double height_of(double phi, const PathNode<double>& a, const PathNode<double>& b) const {
     std::uintmax_t n = 100;
     const auto [lo, hi] = boost::math::tools::toms748_solve(
         [&](double z) { return state_at(z) - phi; }, a.z, b.z, a.phi - phi, b.phi - phi,
