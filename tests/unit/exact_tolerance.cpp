@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Beds that linear pieces stand for, against the same beds in another guise that is solved exactly.
+// Beds that pieces stand for, against the same beds in another guise that is solved exactly.
 #include <gtest/gtest.h>
 
 #include <any>
