@@ -15,7 +15,11 @@ enum class RateForm : std::uint8_t { linear, exponential };
 template <Real Scalar>
 [[nodiscard]] Scalar bend_between(RateForm form, const Scalar& low, const Scalar& high, const Scalar& width) {
   using std::log;
-  return form == RateForm::linear ? Scalar((high - low) / width) : Scalar(log(Scalar(high / low)) / width);
+  using std::log1p;
+  const Scalar rise = high - low;
+  if (form == RateForm::linear) return rise / width;
+  const bool is_near = rise < low && rise > low / Scalar(-2);  // else rise / low has lost what high is
+  return (is_near ? Scalar(log1p(Scalar(rise / low))) : Scalar(log(Scalar(high / low)))) / width;
 }
 
 /// What r gains from where it is `rate` to a place `d` higher (lower where d < 0).

@@ -16,7 +16,8 @@ namespace shearfront::exact {
 template <Real Scalar>
 struct SlopedPieces {
   std::vector<Scalar> boundaries;
-  std::vector<Scalar> low, high;  ///< r at the lower and upper end of each piece
+  std::vector<Scalar> low, high;   ///< r at the lower and upper end of each piece
+  std::vector<std::size_t> piece;  ///< to which each cell belongs
   std::vector<RateForm> form;
   std::vector<Scalar> bend;  ///< exact/rate_form.hpp; its sign is that of the slope
 
@@ -53,9 +54,10 @@ struct SlopedPieces {
 template <Real Scalar>
 struct SlopedView {
   bool is_mirror = false;
-  std::vector<Scalar> x;          ///< nodes, ascending
-  std::vector<Scalar> M;          ///< int phi(z, 0) dz from the true bottom, at the nodes
-  std::vector<Scalar> low, high;  ///< r at the ends of each cell
+  std::vector<Scalar> x;           ///< nodes, ascending
+  std::vector<Scalar> M;           ///< int phi(z, 0) dz from the true bottom, at the nodes
+  std::vector<Scalar> low, high;   ///< r at the ends of each cell
+  std::vector<std::size_t> piece;  ///< to which each cell belongs
   std::vector<RateForm> form;
   std::vector<Scalar> bend;  ///< of r in each cell
   std::vector<RelativeBends<Scalar>> bends;
@@ -75,6 +77,7 @@ struct SlopedView {
           cells.x[i + 1] == pieces.boundaries[k + 1] ? pieces.high[k] : pieces.rate(k, cells.x[i + 1]);
       low.push_back(mirrored ? hi : lo);
       high.push_back(mirrored ? lo : hi);
+      piece.push_back(k);
       form.push_back(pieces.form[k]);
       bend.push_back(mirrored ? Scalar(-pieces.bend[k]) : pieces.bend[k]);
       p.push_back(mirrored ? Scalar(one - cells.phi[i]) : cells.phi[i]);
@@ -86,6 +89,7 @@ struct SlopedView {
       for (auto* all : {&x, &M, &low, &high, &bend, &p, &missing, &q0})
         std::reverse(all->begin(), all->end());
       std::reverse(form.begin(), form.end());
+      std::reverse(piece.begin(), piece.end());
     }
     for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
     pure = {Scalar(0)};
@@ -147,6 +151,30 @@ struct SlopedView {
     const Scalar most = std::min(low[a], q0[b] > 0 ? h(b, high[b]) : high[b]);
     // Between pure states a fan is no more than the path of the state, which is no moving one.
     return most > 0 && least <= most * (one + slack);
+  }
+};
+
+/// A height of a view with the cells below and above it, the same one inside a cell, and r there.
+template <Real Scalar>
+struct SlopedPlace {
+  Scalar z;
+  std::size_t below, above;
+  Scalar rate_below, rate_above;
+
+  SlopedPlace(const SlopedView<Scalar>& view, const Scalar& height) : z(height) {
+    const auto it = std::upper_bound(view.x.begin() + 1, view.x.end() - 1, z);
+    above = static_cast<std::size_t>(it - view.x.begin()) - 1;
+    below = above > 0 && z == view.x[above] ? above - 1 : above;
+    rate_above = view.rate(above, z);
+    rate_below = below == above ? rate_above : view.rate(below, z);
+  }
+  [[nodiscard]] SlopedPlace turned_over(const SlopedView<Scalar>& view) const {
+    SlopedPlace place = *this;
+    place.z = -z;
+    place.below = view.n_cells() - 1 - above;
+    place.above = view.n_cells() - 1 - below;
+    std::swap(place.rate_below, place.rate_above);
+    return place;
   }
 };
 

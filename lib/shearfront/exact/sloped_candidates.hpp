@@ -13,16 +13,21 @@ namespace shearfront::exact {
 template <Real Scalar>
 class SlopedCandidates {
  public:
-  SlopedCandidates(const SlopedView<Scalar>& view, const Scalar& z, const Scalar& t, const Scalar& upper,
-                   bool moving_only, Path<Scalar>& best)
-      : view_(view), z_(z), t_(t), upper_(upper), moving_only_(moving_only), best_(best), n_(view.n_cells()) {
-    const auto it = std::upper_bound(view.x.begin() + 1, view.x.end() - 1, z);
-    above_ = static_cast<std::size_t>(it - view.x.begin()) - 1;
-    below_ = above_ > 0 && z == view.x[above_] ? above_ - 1 : above_;
-    rate_below_ = view.rate(below_, z);
-    rate_above_ = view.rate(above_, z);
+  SlopedCandidates(const SlopedView<Scalar>& view, const SlopedPlace<Scalar>& place, const Scalar& t,
+                   const Scalar& upper, bool moving_only, Path<Scalar>& best)
+      : view_(view),
+        z_(place.z),
+        t_(t),
+        upper_(upper),
+        moving_only_(moving_only),
+        best_(best),
+        n_(view.n_cells()),
+        below_(place.below),
+        above_(place.above),
+        rate_below_(place.rate_below),
+        rate_above_(place.rate_above) {
     slack_ = Scalar(64) * unit_roundoff<Scalar>() * (view.x.back() - view.x.front());
-    const Scalar from = z - view.x[below_];
+    const Scalar from = z_ - view.x[below_];
     pure_z_ = from > 0
                   ? Scalar(view.pure[below_] + Crossing<Scalar>(view.form[below_], from, view.low[below_],
                                                                 Scalar(1), rate_below_, Scalar(1), Scalar(0))
@@ -168,10 +173,10 @@ class SlopedCandidates {
     };
     const Scalar first = lost_at(route.least);
     StateRange range{k, leaves, end, Scalar(0), Scalar(0), four_g / route.least, most, first >= 0, false};
-    const Scalar skip = std::max(Scalar(0), first),
-                 last = std::min(
-                     is_rising ? Scalar(view_.high[k] - view_.low[k]) : Scalar(view_.low[k] - view_.high[k]),
-                     lost_at(h_low));
+    // By the bend: the rates at the ends of a part of a piece that is almost flat may be the same.
+    const Scalar width = view_.x[k + 1] - view_.x[k];
+    const Scalar over = -rise_of(view_.form[k], view_.bend[k], most, is_rising ? Scalar(-width) : width);
+    const Scalar skip = std::max(Scalar(0), first), last = std::min(over, lost_at(h_low));
     range.is_empty = !(skip <= last);
     if (range.is_empty) return range;
     if (skip > 0) range.anchor = start_of(range, skip);
@@ -290,8 +295,8 @@ class SlopedCandidates {
   Scalar z_, t_, upper_;
   bool moving_only_;
   Path<Scalar>& best_;
-  std::size_t n_, below_ = 0, above_ = 0;
-  Scalar rate_below_{0}, rate_above_{0}, slack_{0}, pure_z_{0}, late_{0};
+  std::size_t n_, below_, above_;
+  Scalar rate_below_, rate_above_, slack_{0}, pure_z_{0}, late_{0};
 };
 
 }  // namespace shearfront::exact

@@ -24,17 +24,28 @@
 /// sum T), whose last term is 0 where T(h) = t: errors of h enter quadratically.
 namespace shearfront::exact {
 
+/// 1 / (2 n + 1).
+inline constexpr double kOneOver[] = {1.0,      1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
+                                      1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23,
+                                      1.0 / 25, 1.0 / 27, 1.0 / 29, 1.0 / 31, 1.0 / 33, 1.0 / 35};
+
 /// (artanh(x) / x - 1) / x^2 = 1/3 + x^2/5 + ... by x^2, 0 <= x^2 <= 1/8.
 template <Real Scalar>
 [[nodiscard]] Scalar artanh_series(const Scalar& x2) {
-  Scalar sum(0), power(1);
-  for (int n = 3; n < 400; n += 2) {
-    const Scalar term = power / Scalar(n);
-    sum += term;
-    if (term <= unit_roundoff<Scalar>() * sum) break;
-    power *= x2;
+  if constexpr (std::numeric_limits<Scalar>::digits == 53) {
+    double sum = 1.0 / 37;  // the first term left out is 2^-54 / 39
+    for (int n = 35; n >= 3; n -= 2) sum = sum * x2 + kOneOver[n / 2];
+    return sum;
+  } else {
+    Scalar sum(0), power(1);
+    for (int n = 3; n < 400; n += 2) {
+      const Scalar term = power / Scalar(n);
+      sum += term;
+      if (term <= unit_roundoff<Scalar>() * sum) break;
+      power *= x2;
+    }
+    return sum;
   }
-  return sum;
 }
 
 /// artanh(x) / x by x^2 <= 1/64.

@@ -37,17 +37,15 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
                                           bool moving_only) const {
   using std::sqrt;
   Path<Scalar> best;
-  SlopedSearch<Scalar>(up_, z, t, upper, moving_only, best).run();
-  SlopedSearch<Scalar>(down_, Scalar(-z), t, upper, moving_only, best).run();
-  const std::size_t above = cells_.cell_at(z);
-  const bool is_node = above > 0 && z == cells_.x[above];
-  const std::size_t below = is_node ? above - 1 : above;
-  const Scalar rate_below = up_.rate(below, z), rate_above = up_.rate(above, z);
-  throats_.search(up_, z, below, above, rate_below, rate_above, t, upper, best);
+  const SlopedPlace<Scalar> place(up_, z);
+  const std::size_t above = place.above;
+  SlopedSearch<Scalar>(up_, place, t, upper, moving_only, best).run();
+  SlopedSearch<Scalar>(down_, place.turned_over(up_), t, upper, moving_only, best).run();
+  throats_.search(up_, place, t, upper, best);
   if (best.kind == PathKind::none) return best;
   // The momentum next to z on its upper side. A path that sets out within rounding of a jump may bring a flux that only
   // the lower side can carry.
-  const Scalar& r = rate_above;
+  const Scalar& r = place.rate_above;
   const Scalar q2 = ((r - best.r_reference) + best.r_reference * best.x * best.x) / r;
   const Scalar q = q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0);
   const Scalar less = std::min(Scalar(0.5), Scalar(Scalar(2) * best.H / r / (Scalar(1) + q)));

@@ -8,8 +8,7 @@
 
 namespace shearfront::exact {
 
-/// The best path to (z, t), heights of the view, among those that set out upwards in the view and leave their first cell,
-/// and those inside one cell.
+/// The best path to (z, t), heights of the view, among those that set out upwards in the view, and those inside one piece.
 template <Real Scalar>
 class SlopedSearch : private SlopedCandidates<Scalar> {
  public:
@@ -18,7 +17,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void run() {
     for (const std::size_t cell : {below_, above_}) {
       inside(cell);
-      if (below_ == above_) break;
+      if (is_of_piece(above_, below_)) break;
     }
     from_below();
     from_above();
@@ -33,44 +32,63 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   using typename Base::Leaves;
   using typename Base::Route;
 
-  /// In closed form: the state of a cell (in the upright view only), the fan of its lower node.
+  [[nodiscard]] bool is_of_piece(std::size_t cell, std::size_t other) const {
+    return view_.piece[cell] == view_.piece[other];
+  }
+
+  /// What does not leave the piece of a cell at z, in closed form: states (in the upright view only) and fans.
   void inside(std::size_t cell) {
-    const Scalar& r = cell == below_ ? rate_below_ : rate_above_;
-    const RateForm form = view_.form[cell];
-    const Scalar& bend = view_.bend[cell];
-    const Scalar half(0.5);
-    const auto accept = [&](const Arc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
-                            const Scalar& M0) {
-      const Scalar h = Scalar(4) * r * arc.p * arc.missing;
-      // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
-      const bool is_fan = kind == PathKind::fan, is_flat = bend == 0;
-      const bool ends_up = arc.p > half || (is_fan && is_flat);
-      const bool starts_up = is_fan || arc.start_odds > Scalar(1),
-                 starts_down = !is_fan && arc.start_odds < Scalar(1);
-      if (starts_up && !ends_up && h < view_.high[cell]) return;
-      if (starts_down && ends_up && h < view_.low[cell]) return;
-      const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
-      const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
-      offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
-    };
-    if (!view_.is_mirror && !(moving_only_ && (view_.p[cell] == 0 || view_.missing[cell] == 0))) {
-      const auto arc = arc_from_state(form, bend, t_, view_.p[cell], view_.missing[cell], r);
-      // In terms of the cell: where r is steep, heights that differ by rounding have other H.
-      const Scalar gain = arc.up - arc.down, width = view_.x[cell + 1] - view_.x[cell];
-      const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
-      if (arc.exists && gain <= (z_ - view_.x[cell]) + rounding &&
-          -gain <= (view_.x[cell + 1] - z_) + rounding) {
-        const Scalar y = z_ - gain;
-        const Scalar kept = std::clamp(y, view_.x[cell], view_.x[cell + 1]);
-        accept(arc, kept, PathKind::constant, cell, view_.amount(cell, y));
-      }
+    std::size_t first = cell, last = cell;
+    while (first > 0 && is_of_piece(first - 1, cell)) --first;
+    while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
+    for (std::size_t k = first; k <= last; ++k) {
+      if (pure_z_ - view_.pure[k + 1] > late_) continue;
+      if (view_.pure[k] - pure_z_ > late_) break;
+      if (!view_.is_mirror && !(moving_only_ && (view_.p[k] == 0 || view_.missing[k] == 0)))
+        state_inside(cell, k, view_.low[first], view_.high[last]);
+      if (k > 0 && view_.emits[k]) fan_inside(cell, k, view_.low[first], view_.high[last]);
     }
-    if (cell > 0 && view_.emits[cell]) {
-      const auto arc = arc_from_point(form, bend, t_, Scalar(z_ - view_.x[cell]), view_.low[cell], r);
-      const Scalar one(1), edge = one / Scalar(1 << 20);
-      if (arc.exists && arc.start_odds >= one - edge)
-        accept(arc, view_.x[cell], PathKind::fan, cell, view_.M[cell]);
-    }
+  }
+  [[nodiscard]] const Scalar& rate_beside(std::size_t cell) const {
+    return cell == below_ ? rate_below_ : rate_above_;
+  }
+  /// From cell k; `low` and `high` are the rates at the ends of the piece.
+  void state_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
+    const auto arc = arc_from_state(view_.form[cell], view_.bend[cell], t_, view_.p[k], view_.missing[k],
+                                    rate_beside(cell));
+    // In terms of the cell: where r is steep, heights that differ by rounding have other H.
+    const Scalar gain = arc.up - arc.down, width = view_.x[k + 1] - view_.x[k];
+    const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
+    if (!arc.exists || !(gain <= (z_ - view_.x[k]) + rounding) ||
+        !(-gain <= (view_.x[k + 1] - z_) + rounding))
+      return;
+    const Scalar y = z_ - gain;
+    accept(cell, arc, std::clamp(y, view_.x[k], view_.x[k + 1]), PathKind::constant, k, view_.amount(k, y),
+           low, high);
+  }
+  /// From the lower node of cell k.
+  void fan_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
+    const auto arc = arc_from_point(view_.form[cell], view_.bend[cell], t_, Scalar(z_ - view_.x[k]),
+                                    view_.low[k], rate_beside(cell));
+    const Scalar one(1), edge = one / Scalar(1 << 20);
+    if (arc.exists && arc.start_odds >= one - edge)
+      accept(cell, arc, view_.x[k], PathKind::fan, k, view_.M[k], low, high);
+  }
+  void accept(std::size_t cell, const Arc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
+              const Scalar& M0, const Scalar& low, const Scalar& high) {
+    const Scalar& r = rate_beside(cell);
+    const Scalar h = Scalar(4) * r * arc.p * arc.missing;
+    // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
+    const bool is_fan = kind == PathKind::fan, is_flat = view_.bend[cell] == 0;
+    const bool ends_up = arc.p > Scalar(0.5) || (is_fan && is_flat);
+    const bool starts_up = is_fan || arc.start_odds > Scalar(1),
+               starts_down = !is_fan && arc.start_odds < Scalar(1);
+    // It would turn beyond the piece.
+    if (starts_up && !ends_up && h < high) return;
+    if (starts_down && ends_up && h < low) return;
+    const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
+    const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
+    offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
   }
 
   /// Everything that starts below z and leaves its cell at the top.
@@ -84,11 +102,10 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const std::size_t node = k + 1;
       if (pure_z_ - view_.pure[node] > late_) return;
       if (view_.emits[node]) {
-        const bool is_own = node == below_;  // no farther than its cell: in closed form
-        if (!is_own) straight_fan(route, node);
-        turned_fans(route, node, z_, above_, rate_above_, is_own && below_ == above_);
+        if (!is_of_piece(node, below_)) straight_fan(route, node);
+        turned_fans(route, node, z_, above_, rate_above_);
       }
-      state(route, k);
+      if (!is_of_piece(k, below_)) state(route, k);
       turned_states(route, k, z_, above_, rate_above_);
       route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
                 false);
@@ -99,10 +116,10 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void from_above() {
     Route route(n_);
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
-      turned_fans(route, above_, z_, above_, rate_above_, true);
+      turned_fans(route, above_, z_, above_, rate_above_);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
-      if (k > above_ || z_ == view_.x[k]) state_that_turns_at_once(route, k);
+      if (!is_of_piece(k, above_)) state_that_turns_at_once(route, k);
       if (k == above_)
         route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
       else
@@ -111,7 +128,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const std::size_t node = k + 1;
       if (node == n_ || view_.pure[node] - pure_z_ > late_) return;
       turned_states(route, k, view_.x[node], node, view_.low[node]);
-      if (view_.emits[node]) turned_fans(route, node, view_.x[node], node, view_.low[node], false);
+      if (view_.emits[node]) turned_fans(route, node, view_.x[node], node, view_.low[node]);
     }
   }
 
@@ -121,8 +138,8 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
 
   void turned_fans(const Route& once, std::size_t node, const Scalar& from, std::size_t first,
-                   const Scalar& rate, bool skip_first) {
-    turns(once, view_.M[node], node, from, first, rate, skip_first, {Scalar(0), infinity<Scalar>()},
+                   const Scalar& rate) {
+    turns(once, view_.M[node], node, node, from, first, rate, {Scalar(0), infinity<Scalar>()},
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             if (!turn_times(way, j, lo, hi).may_be(t_)) return;
@@ -133,7 +150,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void turned_states(const Route& once, std::size_t k, const Scalar& from, std::size_t first,
                      const Scalar& rate) {
     if (!has_moving_state(k)) return;
-    turns(once, view_.least_amount(k), k + 1, from, first, rate, false, h_of_cell(k),
+    turns(once, view_.least_amount(k), k, k + 1, from, first, rate, h_of_cell(k),
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             const Range h = h_of_cell(k);
@@ -166,11 +183,11 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
 
   /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, `first` and above, in which
-  /// paths can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass besides.
+  /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass besides.
   /// fill() gives the route its runs: most are ruled out without them.
   template <class Found>
-  void turns(const Route& once, const Scalar& M0, std::size_t node, const Scalar& from, std::size_t first,
-             const Scalar& rate, bool skip_first, const Range& range, const Found& found) {
+  void turns(const Route& once, const Scalar& M0, std::size_t start, std::size_t node, const Scalar& from,
+             std::size_t first, const Scalar& rate, const Range& range, const Found& found) {
     Route& way = scratch_;
     way.stretches = once.stretches;
     way.least = once.least;
@@ -187,7 +204,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const Scalar least = std::min(way.least, entry);
       if (least < range.least) return;
       if (view_.bend[j] < 0 && view_.high[j] < least && !(view_.high[j] > range.most) &&
-          !(j == first && skip_first)) {
+          !(is_of_piece(start, above_) && is_of_piece(j, above_))) {
         const Scalar kept = way.least;
         way.least = least;
         way.turn_form = view_.form[j];

@@ -113,17 +113,25 @@ class SlopedStretches {
   void add_first(std::size_t n, const Scalar& h0, const Scalar& h1, Times& all) const {
     for (std::size_t i = 0; i < n; ++i) {
       const Stretch& s = all_[i];
-      const Scalar slow = q(h0, s.begin) + q(h0, s.end) + kRoot,
-                   fast = std::max(Scalar(0), Scalar(q(h1, s.begin) + q(h1, s.end) - kRoot));
-      const Scalar by = Scalar(s.twice ? 4 : 2);
-      if (s.slope == 0) {
-        all.least += by * s.flat / (s.begin * slow);
-        all.most += fast > 0 ? Scalar(by * s.flat / (s.begin * fast)) : infinity<Scalar>();
-      } else {
-        const Scalar less = Scalar(1) / s.begin - Scalar(1) / s.end, gap = less < 0 ? Scalar(-less) : less;
-        all.least += by * gap / (s.bends.most * slow);
-        all.most += fast > 0 ? Scalar(by * gap / (s.bends.least * fast)) : infinity<Scalar>();
+      // By the fastest and the slowest place; where r changes by more than rounding, also as above.
+      const Scalar passes(s.twice ? 2 : 1), two(2);
+      const Scalar &most = std::max(s.begin, s.end), &least = std::min(s.begin, s.end);
+      const Scalar fast = most * (q(h0, most) + kRoot),
+                   slow = least * std::max(Scalar(0), Scalar(q(h1, least) - kRoot));
+      Scalar lower = s.flat / fast, upper = slow > 0 ? Scalar(s.flat / slow) : infinity<Scalar>();
+      // Not 1 / r_1 - 1 / r_2, and no better than the rates themselves: a part of a piece whose slope is a few units in the last place may
+      // have all of it or nothing.
+      const Scalar rounding = Scalar(8) * unit_roundoff<Scalar>() * most;
+      const Scalar gap = most - least;
+      if (s.slope != 0 && gap > rounding) {
+        const Scalar at_h0 = q(h0, s.begin) + q(h0, s.end) + kRoot,
+                     at_h1 = std::max(Scalar(0), Scalar(q(h1, s.begin) + q(h1, s.end) - kRoot));
+        lower = std::max(lower, Scalar(two * (gap - rounding) / most / least / (s.bends.most * at_h0)));
+        if (at_h1 > 0)
+          upper = std::min(upper, Scalar(two * (gap + rounding) / most / least / (s.bends.least * at_h1)));
       }
+      all.least += passes * lower;
+      all.most += passes * upper;
     }
   }
 

@@ -69,10 +69,10 @@ class SlopedThroats {
     }
   }
 
-  /// The best path to z that rests. `cell_below` is the cell that ends at or above z from below, `cell_above` likewise.
-  void search(const SlopedView<Scalar>& up, const Scalar& z, std::size_t cell_below, std::size_t cell_above,
-              const Scalar& rate_below, const Scalar& rate_above, const Scalar& t, const Scalar& upper,
-              Path<Scalar>& best) const {
+  /// The best path to a place that rests.
+  void search(const SlopedView<Scalar>& up, const SlopedPlace<Scalar>& place, const Scalar& t,
+              const Scalar& upper, Path<Scalar>& best) const {
+    const auto& [z, cell_below, cell_above, rate_below, rate_above] = place;
     for (const Throat& throat : all_) {
       const Scalar& z_i = up.x[throat.node];
       const bool is_above = z > z_i;
