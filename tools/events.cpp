@@ -146,7 +146,7 @@ void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>
   if (!solution.is_exact())
     refuse("--digits", arguments.digits,
            fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",
-                       solution.n_layers(), solution.form().is_linear() ? "linear pieces" : "layers"));
+                       solution.n_layers(), solution.form().has_pieces() ? "pieces" : "layers"));
 }
 
 int events(const EventsArguments& arguments) {

@@ -145,8 +145,9 @@ int list() {
   TextTable options({"name", "what it is", "values", "default", "solvers"});
   for (const OptionText& o : all_options())
     for (const OptionValues& some : o.values)
-      options.add({"--" + o.name, o.sentence, o.kind.find('|') != std::string::npos ? o.kind : some.allowed,
-                   some.initial, fmt::format("{}", fmt::join(some.solvers, ", "))});
+      options.add({"--" + o.name, some.sentence,
+                   o.kind.find('|') != std::string::npos ? o.kind : some.allowed, some.initial,
+                   fmt::format("{}", fmt::join(some.solvers, ", "))});
   all += "\nOptions of solvers (in fit files with _ for -)\n" + indented(options.text());
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();

@@ -164,6 +164,7 @@ int observe_scene(const ObserveArguments& arguments) {
   ProgressLine progress;
   const SolverResult result = solve(scene, method, request, progress.callback());
   if (!result.summary.usable()) return report_unusable(result.summary);
+  note_remark(result.summary);
 
   Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);

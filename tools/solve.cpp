@@ -104,6 +104,7 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   const BedCourse course =
       bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress.callback());
   if (!course.summary.usable()) return report_unusable(course.summary);
+  note_remark(course.summary);
   const auto& lowest = course.lowest;
   NamedNumbers lowest_numbers{"lowest", {}};
   if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
@@ -130,6 +131,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   ProgressLine progress;
   const SolverResult result = shearfront::solve(task.scene, task.method, request, progress.callback());
   if (!result.summary.usable()) return report_unusable(result.summary);
+  note_remark(result.summary);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/exact/events.hpp"
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/fit/fit.hpp"
 #include "shearfront/model/flux/all.hpp"
@@ -20,6 +21,7 @@
 #include "support/any_flux.hpp"
 #include "support/fit_scenes.hpp"
 #include "support/solid_scene.hpp"
+#include "support/table_bed.hpp"
 
 namespace shearfront {
 namespace {
@@ -253,6 +255,32 @@ TEST(SlowBedHeightFit, IntervalsCover) {
   for (const int count : covered) {
     EXPECT_GE(count, 0.95 * n - 4 * 3.1);
     EXPECT_LE(count, 0.95 * n + 4 * 3.1);
+  }
+}
+
+/// A table of 12 points at 40 times: states that are neither 0 nor 1 in linear pieces, where phi may fall between shocks, so that a
+/// rule that takes equal ends for a constant, or one cut for all, would be off. Against sums over 4000 heights, and fronts.
+TEST(BedHeight, OfATableIsThatOfSumsAndOfFronts) {
+  auto spec = support::bed_of_42_mm();
+  spec.close_packing = PackingPolynomial<double>{};
+  const Scene<double> scene(spec);
+  const BedHeight bed(scene);
+  const double t_star = *exact_timeline(scene).t_star;
+  std::vector<double> times;
+  for (int i = 1; i <= 40; ++i) times.push_back(t_star * i / 40);
+  const auto exact = heights<ExactSolver>(scene, times);
+  FrontTrackingSolver::Options fine;
+  fine.resolution = 0.01;
+  const auto tracked = heights<FrontTrackingSolver>(scene, times, fine);
+  const ExactSolution<double> solution(scene);
+  constexpr int kHeights = 4000;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    double sum = 0;
+    for (int k = 0; k < kHeights; ++k)
+      sum += bed.integrand().value(solution.phi(42 * (k + 0.5) / kHeights, times[i])) * (42.0 / kHeights);
+    // A shock costs the sum half a step at most.
+    EXPECT_NEAR(exact[i], bed.height(sum), 1e-3) << "t " << times[i];
+    EXPECT_NEAR(exact[i], tracked[i], 42 * 1e-4) << "t " << times[i];
   }
 }
 

@@ -107,6 +107,25 @@ TEST(ExactDerivatives, ExponentialScenesAgreeWithDifferences) {
   }
 }
 
+/// Several exponential pieces: a cut where the temperature jumps, the centre of a chute, which moves, both.
+TEST(ExactDerivatives, ExponentialPiecesAgreeWithDifferences) {
+  for (std::uint64_t n = 1; n <= 18; ++n) {
+    const std::uint64_t seed = support::seed_of(n);
+    SceneMaker make(seed);
+    auto spec = n % 2 == 0 ? make.step(1, make.order()) : make.data(1, make.order(), 5);
+    if (n % 3 == 0)
+      spec.shear_rate = Exponential<double>{make.uniform(0.5, 4), make.uniform(0.2, 2)};
+    else
+      spec.shear_rate = Chute<double>{make.uniform(0.5, 2), make.uniform(0.2, 2), make.uniform(0.1, 0.9)};
+    if (n % 3 != 1) spec.temperature = Piecewise<double>{{make.uniform(0.1, 0.9)}, {1, make.uniform(0.5, 2)}};
+    spec.scale = make.uniform(0.5, 2);
+    for (int k = 0; k < 4; ++k) {
+      const Real110 z(make.uniform(0, 1)), t(std::exp(make.uniform(std::log(0.02), std::log(4.0))));
+      expect_derivatives(spec, z, t, "seed " + std::to_string(seed));
+    }
+  }
+}
+
 TEST(ExactDerivatives, TableScenesAgreeWithDifferences) {
   for (std::uint64_t n = 1; n <= 4; ++n) {
     const std::uint64_t seed = support::seed_of(n);

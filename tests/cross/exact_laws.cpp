@@ -253,11 +253,12 @@ TEST(ExactLaws, StaircasesConvergeToTheExponential) {
   EXPECT_GT(errors.front() / errors.back(), 16.0);
 }
 
-TEST(ExactLaws, ChuteStatesAnErrorThatHolds) {
+TEST(ExactLaws, ASmoothBedStatesAnErrorThatHolds) {
   SceneMaker make(support::seed_of(11));
   for (int scene_number = 0; scene_number < 5; ++scene_number) {
     SceneSpec<double> spec = make.step(1, SceneMaker::Order::falling);
     spec.shear_rate = Chute<double>{make.uniform(0.5, 3), make.uniform(0.3, 2), make.uniform(0, 1)};
+    spec.temperature = Table<double>{{0, 1}, {make.uniform(2, 4), make.uniform(0.5, 1)}};
     const Scene<double> scene(spec);
     const ExactSolution<double> coarse(scene, {128}), fine(scene, {2048});
     double worst = 0, stated = 0;

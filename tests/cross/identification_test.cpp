@@ -16,6 +16,7 @@
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "support/identification.hpp"
+#include "support/table_bed.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -128,6 +129,24 @@ TEST(SlowIdentification, FindsTheCoefficientsFromDataOfAnotherSolver) {
     const Estimate estimate = fit(fit_of(problem, engquist_osher_data(problem)));
     EXPECT_LE(problem.error(estimate), bounds[i++]) << "Example " << problem.name;
   }
+}
+
+/// All values of a table at once from exact data: one derivative that is wrong in one kind of path would stop the search short.
+TEST(Identification, FindsTheTwelveValuesOfATable) {
+  Identification problem;
+  problem.name = "42 mm";
+  problem.truth = bed_of_42_mm();
+  const auto& table = std::get<Table<double>>(problem.truth.shear_rate);
+  for (const double z : table.z) problem.start.push_back(0.4 * std::exp(-z / 16));
+  for (int i = 0; i < 40; ++i) problem.times.push_back(20 * std::pow(1.12, i));
+  for (int i = 0; i < 42; ++i) problem.heights.push_back(0.5 + i);
+  const Estimate estimate = fit(fit_of(problem, exact_data(problem, Quantity::cumulative)));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_EQ(estimate.parameters.size(), table.values.size());
+  for (std::size_t i = 0; i < table.values.size(); ++i)
+    EXPECT_NEAR(estimate.parameters[i].estimate, table.values[i], 1e-8 * table.values[i])
+        << "z " << table.z[i];
+  EXPECT_LE(estimate.evaluations, 40U);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ MatrixXd by_normal_equations(const FitSpec& spec, const Parts<Misfit>& parts, do
     // What a row continues, with its own weight.
     if (row.continues)
       b.row(i) = b.row(i - 1) * (row.weight / rows.rows[static_cast<std::size_t>(i - 1)].weight);
-    for (const Term& term : row.data) {
+    for (const Term& term : rows.data(static_cast<std::size_t>(i))) {
       const double sigma = spec.observations.rows[term.index].sigma;
       b(i, static_cast<Index>(term.index)) += row.weight * term.coefficient * (sigma > 0 ? sigma : 1);
     }

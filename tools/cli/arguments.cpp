@@ -65,12 +65,14 @@ std::size_t choice_option(std::string_view option, std::string_view value,
 
 std::vector<double> equally_spaced(double start, double stop, std::size_t n) {
   std::vector<double> xs(n, start);
-  const double scale = std::max(std::abs(start), std::abs(stop));
-  for (std::size_t i = 1; i < n; ++i)
-    xs[i] = i + 1 == n
-                ? stop
-                : without_rounding(
-                      start + (stop - start) * static_cast<double>(i) / static_cast<double>(n - 1), scale);
+  const double scale = std::max(std::abs(start), std::abs(stop)), last = static_cast<double>(n) - 1;
+  const bool is_huge = !std::isfinite((stop - start) * last);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double k = static_cast<double>(i);
+    xs[i] = i + 1 == n ? stop
+            : is_huge  ? std::lerp(start, stop, k / last)
+                       : without_rounding(start + (stop - start) * k / last, scale);
+  }
   return xs;
 }
 

@@ -53,6 +53,10 @@ int report_unusable(const Summary& summary) {
 
 void note(std::string_view text) { fmt::print(stderr, "shearfront: {}\n", text); }
 
+void note_remark(const Summary& summary) {
+  if (!summary.remark.empty()) note(summary.remark);
+}
+
 void print_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) fmt::print(stderr, "{}\n", remark);
 }

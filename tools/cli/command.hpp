@@ -46,6 +46,8 @@ void check_outputs(const std::string& input, const std::vector<Output>& outputs)
 int report_unusable(const Summary& summary);
 /// A remark on standard error.
 void note(std::string_view text);
+/// The remark of a usable result, if there is one, on standard error.
+void note_remark(const Summary& summary);
 /// What readers have to say about their files, on standard error.
 void print_remarks(const std::vector<std::string>& remarks);
 /// The scene as it is, its remarks printed.

@@ -11,6 +11,30 @@
 #include "cli/command.hpp"
 
 namespace shearfront::tools {
+namespace {
+
+/// "a, b: what it is; from 1 to 9, default 2 (a); from 1 to 5, default 2 (b)", once for all that say the same.
+std::string help_of(const OptionText& option) {
+  std::string help;
+  for (auto some = option.values.begin(); some != option.values.end();) {
+    const auto next = std::find_if(some, option.values.end(),
+                                   [&](const OptionValues& v) { return v.sentence != some->sentence; });
+    std::vector<std::string> solvers;
+    std::string values;
+    for (auto v = some; v != next; ++v) {
+      solvers.insert(solvers.end(), v->solvers.begin(), v->solvers.end());
+      if (option.kind.empty()) continue;
+      values += fmt::format("{}{}, default {}", v->allowed.empty() ? "" : "; ", v->allowed, v->initial);
+      if (next - some > 1) values += fmt::format(" ({})", fmt::join(v->solvers, ", "));
+    }
+    help +=
+        fmt::format("{}{}: {}{}", help.empty() ? "" : "; ", fmt::join(solvers, ", "), some->sentence, values);
+    some = next;
+  }
+  return help;
+}
+
+}  // namespace
 
 void MethodArguments::add_to(CLI::App& app) {
   app.add_option("--method", name_, fmt::format("solver; default {}", name_))
@@ -18,16 +42,10 @@ void MethodArguments::add_to(CLI::App& app) {
   for (OptionText& option : all_options()) {
     const Given& given = given_.emplace_back(Given{std::move(option)});
     const OptionText& o = given.option;
-    std::string help = fmt::format("{}: {}", fmt::join(o.solvers(), ", "), o.sentence);
-    if (o.kind.empty()) {
-      app.add_flag("--" + o.name, *given.flag, help);
-      continue;
-    }
-    for (const OptionValues& some : o.values) {
-      help += fmt::format("{}{}, default {}", some.allowed.empty() ? "" : "; ", some.allowed, some.initial);
-      if (o.values.size() > 1) help += fmt::format(" ({})", fmt::join(some.solvers, ", "));
-    }
-    app.add_option("--" + o.name, *given.text, help)->type_name(o.kind);
+    if (o.kind.empty())
+      app.add_flag("--" + o.name, *given.flag, help_of(o));
+    else
+      app.add_option("--" + o.name, *given.text, help_of(o))->type_name(o.kind);
   }
 }
 

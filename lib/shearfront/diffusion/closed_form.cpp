@@ -40,10 +40,10 @@ Result uniform_start(const Scene<double>& scene, double rate) {
     return std::string("only beds that start uniform between walls, and kinks, have a closed form");
   const auto form = std::make_shared<UniformStart<double>>(
       scene.bottom(), scene.top(), rate, scene.diffusivity_at(scene.bottom()), values.front());
-  return [form](double z, double t) {
+  return ClosedForm{[form](double z, double t) {
     const auto at = form->at(z, t);
     return ClosedFormValue{at.phi, at.cumulative};
-  };
+  }};
 }
 
 Result travelling_kink(const Scene<double>& scene, const LogisticStep<double>& step, double rate) {
@@ -54,10 +54,11 @@ Result travelling_kink(const Scene<double>& scene, const LogisticStep<double>& s
         "a kink has a closed form between Neumann ends, with above = 0 and width = D / (s a below)");
   const auto form =
       std::make_shared<Kink<double>>(scene.bottom(), rate, D, step.centre, rate * (step.below - 1));
-  return [form](double z, double t) {
-    const auto at = form->at(z, t);
-    return ClosedFormValue{at.phi, at.cumulative};
-  };
+  return ClosedForm{[form](double z, double t) {
+                      const auto at = form->at(z, t);
+                      return ClosedFormValue{at.phi, at.cumulative};
+                    },
+                    [form, top = scene.top()](double t) { return form->end_effect(top, t); }};
 }
 
 /// f = f(m) + bend / 2 (phi - m)^2 for all phi.
@@ -76,12 +77,12 @@ Result periodic_wave(const Scene<double>& scene, const Wave<double>& wave, const
                                                               factor * wave.amplitude, wave_number);
   const double bottom = scene.bottom(), origin = wave.origin, mean = wave.mean,
                speed = factor * (wave.mean - f.m);
-  return [form, bottom, origin, mean, factor, speed](double z, double t) {
+  return ClosedForm{[form, bottom, origin, mean, factor, speed](double z, double t) {
     const double shift = origin + speed * (std::isfinite(t) ? t : 0);
     const auto at = form->at(z - shift, t), below = form->at(bottom - shift, t);
     return ClosedFormValue{mean + at.value / factor,
                            mean * (z - bottom) + (at.cumulative - below.cumulative) / factor};
-  };
+  }};
 }
 
 std::optional<Polynomial> polynomial_of(const Flux<double>& flux) {

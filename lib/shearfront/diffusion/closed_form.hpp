@@ -12,7 +12,14 @@ namespace shearfront::diffusion {
 struct ClosedFormValue {
   double phi = 0, M = 0;
 };
-using ClosedForm = std::function<ClosedFormValue(double z, double t)>;
+struct ClosedForm {
+  std::function<ClosedFormValue(double z, double t)> value;
+  /// By how much phi may differ from the solution at time t because the form does not hold at the ends of the
+  /// bed; none: it holds there.
+  std::function<double(double t)> end_effect{};
+
+  [[nodiscard]] double effect_of_ends(double t) const { return end_effect ? end_effect(t) : 0; }
+};
 
 /// The closed form of a scene with diffusion, or why it has none; see ColeHopfSolver for those known.
 [[nodiscard]] std::variant<ClosedForm, std::string> closed_form(const Scene<double>& scene);

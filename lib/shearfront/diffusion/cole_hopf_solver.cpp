@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/diffusion/cole_hopf_solver.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <utility>
 #include <variant>
@@ -18,8 +19,9 @@ class ColeHopfField final : public Field {
 
   double t = 0;
 
+  [[nodiscard]] double effect_of_ends(double at) const { return form_.effect_of_ends(at); }
   [[nodiscard]] Sample at(double z) const override {
-    const diffusion::ClosedFormValue value = form_(z, t);
+    const diffusion::ClosedFormValue value = form_.value(z, t);
     return {value.phi, value.M};
   }
   /// c = 1, and phi is analytic for t > 0.
@@ -27,8 +29,8 @@ class ColeHopfField final : public Field {
     constexpr unsigned kMostHalvings = 12;
     constexpr double kTolerance = 1e-11;
     return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-        [&](double z) { return g.value(form_(z, t).phi); }, scene_.bottom(), scene_.top(), kMostHalvings,
-        kTolerance);
+        [&](double z) { return g.value(form_.value(z, t).phi); }, scene_.bottom(), scene_.top(),
+        kMostHalvings, kTolerance);
   }
 
  private:
@@ -36,13 +38,22 @@ class ColeHopfField final : public Field {
   diffusion::ClosedForm form_;
 };
 
+/// Of phi: beyond, a form is not given; below, it is exact to rounding.
+constexpr double kMostEndEffect = 1e-5, kEndRounding = 1e-15;
+
 class ColeHopfRun final : public Run {
  public:
-  ColeHopfRun(const Scene<double>& scene, diffusion::ClosedForm form, Progress progress)
-      : progress_(std::move(progress)), field_(scene, std::move(form)) {}
+  ColeHopfRun(const Scene<double>& scene, diffusion::ClosedForm form, const Watch& watch)
+      : progress_(watch.progress), last_time_(watch.last_time), field_(scene, std::move(form)) {}
 
   Status advance(double t) override {
     field_.t = t;
+    const double last = std::max(t, last_time_);
+    effect_ = field_.effect_of_ends(t);
+    if (field_.effect_of_ends(last) > kMostEndEffect) {
+      too_late_ = last;
+      return status_ = Status::unsupported;
+    }
     if (progress_ && !progress_(t, 0)) status_ = Status::interrupted;
     return status_;
   }
@@ -50,13 +61,24 @@ class ColeHopfRun final : public Run {
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message =
-        status_ == Status::ok ? "exact to rounding" : "interrupted at t = " + number_text(field_.t);
+    summary.message = message();
     return summary;
   }
 
  private:
+  [[nodiscard]] std::string message() const {
+    if (status_ == Status::interrupted) return "interrupted at t = " + number_text(field_.t);
+    if (status_ == Status::unsupported)
+      return "the closed form is that of an endless bed, and its phi_z at the ends of this one is no longer "
+             "0 at "
+             "t = " +
+             number_text(too_late_);
+    if (effect_ <= kEndRounding) return "exact to rounding";
+    return "exact for an endless bed; the ends change phi by at most " + number_text(effect_, 2);
+  }
+
   Progress progress_;
+  double last_time_, too_late_ = 0, effect_ = 0;
   ColeHopfField field_;
   Status status_ = Status::ok;
 };
@@ -71,7 +93,7 @@ std::string ColeHopfSolver::refusal(const Scene<double>& scene, const Options&) 
 
 std::unique_ptr<Run> ColeHopfSolver::start(const Scene<double>& scene, const Options&, const Watch& watch) {
   return std::make_unique<ColeHopfRun>(scene, std::get<diffusion::ClosedForm>(diffusion::closed_form(scene)),
-                                       watch.progress);
+                                       watch);
 }
 
 }  // namespace shearfront

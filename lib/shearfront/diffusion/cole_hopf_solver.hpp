@@ -8,7 +8,8 @@ namespace shearfront {
 /// D and one flux:
 ///   - a uniform start between walls, flux phi (phi - 1) or phi (1 - phi) (diffusion::UniformStart);
 ///   - the travelling kink, initial.model = "kink" with above = 0 and width = D / (s a below), Neumann ends
-///     (diffusion::Kink): exact as long as its slope at the ends is below rounding;
+///     (diffusion::Kink): as long as its ends change phi by less than 1e-5, which is said; Status::unsupported
+///     beyond;
 ///   - Burgers' flux from a sine in a periodic domain of whole wavelengths (diffusion::PeriodicBurgers).
 /// No options. Guarantees: those of the classes. Cost: 0.1 to 10 us a point.
 struct ColeHopfSolver {

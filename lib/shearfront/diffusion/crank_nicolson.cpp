@@ -98,6 +98,11 @@ CrankNicolson::Attempt CrankNicolson::attempt(const TimeStep& step) {
     for (std::size_t i = 0; i <= n_; ++i) correction_[i] = q_[i] - q_predicted_[i];
     for_each_divergence(correction_, [&](std::size_t j, double d) { correction_[j] = step.length * d; });
     result.surprise = largest_magnitude(correction_.data(), n_);
+    if (step.theta > 0.5) {
+      for (std::size_t i = 0; i <= n_; ++i) correction_[i] = q_[i] - q_last_[i];
+      for_each_divergence(correction_, [&](std::size_t j, double d) { correction_[j] = step.length * d; });
+      result.turn = largest_magnitude(correction_.data(), n_);
+    }
   }
   return result;
 }
@@ -168,7 +173,9 @@ void CrankNicolson::commit(const TimeStep& step) {
   flux_times_.push(step.theta * step.length, step.length);
   std::swap(q_before_, q_last_);
   std::swap(q_last_, q_);
-  steps_.push_back(step);
+  ++n_steps_;
+  last_length_ = step.length;
+  if (options_.keeps_steps) steps_.push_back(step);
   if (!options_.regrid) return;
   for (int i = 0; i < RefinedCells::kMostHalvings; ++i) {
     std::optional<Regrid> next = options_.regrid(problem_, states());

@@ -28,6 +28,7 @@ struct Options {
   /// of it somewhere, as where data do not satisfy the condition at a wall), else none.
   std::optional<std::size_t> smoothed_steps;
   std::uint64_t max_steps = 1'000'000'000;
+  bool keeps_steps = true;  ///< for steps()
   /// Called after every step with (t, steps so far); return false to stop with Status::interrupted.
   std::function<bool(double, std::uint64_t)> progress;
   /// Called after every step with the present problem and states; may return another grid for the
@@ -39,6 +40,9 @@ struct Options {
 struct TimeStep {
   double length, theta;
 };
+
+/// Why steps of this length do not get over a span of time: more than `most` are needed. Empty if they do.
+[[nodiscard]] std::string too_many_steps(double span, double length, std::uint64_t most);
 
 /// Crank-Nicolson for segregation with diffusion (see Problem): means phi_j of the cells, fluxes F_i of the
 /// faces (see Scheme) at a state v inside the step,
@@ -63,8 +67,8 @@ struct TimeStep {
 /// grid_transfer.hpp; the mass stays what it is, and fitted states stay in the range of the flux.
 ///
 /// Adaptive steps: the local error is estimated from the distance to a quadratic extrapolation in time and
-/// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. They start with
-/// short steps of backward Euler, which also damp what data that do not satisfy the conditions at the walls
+/// kept at c tolerance^(3/2), so that the error of a run is proportional to the tolerance. Where theta > 1/2 the
+/// part of first order, (theta - 1/2) dt^2 phi_tt, is kept at c tolerance^2 as well. They start with short steps of backward Euler, which also damp what data that do not satisfy the conditions at the walls
 /// excite. They grow without bound; at rest they end, see is_steady().
 ///
 /// Cost: O(N) a step and iteration; usually one iteration a step. Each tangent costs one further right-hand
@@ -90,16 +94,18 @@ class CrankNicolson {
   [[nodiscard]] std::span<const double> tangent(std::size_t k) const { return tangents_[k]; }
   [[nodiscard]] double time() const { return time_; }
   /// Length of the last step.
-  [[nodiscard]] double step() const { return steps_.empty() ? 0 : steps_.back().length; }
+  [[nodiscard]] double step() const { return last_length_; }
   [[nodiscard]] const std::vector<TimeStep>& steps() const { return steps_; }
-  [[nodiscard]] std::uint64_t n_steps() const { return steps_.size(); }
+  [[nodiscard]] std::uint64_t n_steps() const { return n_steps_; }
   /// Linear systems solved, those of tangents and rejected steps included.
   [[nodiscard]] std::uint64_t n_iterations() const { return n_iterations_; }
   /// Sum of their cells.
   [[nodiscard]] std::uint64_t n_cell_updates() const { return n_cell_updates_; }
-  /// Fixed steps: the last step changed no state by more than its rounding. Adaptive steps: a last step of
-  /// backward Euler of 10^4 times the time elapsed moved no state by more than a tenth of the tolerance, and
-  /// the states are those after it. advance_to() then only sets the time.
+  /// Whether the fluxes have balanced; how short a step was does not count. Fixed steps: the last one changed no
+  /// state by more than its rounding, nor faster than the rounding of the fluxes does. Adaptive steps: a last
+  /// step of backward Euler of 10^4 times the time elapsed moved no state by more than a tenth of the tolerance,
+  /// and the states are those after it: no flux then differs from its balance by more than 1e-5 tolerance
+  /// max |phi| height / t. advance_to() then only sets the time.
   [[nodiscard]] bool is_steady() const { return is_steady_; }
   [[nodiscard]] const std::string& message() const { return message_; }
 
@@ -107,6 +113,7 @@ class CrankNicolson {
   struct Attempt {
     bool converged = false;
     double surprise = 0;  ///< largest distance of a state from its extrapolation
+    double turn = 0;      ///< theta > 1/2: largest change of a state by other fluxes than in the last step
   };
 
   Attempt attempt(const TimeStep& step);
@@ -160,8 +167,10 @@ class CrankNicolson {
   double scale_ = 0;  ///< max |phi|
   double limit_ = 0;  ///< of |v|: beyond it the scheme has become unstable
   double largest_change_ = 0, time_ = 0;
+  double last_length_ = 0;
+  double stiffness_ = 0;  ///< fixed steps: the largest rate at which fluxes change a state
   std::vector<TimeStep> steps_;
-  std::uint64_t n_iterations_ = 0, n_cell_updates_ = 0, n_rest_checked_ = 0, n_smoothed_ = 0;
+  std::uint64_t n_steps_ = 0, n_iterations_ = 0, n_cell_updates_ = 0, n_rest_checked_ = 0, n_smoothed_ = 0;
   bool is_steady_ = false;
   std::string message_;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shearfront/diffusion/crank_nicolson.hpp"
+#include "shearfront/diffusion/extended_flux.hpp"
 #include "shearfront/diffusion/largest_magnitude.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -15,7 +16,18 @@ namespace {
 
 constexpr int kMaxHalvings = 20;
 
+double steps_over(double span, double length) {
+  return std::max(0.0, std::ceil(span / length * (1 - 1e-12)));
+}
+
 }  // namespace
+
+std::string too_many_steps(double span, double length, std::uint64_t most) {
+  const double wanted = steps_over(span, length);
+  if (wanted <= static_cast<double>(most)) return "";
+  return number_text(wanted, 3) + " steps of " + number_text(length) + " are needed, at most " +
+         std::to_string(most) + " are made";
+}
 
 Status CrankNicolson::advance_to(double t) {
   SHEARFRONT_EXPECTS(t >= time_, "forward in time");
@@ -36,8 +48,9 @@ Status CrankNicolson::repeat(std::span<const TimeStep> steps) {
 
 Status CrankNicolson::march_fixed(double t) {
   if (n_steps() == 0) start_fixed();
-  const double n_wanted = std::ceil((t - time_) / options_.dt * (1 - 1e-12));
-  const auto n = static_cast<std::uint64_t>(std::max(n_wanted, 0.0));
+  if (is_steady_) return Status::steady;
+  // More than any budget allows is no count of its own.
+  const auto n = static_cast<std::uint64_t>(std::min(steps_over(t - time_, options_.dt), 1e18));
   const double length = n > 0 ? (t - time_) / static_cast<double>(n) : 0;
   const double begin = time_;
   for (std::uint64_t i = 1; i <= n && !is_steady_; ++i) {
@@ -46,7 +59,7 @@ Status CrankNicolson::march_fixed(double t) {
         smoothed ? take(0.5 * length, 1) && take(0.5 * length, 1) : take(length, theta_of(length));
     if (!done) return Status::not_converged;
     time_ = begin + static_cast<double>(i) * length;
-    is_steady_ = largest_change_ <= 0x1p-52 * scale_;
+    is_steady_ = largest_change_ <= 0x1p-52 * scale_ * std::min(1.0, last_length_ * stiffness_);
     if (const Status status = stop_reason(); status != Status::ok) return status;
   }
   return is_steady_ ? Status::steady : Status::ok;
@@ -109,6 +122,7 @@ Status CrankNicolson::march_adaptive(double t) {
     const bool has_estimate = n_steps() >= 3;
     const TimeStep step{length, has_estimate ? theta_of(length) : 1};
     const double share = flux_times_.local_error_share(length);
+    const double turn_share = flux_times_.turn_share(step.theta, length);
     const Attempt result = attempt(step);
     if (!result.converged) {
       control_.shorten(0.5 * length);
@@ -119,7 +133,8 @@ Status CrankNicolson::march_adaptive(double t) {
     failures = 0;
     if (!has_estimate) {
       control_.grow(length);
-    } else if (!control_.accept(length, result.surprise * share / scale_)) {
+    } else if (!control_.accept(length, result.surprise * share / scale_,
+                                result.turn * turn_share / scale_)) {
       continue;
     }
     const double now = length == left ? t : time_ + length;
@@ -134,6 +149,8 @@ Status CrankNicolson::march_adaptive(double t) {
 void CrankNicolson::start_fixed() {
   n_smoothed_ = options_.smoothed_steps.value_or(0);
   const double largest_d = largest_magnitude(problem_.diffusivity.data(), n_ + 1);
+  const double fastest = fastest_slope(problem_.flux) * largest_magnitude(problem_.rate.data(), n_ + 1);
+  stiffness_ = (4 * largest_d / narrowest_ + 2 * fastest) / narrowest_;
   if (options_.smoothed_steps || !(options_.dt * largest_d > narrowest_ * narrowest_)) return;
   const std::vector<double> rates = initial_rates();
   double bend = 0;

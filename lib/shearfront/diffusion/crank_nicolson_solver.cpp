@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "shearfront/diffusion/cell_choice.hpp"
 #include "shearfront/diffusion/crank_nicolson.hpp"
 #include "shearfront/diffusion/problem_tangents.hpp"
 #include "shearfront/diffusion/refinement.hpp"
@@ -17,13 +19,25 @@
 namespace shearfront {
 namespace {
 
+/// Fixed steps; some minutes, and a gigabyte if they are kept.
+constexpr std::uint64_t kMostSteps = 100'000'000;
+
 diffusion::Options engine_options(const CrankNicolsonSolver::Options& options, const Progress& progress) {
   diffusion::Options own;
   own.dt = options.time_step;
   own.tolerance = options.tolerance;
-  own.scheme = options.monotone ? diffusion::Scheme::fitted : diffusion::Scheme::central;
+  own.max_steps = kMostSteps;
+  // Cells that follow fronts resolve them, and are wide where nothing bends.
+  own.scheme = options.monotone             ? diffusion::Scheme::fitted
+               : options.cell_tolerance > 0 ? diffusion::Scheme::central
+                                            : diffusion::Scheme::raised;
   own.progress = progress;
   return own;
+}
+
+std::size_t cells_of(const CrankNicolsonSolver::Options& options, const Scene<double>& scene) {
+  if (options.cells > 0) return static_cast<std::size_t>(options.cells);
+  return options.cell_tolerance > 0 ? diffusion::kUsualCells : diffusion::chosen_cells(scene);
 }
 
 /// On to time t, or until the bed is at rest.
@@ -52,19 +66,23 @@ class CrankNicolsonRun final : public Run {
  public:
   CrankNicolsonRun(const Scene<double>& scene, const CrankNicolsonSolver::Options& options,
                    const Watch& watch)
-      : scene_(scene), has_fixed_steps_(options.time_step > 0) {
+      : scene_(scene), time_step_(options.time_step), last_time_(watch.last_time) {
     diffusion::Options own = engine_options(options, watch.progress);
-    const auto cells = static_cast<std::size_t>(options.cells);
+    own.keeps_steps = false;
+    const std::size_t cells = cells_of(options, scene);
     if (options.cell_tolerance > 0) follow(refinement_.emplace(scene, cells, options.cell_tolerance), own);
     engine_.emplace(refinement_ ? refinement_->start() : diffusion::problem_of(scene, cells), own);
+    if (own.scheme == diffusion::Scheme::raised) remark_ = diffusion::raised_remark(engine_->problem());
   }
 
   Status advance(double t) override {
     field_.reset();
-    if (has_fixed_steps_ && std::isinf(t)) {
+    if (time_step_ > 0 && std::max(t, last_time_) == std::numeric_limits<double>::infinity()) {
       refused_ = "fixed steps do not reach the steady state: leave time_step out";
       return status_ = Status::unsupported;
     }
+    if (time_step_ > 0) refused_ = diffusion::too_many_steps(last_time_, time_step_, kMostSteps);
+    if (!refused_.empty()) return status_ = Status::budget_reached;
     status_ = march(*engine_, t);
     if (is_exhausted()) status_ = Status::budget_reached;
     return status_;
@@ -77,6 +95,7 @@ class CrankNicolsonRun final : public Run {
     Summary summary;
     summary.status = status_;
     summary.message = refused_.empty() ? message() : refused_;
+    summary.remark = remark_;
     summary.cell_updates = engine_->n_cell_updates();
     return summary;
   }
@@ -91,15 +110,16 @@ class CrankNicolsonRun final : public Run {
             : !is_usable           ? engine_->message()
             : engine_->is_steady() ? "steady state reached"
                                    : "reached the last time") +
-           ", " + std::to_string(engine_->n_steps()) + " steps";
+           ", " + std::to_string(engine_->n_steps()) + " steps, " +
+           std::to_string(engine_->problem().n_cells) + " cells";
   }
 
   const Scene<double>& scene_;
-  bool has_fixed_steps_;
+  double time_step_, last_time_;
   std::optional<diffusion::Refinement> refinement_;
   std::optional<diffusion::CrankNicolson> engine_;
   Status status_ = Status::ok;
-  std::string refused_;
+  std::string refused_, remark_;
   std::optional<ProfileField> field_;
 };
 
@@ -156,7 +176,7 @@ bool is_near(const std::vector<double>& xs, const std::vector<double>& ys) {
 std::string CrankNicolsonSolver::refusal(const Scene<double>& scene, const Options& options) {
   constexpr std::uint64_t kMostCells = 10'000'000;
   if (std::string why = diffusion::refusal(scene); !why.empty()) return why;
-  if (options.cells < 2 || options.cells > kMostCells)
+  if (options.cells != 0 && (options.cells < 2 || options.cells > kMostCells))
     return "cells = " + std::to_string(options.cells) + "; must be >= 2 and <= " + std::to_string(kMostCells);
   if (!(options.time_step >= 0 && std::isfinite(options.time_step)))
     return "time_step = " + number_text(options.time_step) + "; must be >= 0";
@@ -175,6 +195,10 @@ std::unique_ptr<Run> CrankNicolsonSolver::start(const Scene<double>& scene, cons
   return std::make_unique<CrankNicolsonRun>(scene, options, watch);
 }
 
+void CrankNicolsonSolver::prefer_smooth(const Scene<double>& scene, Options& options) {
+  if (options.cells == 0 && diffusion::refusal(scene).empty()) options.cells = cells_of(options, scene);
+}
+
 std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const Options& options,
                                                     const Entry& entry) {
   if (options.cell_tolerance > 0) return "cells that follow the fronts have no derivatives";
@@ -190,7 +214,13 @@ Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const O
     row.heights.push_back(places[i].z);
     row.places.push_back(i);
   }
-  const auto cells = static_cast<std::size_t>(options.cells);
+  if (!rows.empty() && options.time_step > 0) {
+    Linearisation refused;
+    refused.summary.message = diffusion::too_many_steps(rows.rbegin()->first, options.time_step, kMostSteps);
+    refused.summary.status = Status::budget_reached;
+    if (!refused.summary.message.empty()) return refused;
+  }
+  const std::size_t cells = cells_of(options, scene);
   const diffusion::Problem problem = diffusion::problem_of(scene, cells);
   const std::vector<diffusion::Tangent> tangents = diffusion::problem_tangents(scene, wanted, cells);
   Plan made;

@@ -11,6 +11,10 @@ namespace shearfront {
 /// with Status::unsupported, not_converged, budget_reached, interrupted. Cost: O(cells) a step. Small D: with
 /// cell_tolerance the cost of a step hardly depends on D, where equal cells take 1 / D of them.
 ///
+/// Fluxes are central, with D raised where cells are too wide for that (diffusion::Scheme::raised): phi stays in
+/// the range of the flux up to the tolerance. The remark of the Summary says so. Cells are 400 unless given, or as
+/// many as make it needless (cell_choice.hpp).
+///
 /// Derivatives are those of what the scheme computes: one run, in which every step solves one more system of equations
 /// per entry; relative error 1e-8 (from those of the coefficients, problem_tangents.hpp), for entries of shear_rate,
 /// temperature, diffusion, initial and heights of layers with another flux; equal cells only. Adaptive steps are chosen
@@ -26,19 +30,24 @@ struct CrankNicolsonSolver {
   static constexpr double kReach = 0.01;
 
   struct Options {
-    std::uint64_t cells = 400;
-    double time_step = 0;  ///< 0: chosen by the tolerance
+    std::uint64_t cells = 0;  ///< 0: diffusion::chosen_cells()
+    double time_step = 0;     ///< 0: chosen by the tolerance
     double tolerance = 1e-5;
     double cell_tolerance = 0;  ///< 0: equal cells
     bool monotone = false;
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(OptionInfo{"cells", "number of cells", {2, 1e7}}, self.cells);
+      visit(
+          OptionInfo{
+              "cells", "number of cells", {2, 1e7}, {}, "400, or 800 or 1600 where fronts are narrower"},
+          self.cells);
       visit(OptionInfo{"time-step", "fixed time step", {0, 1e300, true}, {}, "chosen by the tolerance"},
             self.time_step);
-      visit(OptionInfo{"tolerance", "aim for the error that time steps make in phi", {0, 1, true}},
-            self.tolerance);
+      visit(
+          OptionInfo{
+              "tolerance", "aim for the error that time steps make in phi; cells make another", {0, 1, true}},
+          self.tolerance);
       visit(
           OptionInfo{
               "cell-tolerance",
@@ -62,6 +71,8 @@ struct CrankNicolsonSolver {
   }
   static std::string refusal(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  /// A number of cells that does not change with the numbers of the scene.
+  static void prefer_smooth(const Scene<double>& scene, Options& options);
   static std::string derivative_refusal(const Scene<double>& scene, const Options& options,
                                         const Entry& entry);
   static Linearisation linearise(const Scene<double>& scene, const Options& options,

@@ -50,4 +50,9 @@ class ExtendedFlux {
   StateRange<double> range_;
 };
 
+/// W = max |f'| over the range of a flux; from samples if f' is not monotone.
+inline double fastest_slope(const Flux<double>& flux) {
+  return ExtendedFlux<Flux<double>, false>(flux).fastest();
+}
+
 }  // namespace shearfront::diffusion

@@ -12,7 +12,9 @@ namespace shearfront::diffusion {
 /// Approximation of the flux F = r f(phi) - D phi_z at the face between the states l (below) and u (above):
 ///
 ///   central  r (f(l) + f(u)) / 2 - D (u - l) / dz
-///   fitted   the same with D P coth(P) for D,  P = |r| W dz / (2 D),  W = max |f'|
+///   raised   the same with D h(P) for D,  P = |r| W dz / (2 D),  W = max |f'|,  h(P) = max(1, P) but for a smooth
+///            bend between 0.9 and 1.1 (see raised_share)
+///   fitted   the same with D P coth(P) for D
 ///
 /// Between unequal cells dz is the distance of their middles, and central interpolates f linearly from the
 /// middles to the face, which keeps the order of both where cells are halved (the error of the flux there is
@@ -25,13 +27,28 @@ namespace shearfront::diffusion {
 ///   phi (1 - phi) (r dz / D)^2 (x / 12 - (1/12 + a/8) tanh(x / 2)),     x = r (z - z0) / D,
 ///
 /// at most 0.003 (r dz / D)^2 for a = 1 and 0.011 (r dz / D)^2 for a = 0.
+/// raised is central where P <= 0.9, to the last bit, and upwind elsewhere: monotone with hardly more diffusion than
+/// makes the central flux so. (Between unequal cells dz in P is the wider one.)
 /// fitted is second order for P -> 0 and upwind, with the viscosity |r| W dz / 2, for P -> infinity and for
 /// D = 0. It never falls as l rises and never rises as u does (is monotone), for all states in the range of f
 /// and any r, D >= 0 and dz, because P coth(P) >= P. W is exact for fluxes that are convex or concave and
 /// comes from 4097 samples of f' for the others.
 /// Source: Il'in (1969), Math. Notes 6, 596-602; Scharfetter & Gummel (1969), IEEE Trans. Electron Devices
 /// 16, 64-77.
-enum class Scheme { central, fitted };
+enum class Scheme { central, raised, fitted };
+
+/// P up to which Scheme::raised is central. A flux with max(1, P) would have a kink in D and r, which fits meet.
+inline constexpr double kCentralUpTo = 0.9;
+
+/// h(P) of Scheme::raised: 1 up to p = kCentralUpTo, P from 2 - p on, and between them the parabola with the same
+/// slopes, which is above both.
+[[nodiscard]] constexpr double raised_share(double p) {
+  const double past = p - kCentralUpTo, bend = 2 * (1 - kCentralUpTo);
+  return past <= 0 ? 1 : past >= bend ? p : 1 + past * past / (2 * bend);
+}
+
+/// The largest P = |r| W dz / (2 D) of a face that a flux passes, as in Scheme. Cost: O(N).
+[[nodiscard]] double largest_cell_peclet(const Problem& problem);
 
 /// F / u at the N + 1 faces and u / dz times the derivatives of that with respect to the states of the cells
 /// on both sides, dz being the width of those cells; u = dz if all are equal, else 1.

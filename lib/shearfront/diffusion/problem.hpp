@@ -18,9 +18,8 @@ enum class Ends { no_flux, neumann, periodic };
 ///   phi_t + (r(z) f(phi))_z = (D(z) phi_z)_z,   bottom < z < top
 ///
 /// Any consistent units. Cells are equal, with faces z_i = bottom + i (top - bottom) / n_cells, unless
-/// `faces` is given. Coefficients belong to the faces. Where r jumps at a face, the mean of both sides keeps
-/// the scheme second order (phi and the flux are continuous there if D is); where D jumps, the harmonic mean
-/// of both sides does.
+/// `faces` is given. Coefficients belong to the faces. Where r or D jump at a face, the harmonic mean of D and
+/// the mean of r weighted with 1 / D keep the scheme second order: phi and the flux are continuous there.
 struct Problem {
   double bottom = 0, top = 1;
   std::size_t n_cells = 0;          ///< at least 2

@@ -20,6 +20,9 @@ constexpr int kHalvingsOfData = 3;
 /// max |phi''| of the logistic front 1 / (1 + exp(x)): 1 / (6 sqrt(3)).
 constexpr double kFrontBend = 0.09622504486493763;
 constexpr int kCallsBetweenCleanings = 32;
+/// A grid that has to change takes cells narrower by this than it must: or the next step asks for another one, and
+/// cells are halved and merged in turn without end. What states had adjusted to is left behind each time.
+constexpr double kMargin = 0.7;
 
 /// phi_z at the end of a bed without flux there; `inner`: what the states beside it say.
 double slope_at_end(const Problem& problem, std::size_t face, double state, double inner) {
@@ -46,9 +49,6 @@ std::vector<double> slopes(const Problem& problem, std::span<const double> state
   }
   return all;
 }
-
-/// max |f'|.
-double fastest(const Flux<double>& flux) { return ExtendedFlux<Flux<double>, false>(flux).fastest(); }
 
 }  // namespace
 
@@ -105,7 +105,7 @@ Problem Refinement::start() {
   for (int i = 0; i < kHalvingsOfData && 2 * cells_.size() <= kMostCells; ++i)
     cells_.apply(std::vector<CellChange>(cells_.size(), CellChange::split));
   Problem problem = problem_of(scene_, cells_.faces());
-  resolution_.fastest = fastest(problem.flux);
+  resolution_.fastest = fastest_slope(problem.flux);
   std::vector<CellChange> changes;
   for (int i = 0; i < 2 * RefinedCells::kMostHalvings; ++i) {
     if (!change_towards(problem, wanted_widths(problem, problem.initial, resolution_), changes)) break;
@@ -116,12 +116,21 @@ Problem Refinement::start() {
 
 std::optional<Regrid> Refinement::next(const Problem& present, std::span<const double> states) {
   std::vector<double> widths = wanted_widths(present, states, resolution_);
-  bool is_needed = ++n_calls_ % kCallsBetweenCleanings == 0;
-  for (std::size_t j = 0; j < present.n_cells && !is_needed; ++j) is_needed = present.width(j) > widths[j];
-  if (!is_needed) return {};
+  bool is_too_wide = false;
+  for (std::size_t j = 0; j < present.n_cells && !is_too_wide; ++j)
+    is_too_wide = present.width(j) > widths[j];
+  if (!is_too_wide && ++n_calls_ % kCallsBetweenCleanings != 0) return {};
+  for (double& width : widths) width *= kMargin;
+  if (!is_too_wide && !is_worth_cleaning(present, widths)) return {};
   std::vector<CellChange> changes;
   if (!change_towards(present, std::move(widths), changes)) return {};
   return Regrid{problem_without_initial(scene_, cells_.faces()), std::move(changes)};
+}
+
+bool Refinement::is_worth_cleaning(const Problem& present, const std::vector<double>& widths) const {
+  const std::vector<CellChange> changes = cells_.changes_towards(graded(present, widths));
+  return 4 * std::count(changes.begin(), changes.end(), CellChange::merge) >
+         static_cast<std::ptrdiff_t>(changes.size());
 }
 
 }  // namespace shearfront::diffusion

@@ -54,14 +54,16 @@ class Refinement {
   /// The scene on the grid for its initial data, which n_cells must resolve to an eighth of a cell: what has
   /// the same mean in all eighths of a cell is not seen.
   [[nodiscard]] Problem start();
-  /// A better grid once the present one, that of the last call, does not do; every 32 calls also if it
-  /// need not be as fine. Cost: O(cells).
+  /// A better grid once the present one, that of the last call, does not do, with a margin that it may keep for
+  /// some steps; every 32 calls also if a quarter of its cells may be merged. Cost: O(cells).
   [[nodiscard]] std::optional<Regrid> next(const Problem& present, std::span<const double> states);
   /// More than kMostCells cells were wanted, or narrower ones than heights can tell apart; the grid then
   /// stays as it is.
   [[nodiscard]] bool is_exhausted() const { return is_exhausted_; }
 
  private:
+  /// Whether a quarter of the cells may be merged.
+  [[nodiscard]] bool is_worth_cleaning(const Problem& present, const std::vector<double>& widths) const;
   /// Whether there is anything to change; it is done.
   bool change_towards(const Problem& present, std::vector<double> widths, std::vector<CellChange>& changes);
 

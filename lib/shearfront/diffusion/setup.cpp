@@ -74,20 +74,21 @@ void set_coefficients(const Scene<double>& scene, Problem& problem) {
     }
     double rate = 0, resistance = 0, from = begin;
     const auto add = [&](double to) {
-      const double middle = from + (to - from) / 2;
-      rate += at.rate(middle) * (to - from);
-      resistance += (to - from) / at.diffusivity(middle);
+      const double middle = from + (to - from) / 2, part = (to - from) / at.diffusivity(middle);
+      rate += at.rate(middle) * part;
+      resistance += part;
       from = to;
     };
     for (; knot != knots.end() && *knot < end; ++knot) add(*knot);
     add(end);
-    problem.rate.push_back(rate / (end - begin));
+    problem.rate.push_back(rate / resistance);
     problem.diffusivity.push_back((end - begin) / resistance);
   }
   if (problem.ends == Ends::periodic) {
-    problem.rate.back() = problem.rate.front() = (problem.rate.front() + problem.rate.back()) / 2;
-    problem.diffusivity.back() = problem.diffusivity.front() =
-        2 / (1 / problem.diffusivity.front() + 1 / problem.diffusivity.back());
+    const double below = 1 / problem.diffusivity.back(), above = 1 / problem.diffusivity.front();
+    problem.rate.back() = problem.rate.front() =
+        (problem.rate.back() * below + problem.rate.front() * above) / (below + above);
+    problem.diffusivity.back() = problem.diffusivity.front() = 2 / (below + above);
   }
 }
 

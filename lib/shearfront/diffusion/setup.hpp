@@ -15,9 +15,11 @@ namespace shearfront::diffusion {
 /// [0, 1] of either sign in different layers; c = 1; walls, Neumann or periodic ends.
 [[nodiscard]] std::string refusal(const Scene<double>& scene);
 
-/// The scene on n_cells >= 2 equal cells. r and D of a face stand for the halves of the cells beside it: the
-/// mean of s a sqrt(T), the harmonic mean of D, each at the middle of every piece between knots. So both
-/// depend continuously on the heights of interfaces. Precondition: refusal(scene) is empty.
+/// The scene on n_cells >= 2 equal cells. r and D of a face stand for the halves of the cells beside it: D is
+/// the harmonic mean, r the mean of s a sqrt(T) weighted with 1 / D, both at the middle of every piece between
+/// knots. For there F is constant and phi_z = (r f - F) / D, whose integral between the middles of the cells
+/// is the rise of phi. So both depend continuously on the heights of interfaces.
+/// Precondition: refusal(scene) is empty.
 /// Cost: O(n_cells + knots).
 [[nodiscard]] Problem problem_of(const Scene<double>& scene, std::size_t n_cells);
 /// The same on cells between the given faces, at least three heights that ascend from bottom to top.

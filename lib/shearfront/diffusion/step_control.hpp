@@ -9,12 +9,15 @@ namespace shearfront::diffusion {
 /// error.
 ///
 /// The error allowed in a step is c tolerance^(3/2) max |phi|: the number of steps then grows as
-/// tolerance^(-1/2) and the sum of all local errors is proportional to the tolerance.
+/// tolerance^(-1/2) and the sum of all local errors is proportional to the tolerance. A part of the error that
+/// is of first order is allowed c tolerance^2, with a number of steps that grows as 1 / tolerance.
 /// Source: Soederlind & Wang (2006), J. Comput. Appl. Math. 185, 225-243 (PI with 0.7/3, 0.4/3).
 class StepControl {
  public:
   explicit StepControl(double tolerance = 0)
-      : allowed_(kLocalShare * tolerance * std::sqrt(tolerance)), tolerance_(tolerance) {}
+      : allowed_(kLocalShare * tolerance * std::sqrt(tolerance)),
+        allowed_first_(kLocalShare * tolerance * tolerance),
+        tolerance_(tolerance) {}
 
   /// Wanted length of the next step; 0 before the first.
   [[nodiscard]] double length() const { return length_; }
@@ -22,9 +25,12 @@ class StepControl {
   void start(double rate, double longest) {
     length_ = rate > 0 ? std::min(longest, 0.1 * std::sqrt(tolerance_) / rate) : longest;
   }
-  /// Whether a step of `length` with this local error (over max |phi|) may stand; sets the next length.
-  bool accept(double length, double error) {
-    const double ratio = allowed_ / std::max(error, 1e-9 * allowed_);
+  /// Whether a step of `length` with this local error (over max |phi|) may stand, of which the part of first
+  /// order is `first`; sets the next length.
+  bool accept(double length, double error, double first) {
+    // Errors grow with the third and the second power of the length.
+    const double ratio = std::min(allowed_ / std::max(error, 1e-9 * allowed_),
+                                  std::pow(allowed_first_ / std::max(first, 1e-6 * allowed_first_), 1.5));
     if (ratio < kRetryBelow) {
       length_ = length * std::max(kMostShrink, kSafety * std::cbrt(ratio));
       last_ratio_ = 1;
@@ -46,7 +52,7 @@ class StepControl {
   static constexpr double kRetryBelow = 0.5;
   static constexpr double kSafety = 0.9, kMostShrink = 0.2, kMostGrowth = 1.6;
 
-  double allowed_, tolerance_, length_ = 0, last_ratio_ = 1;
+  double allowed_, allowed_first_, tolerance_, length_ = 0, last_ratio_ = 1;
 };
 
 /// When the fluxes of the last two steps were taken, for extrapolation in time.
@@ -71,6 +77,10 @@ struct FluxTimes {
   [[nodiscard]] double local_error_share(double length) const {
     const double two = length + last_length, three = two + before_length;
     return 0.5 * (length / two) * (length / three);
+  }
+  /// Local error of first order, (theta - 1/2) h^2 phi'', over the change h (phi'_now - phi'_last) of the states.
+  [[nodiscard]] double turn_share(double theta, double length) const {
+    return n > 0 ? (theta - 0.5) * length / (since_last + theta * length) : 0;
   }
 };
 

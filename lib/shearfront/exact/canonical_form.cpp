@@ -12,34 +12,33 @@ namespace shearfront::exact {
 
 namespace {
 
-/// a(z) where it alone varies in a bed of one parabola, if it is exponential.
-template <Real Scalar>
-std::optional<ExponentialPiece<Scalar>> exponential_of(const Scene<Scalar>& scene) {
-  if (scene.fluxes().size() > 1 || !scene.fluxes().front().is_parabola() || scene.spec().solid_fraction ||
-      scene.spec().temperature)
-    return {};
-  return std::visit([](const auto& model) { return exponential_piece(model); }, scene.shear_rate());
-}
-
 template <class AnyDepthFunction>
 bool is_layered(const std::optional<AnyDepthFunction>& function) {
   return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
 }
 
-/// Whether pieces with a linear rate stand for the scene, exactly or not: what varies smoothly is the rate of parabolas.
+/// Whether pieces with a sloped rate stand for the scene, exactly or not: what varies smoothly is the rate of parabolas.
 template <Real Scalar>
-bool has_linear_pieces(const Scene<Scalar>& scene) {
+bool has_sloped_pieces(const Scene<Scalar>& scene) {
   return !scene.is_layered() && std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
                                             [](const Flux<Scalar>& flux) { return flux.is_parabola(); });
 }
 
-/// Whether its rate is linear between its own knots.
-template <Real Scalar>
-bool is_linear_scene(const Scene<Scalar>& scene) {
-  return std::visit([](const auto& model) { return !model.kIsLayered && is_linear_between_knots(model); },
+/// Whether its rate is, between its own knots, what `is_so` says of a(z): all else is constant there.
+template <Real Scalar, class IsSo>
+bool is_between_knots(const Scene<Scalar>& scene, const IsSo& is_so) {
+  return std::visit([&](const auto& model) { return !model.kIsLayered && is_so(model); },
                     scene.shear_rate()) &&
          is_layered(scene.spec().temperature) && is_layered(scene.spec().solid_fraction) &&
-         has_linear_pieces(scene);
+         has_sloped_pieces(scene);
+}
+template <Real Scalar>
+bool is_linear_scene(const Scene<Scalar>& scene) {
+  return is_between_knots(scene, [](const auto& model) { return is_linear_between_knots(model); });
+}
+template <Real Scalar>
+bool is_exponential_scene(const Scene<Scalar>& scene) {
+  return is_between_knots(scene, [](const auto& model) { return is_exponential_between_knots(model); });
 }
 
 /// A function at both ends of an interval without a knot inside.
@@ -53,13 +52,14 @@ EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& l
       function);
 }
 
+/// The form that comes nearer to the rate in the middle of a piece.
 template <Real Scalar>
-LayerStack<Scalar> layers_of(const Scene<Scalar>& scene, std::size_t layers, bool is_one_piece) {
-  if (scene.is_layered() || is_linear_scene(scene)) return pieces_between_knots(scene);
-  if (!is_one_piece) return staircase(scene, layers);
-  std::vector<Scalar> ends{scene.bottom(), scene.top()};
-  LayerMaterial<Scalar> material = material_of(scene, ends);
-  return {std::move(ends), {Scalar(1)}, scene.scale(), {}, std::move(material)};
+RateForm nearer_form(const Scalar& low, const Scalar& middle, const Scalar& high) {
+  using std::sqrt;
+  const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
+  const Scalar linear = low + (high - low) / Scalar(2), exponential = sqrt(low) * sqrt(high);
+  return size(Scalar(middle - exponential)) < size(Scalar(middle - linear)) ? RateForm::exponential
+                                                                            : RateForm::linear;
 }
 
 /// |f| at its extremum.
@@ -78,10 +78,10 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(scene_->fluxes().front().curvature() == Curvature::concave),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(),
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
-      exponential_(exponential_of(*scene_)),
-      layers_(layers_of(*scene_, layers, exponential_.has_value())) {
-  is_linear_ = !exponential_ && has_linear_pieces(*scene_);
-  is_exact_ = scene_->is_layered() || exponential_ || is_linear_scene(*scene_);
+      has_pieces_(has_sloped_pieces(*scene_)),
+      is_exponential_(is_exponential_scene(*scene_)),
+      is_exact_(scene_->is_layered() || is_exponential_ || is_linear_scene(*scene_)),
+      layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers)) {
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
     set_end_rates();
@@ -123,32 +123,41 @@ void CanonicalForm<Scalar>::set_layers() {
     least_.push_back(least.value());
     most_.push_back(most.value());
   }
-  if (!exponential_) return;
-  y_.back() = stretch_[0] * layers_.top();
-  exponential_->amplitude *= rate_factor_[0];
-  exponential_->decay *= stretch_[0];
 }
 
 template <Real Scalar>
 void CanonicalForm<Scalar>::set_end_rates() {
-  if (!is_linear_) return;
-  using std::sqrt;
+  if (!has_pieces_) return;
+  const auto& c = scene_->spec().solid_fraction;
   for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
     const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
-    EndValues<Scalar> ends = ends_of<Scalar>(scene_->shear_rate(), lo, hi);
-    if (scene_->spec().temperature) {
-      const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, lo, hi);
-      ends = {ends.low * sqrt(T.low), ends.high * sqrt(T.high)};
+    // A smooth c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
+    const bool has_smooth_c = !is_layered(c);
+    const Scalar factor =
+        scene_->scale() *
+        (has_smooth_c ? Scalar(Scalar(4) * depth_of<Scalar>(layers_.flux(k))) : rate_factor(k));
+    const auto ends = [&](const Scalar& from, const Scalar& to) -> EndValues<Scalar> {
+      using std::sqrt;
+      EndValues<Scalar> rates = ends_of<Scalar>(scene_->shear_rate(), from, to);
+      if (scene_->spec().temperature) {
+        const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, from, to);
+        rates = {rates.low * sqrt(T.low), rates.high * sqrt(T.high)};
+      }
+      if (has_smooth_c) {
+        const EndValues<Scalar> fraction = ends_of<Scalar>(*c, from, to);
+        rates = {rates.low * fraction.low, rates.high * fraction.high};
+      }
+      return {factor * rates.low, factor * rates.high};
+    };
+    const EndValues<Scalar> rates = ends(lo, hi);
+    low_rates_.push_back(rates.low);
+    high_rates_.push_back(rates.high);
+    if (is_exact_) {
+      rate_forms_.push_back(is_exponential_ ? RateForm::exponential : RateForm::linear);
+    } else {
+      rate_forms_.push_back(
+          nearer_form(rates.low, ends(lo, Scalar(lo + (hi - lo) / Scalar(2))).high, rates.high));
     }
-    Scalar factor = scene_->scale() * rate_factor(k);
-    if (!is_layered(scene_->spec().solid_fraction)) {
-      // c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
-      const EndValues<Scalar> c = ends_of<Scalar>(*scene_->spec().solid_fraction, lo, hi);
-      ends = {ends.low * c.low, ends.high * c.high};
-      factor = scene_->scale() * (Scalar(4) * depth_of<Scalar>(layers_.flux(k)));
-    }
-    low_rates_.push_back(factor * ends.low);
-    high_rates_.push_back(factor * ends.high);
   }
 }
 

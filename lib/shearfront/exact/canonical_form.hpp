@@ -2,10 +2,9 @@
 #pragma once
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "shearfront/model/depth/model.hpp"
+#include "shearfront/exact/rate_form.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
@@ -25,11 +24,10 @@ namespace shearfront::exact {
 /// the scene of one quadratic flux with c = T = 1 its own canonical form (is_identity()).
 ///
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
-/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) is linear
-/// between its knots, all fluxes are parabolas, and c and T are constant in pieces, the image is linear in pieces as
-/// well: is_linear(). Any other smooth scene of parabolas is represented by linear pieces through its rate s a c sqrt(T), a
-/// smooth scene of other fluxes by a staircase of layers; unless a(z) alone varies in a bed of one parabola and is
-/// exponential: then it is one piece, exponential(). Precondition: refusal(scene) is empty.
+/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, all
+/// fluxes are parabolas, and c and T are constant in pieces, the image is linear or exponential in pieces as well:
+/// has_pieces(). Any other smooth scene of parabolas is represented by pieces through its rate s a c sqrt(T), each linear or
+/// exponential, whichever is nearer in its middle, a smooth scene of other fluxes by a staircase of layers. Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
@@ -45,13 +43,18 @@ class CanonicalForm {
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
   /// Whether it represents the scene without approximation.
   [[nodiscard]] bool is_exact() const { return is_exact_; }
-  /// Whether the layers are pieces in which the rate is linear, of the scene itself or through its values at their ends:
-  /// then rates() are their harmonic means, and these the values at their lower and upper ends.
-  [[nodiscard]] bool is_linear() const { return is_linear_; }
+  /// Whether the layers are pieces in which the rate is not constant, of the scene itself or through its values at
+  /// their ends: then rates() are their harmonic means, and these the values at their lower and upper ends.
+  [[nodiscard]] bool has_pieces() const { return has_pieces_; }
+  /// How the rate runs between them.
+  [[nodiscard]] const std::vector<RateForm>& rate_forms() const { return rate_forms_; }
+  /// Whether u does not decrease in z but at shocks and boundaries. It may in pieces: in a linear one in a state, in any where
+  /// paths come from others.
+  [[nodiscard]] bool is_monotone() const {
+    return !has_pieces_ || (is_exponential_ && layers_.n_layers() == 1);
+  }
   [[nodiscard]] const std::vector<Scalar>& low_rates() const { return low_rates_; }
   [[nodiscard]] const std::vector<Scalar>& high_rates() const { return high_rates_; }
-  /// a(z) in the coordinates of the image, times the scale s; one layer then.
-  [[nodiscard]] const std::optional<ExponentialPiece<Scalar>>& exponential() const { return exponential_; }
   /// Layers in the heights of the scene.
   [[nodiscard]] const LayerStack<Scalar>& layers() const { return layers_; }
 
@@ -110,8 +113,7 @@ class CanonicalForm {
   [[nodiscard]] Scalar image_mass() const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
-  bool is_identity_, is_concave_, is_parabolic_, is_linear_ = false, is_exact_ = false;
-  std::optional<ExponentialPiece<Scalar>> exponential_;
+  bool is_identity_, is_concave_, is_parabolic_, has_pieces_, is_exponential_, is_exact_;
   LayerStack<Scalar> layers_;
   // Empty in the identity:
   std::vector<Scalar> lowest_, highest_, width_;  ///< per flux
@@ -122,6 +124,7 @@ class CanonicalForm {
   std::vector<std::size_t> initial_piece_, initial_layer_, initial_break_;
 
   std::vector<Scalar> rates_, low_rates_, high_rates_;
+  std::vector<RateForm> rate_forms_;
   Scalar mass_{0};
 };
 

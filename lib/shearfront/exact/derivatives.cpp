@@ -169,15 +169,8 @@ void Derivatives<Scalar>::add_boundaries() {
 template <Real Scalar>
 void Derivatives<Scalar>::add_pieces() {
   const Scene<Scalar>& scene = form_.scene();
-  if (form_.exponential()) {
-    pieces_.terms.push_back({first_rate_, form_.rate_factor(0)});
-    pieces_.close();
-    pieces_.terms.push_back({first_rate_ + 1, form_.stretch(0)});
-    pieces_.close();
-    return;
-  }
-  if (form_.is_linear()) {
-    add_linear_pieces();
+  if (form_.has_pieces()) {
+    add_sloped_pieces();
     return;
   }
   const LayerStack<Scalar>& layers = form_.layers();
@@ -217,7 +210,7 @@ void Derivatives<Scalar>::add_pieces() {
 
 /// The rates at the ends of a piece by the entries that a(z) depends on there; the ends move with their knots.
 template <Real Scalar>
-void Derivatives<Scalar>::add_linear_pieces() {
+void Derivatives<Scalar>::add_sloped_pieces() {
   const LayerStack<Scalar>& layers = form_.layers();
   const Scene<Scalar>& scene = form_.scene();
   if (!is_layered(scene.spec().temperature)) {  // all entries are refused

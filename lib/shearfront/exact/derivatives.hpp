@@ -28,7 +28,7 @@ template <Real Scalar>
 /// phi by the implicit function theorem: T(H) = t for a fan, H = s min(a) / 4 for a path at rest, H the flux of the state
 /// for a constant one; then p(H) in the layer of z. From the numbers of the pieces to the entries of the scene by the
 /// chain rule: a layer's mean by the model's harmonic_mean_derivatives, its ends by the knots they lie between. So the
-/// derivatives of a staircase are those of what ExactSolution computes.
+/// derivatives of pieces or layers that stand for a bed are those of what ExactSolution computes.
 ///
 /// Guarantees: exact up to rounding wherever M (phi) is differentiable, i.e. away from shocks (phi), from the
 /// edges of fans (phi), and for M away from points reached by two minimising paths. One-sided there: the
@@ -67,7 +67,7 @@ class Derivatives {
   [[nodiscard]] std::vector<Cut> cuts() const;
   void add_boundaries();
   void add_pieces();
-  void add_linear_pieces();
+  void add_sloped_pieces();
   void add_initial();
   void spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const;
   void add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const;

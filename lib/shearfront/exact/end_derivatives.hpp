@@ -13,7 +13,8 @@ namespace shearfront::exact {
 /// end_value_derivatives() of the model if it has it, else by differences of fourth order as for harmonic means.
 template <class Model, Real Scalar, class Add>
 void for_each_end_derivative(const Model& model, const Scalar& lo, const Scalar& hi, const Add& add) {
-  if constexpr (requires { requires Model::kIsLinear; }) {
+  const auto ignore = [](std::size_t, const Scalar&) {};
+  if constexpr (requires { model.end_value_derivatives(lo, hi, ignore, ignore); }) {
     end_value_derivatives(
         model, lo, hi, [&](std::size_t entry, const Scalar& by) { add(entry, by, Scalar(0)); },
         [&](std::size_t entry, const Scalar& by) { add(entry, Scalar(0), by); });
@@ -44,13 +45,18 @@ void for_each_end_derivative(const Model& model, const Scalar& lo, const Scalar&
   }
 }
 
-/// da/dz at both ends, seen from inside; by one-sided differences of fourth order where a is not linear.
+/// da/dz at both ends, seen from inside; by one-sided differences of fourth order where neither a nor log a is linear.
 template <class Model, Real Scalar>
 EndValues<Scalar> end_slopes(const Model& model, const Scalar& lo, const Scalar& hi) {
   if constexpr (requires { requires Model::kIsLinear; }) {
     const auto ends = end_values(model, lo, hi);
     const Scalar slope = (ends.high - ends.low) / (hi - lo);
     return {slope, slope};
+  } else if constexpr (requires { requires Model::kIsExponential; }) {
+    using std::log;
+    const auto ends = end_values(model, lo, hi);
+    const Scalar bend = log(Scalar(ends.high / ends.low)) / (hi - lo);
+    return {bend * ends.low, bend * ends.high};
   } else {
     const Scalar h = (hi - lo) * Scalar(std::ldexp(1.0, -std::numeric_limits<Scalar>::digits / 5 - 2));
     const auto slope = [&](const Scalar& z, const Scalar& step) {

@@ -155,7 +155,7 @@ class Events {
     events.t0 = at_wall(false);
     events.t1 = at_wall(true);
     events.t_star = is_steady(form_.initial_values()) ? Scalar(0) : last_time(medium_.steady_height());
-    if (!form_.is_exact() || form_.exponential()) return events;
+    if (!form_.is_exact()) return events;
     for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i)
       events.interfaces.push_back(at_interface(i));
     return events;

@@ -14,11 +14,11 @@ namespace shearfront {
 /// being known, inside a bracket. The walls' own paths are kept out of that comparison, so that no equality
 /// of rounded numbers decides.
 ///
-/// Guarantees: a constant or linear in pieces, and exponential a: first arrivals to a few units in the last place of Scalar (times
-/// the number of layers crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
+/// Guarantees: a constant, linear or exponential in pieces: first arrivals to a few units in the last place of Scalar (times
+/// the number of pieces crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
 /// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
 /// M: the change before it is reported); where pieces or a staircase stand for the scene, timeline_error() estimates what
-/// they cost. Interfaces are the knots of a scene that is constant or linear in pieces: jumps, and kinks of a table, where
+/// they cost. Interfaces are the knots of a scene that is so in pieces: jumps, kinks of a table, the centre of a chute, where
 /// a state that is neither 0 nor 1 changes at once. Errors: none. Cost: O((jumps + layers) * layers) for first
 /// arrivals, some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two
 /// layers.

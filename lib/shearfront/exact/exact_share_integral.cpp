@@ -101,7 +101,7 @@ class ShareIntegral {
         lo = z;
       }
     }
-    if (b.phi == a.phi && !exact_.form().is_linear())
+    if (b.phi == a.phi && exact_.form().is_monotone())
       sum_ += (b.z - lo) * integrand_(a.phi);
     else
       add(lo, b.z);

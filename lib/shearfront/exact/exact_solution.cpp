@@ -24,13 +24,13 @@ auto ExactSolution<Scalar>::represent(std::shared_ptr<const Scene<Scalar>> scene
 template <Real Scalar>
 ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options) : mass_(scene.mass()) {
   SHEARFRONT_EXPECTS(exact::refusal(scene).empty(), "a scene with an exact solution");
-  const std::size_t n = options.layers > 0 ? options.layers : kDefaultLayers;
   const auto shared = std::make_shared<const Scene<Scalar>>(scene);
-  fine_ = represent(shared, n);
-  resolution_ = n;
+  resolution_ = options.layers > 0 ? options.layers : kFirstPieces;
+  fine_ = represent(shared, resolution_);
   if (!form().is_exact()) {
-    coarse_ = represent(shared, (n + 1) / 2);
-    if (form().is_linear() && options.layers == 0) represent_within(shared, options.tolerance);
+    if (options.layers == 0 && !form().has_pieces()) fine_ = represent(shared, resolution_ = kDefaultLayers);
+    coarse_ = represent(shared, (resolution_ + 1) / 2);
+    if (options.layers == 0 && form().has_pieces()) represent_within(shared, options.tolerance);
   }
   steady_height_ = form().height_of(medium().steady_height());
 }
@@ -40,7 +40,7 @@ ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options
 template <Real Scalar>
 void ExactSolution<Scalar>::represent_within(const std::shared_ptr<const Scene<Scalar>>& scene,
                                              double tolerance) {
-  for (std::size_t n = kDefaultLayers;;) {
+  for (std::size_t n = resolution_;;) {
     probed_error_ = probe();
     const double error = to_double(probed_error_);
     meets_tolerance_ = error <= tolerance;
@@ -70,7 +70,7 @@ Scalar ExactSolution<Scalar>::probe() const {
 
 template <Real Scalar>
 std::size_t ExactSolution<Scalar>::n_layers() const {
-  return form().exponential() ? 0 : form().layers().n_layers();
+  return form().layers().n_layers();
 }
 
 /// A value of the canonical form as one of the scene.
@@ -142,7 +142,7 @@ auto ExactSolution<Scalar>::value_of(const Path& path, const Scalar& z, const Sc
   const auto change = [](const Scalar& a, const Scalar& b) { return a > b ? Scalar(a - b) : Scalar(b - a); };
   // Second order leaves a third of the change. Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of it on average; stairs that
   // fit a turning point by chance make the change smaller than that.
-  const int safety = form().is_linear() ? 1 : 3;
+  const int safety = form().has_pieces() ? 1 : 3;
   value.M_error = Scalar(safety) * change(coarse.M, value.M);
   value.phi_error = change(coarse.phi, value.phi);
   return value;

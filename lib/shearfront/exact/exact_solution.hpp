@@ -21,12 +21,13 @@ namespace shearfront {
 ///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
-/// it, at the top the value below. Guarantees: (1) layered scenes, a linear in pieces (tables) with fluxes that are
-/// parabolas and c, T constant in pieces, and exponential a in a bed of one parabola: exact up to rounding, |M error| <= c u (top - bottom) with c of the order of the layers crossed;
+/// it, at the top the value below. Guarantees: (1) layered scenes, and a linear (tables) or exponential in pieces with fluxes
+/// that are parabolas and c, T constant in pieces: exact up to rounding, |M error| <= c u (top - bottom) with c of the order
+/// of the pieces crossed;
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
-/// (3) any other smooth a, c, T in beds of parabolas: the exact solution of linear pieces through the rate, of second order
-/// in their height (phi of order 3/2 where paths turn), halved until the estimated error of M is at most Options::tolerance
+/// (3) any other smooth a, c, T in beds of parabolas: the exact solution of pieces through the rate, each linear or exponential,
+/// of second order in their height (phi of order 3/2 where paths turn), halved until the estimated error of M is at most Options::tolerance
 /// times the height of the bed at a set of probe points (probed_error(); kMostPieces if that does not suffice); (4) smooth
 /// a, c, T with fluxes that are no parabolas: of a staircase of Options::layers layers (harmonic means), of order 3/2 (2
 /// where no path turns), whatever the tolerance. In (3) and (4) Value::M_error and phi_error estimate what is left, by the change from half as many
@@ -40,13 +41,13 @@ template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    /// Of the staircase, or of linear pieces instead of the tolerance, where the scene has to be approximated; 0:
+    /// Of the staircase, or of pieces instead of the tolerance, where the scene has to be approximated; 0:
     /// kDefaultLayers, or as many pieces as the tolerance takes.
     std::size_t layers = 0;
     double tolerance = 1e-6;  ///< error of M aimed at, in heights of the bed
   };
   static constexpr std::size_t kDefaultLayers = 128;
-  static constexpr std::size_t kMostPieces = 4096;
+  static constexpr std::size_t kFirstPieces = 32, kMostPieces = 4096;
 
   struct Value {
     Scalar phi{0}, M{0}, H{0};
@@ -77,7 +78,7 @@ class ExactSolution {
   [[nodiscard]] const Scalar& mass() const { return mass_; }
   /// Where the pure states meet in the steady state: bottom + mass for the quadratic flux and c = 1.
   [[nodiscard]] const Scalar& steady_height() const { return steady_height_; }
-  /// Layers used (a staircase for smooth scenes), pieces where a is linear; 0 for exponential a by closed forms.
+  /// Layers or pieces used.
   [[nodiscard]] std::size_t n_layers() const;
   [[nodiscard]] const exact::CanonicalForm<Scalar>& form() const { return *fine_.form; }
   /// The bed of the canonical form.

@@ -24,7 +24,7 @@ struct ProfileErrors {
 ///       (where phi jumps down, sped up by intersecting the values of M of both sides);
 ///   (3) where phi - exact phi changes its sign. Between the cuts (1) and (2) the exact phi does not decrease
 ///       and is smooth: against constant cells there is at most one change, by TOMS 748. Against linear cells, and
-///       where a(z) is linear in pieces (there phi may fall inside a state), there may be more: the piece is halved until the difference is monotone or away from 0, as judged by
+///       in beds of sloped pieces (there phi may fall inside a state), there may be more: the piece is halved until the difference is monotone or away from 0, as judged by
 ///       its second difference with a factor of two in hand.
 /// Differences of M that are no more than rounding are replaced by the trapezoidal rule, which is exact where
 /// the exact phi is linear (fans in their first layer, constant states).
@@ -33,9 +33,9 @@ struct ProfileErrors {
 /// all of the above is done; M_max is that of int u dy.
 ///
 /// Domain: the profile covers the scene's domain; 0 <= t <= +infinity. Guarantee: |l1 - true| <= l1_bound, which is
-/// 16 u (top - bottom) n_pieces for a constant or linear in pieces and for exponential a, u the unit roundoff; about 1e-15 per piece in
-/// double, as a rule much less. Other a: the error against the exact solution of the staircase (see
-/// ExactSolution). Cost: one query of the exact solution per cell and interface, 1 to 7 more per change of
+/// 16 u (top - bottom) n_pieces for a constant, linear or exponential in pieces, u the unit roundoff; about 1e-15 per piece in
+/// double, as a rule much less. Other beds: the error against the exact solution of the pieces or layers that stand for them
+/// (see ExactSolution). Cost: one query of the exact solution per cell and interface, 1 to 7 more per change of
 /// sign, about 20 per shock and 50 per kink. 1e5 cells of a two-layer scene: 0.1 s.
 template <Real Scalar>
 [[nodiscard]] ProfileErrors<Scalar> errors_against(const ExactSolution<Scalar>& exact,

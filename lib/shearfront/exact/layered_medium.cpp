@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "shearfront/exact/first_wave.hpp"
+#include "shearfront/exact/initial_amount.hpp"
 #include "shearfront/exact/layered_gradient.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
@@ -286,21 +287,7 @@ template <Real Scalar, class Law>
 Scalar LayeredMedium<Scalar, Law>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                              FinalAmount amount) const {
   CompensatedSum<Scalar> sum;
-  if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
-    sum += z;
-    sum += -cells_.x.front();
-  } else {
-    sum += cells_.M.back();
-    sum += cells_.M_low.back();
-  }
-  sum += -cells_.M[path.source];
-  sum += -cells_.M_low[path.source];
-  if (path.kind == PathKind::constant) {
-    const TwoSum<Scalar> inside(path.foot, Scalar(-cells_.x[path.source]));
-    const TwoProduct<Scalar> initial(inside.high, cells_.phi[path.source]);
-    sum += -initial.high;
-    sum += -(initial.low + inside.low * cells_.phi[path.source]);
-  }
+  add_final_less_initial(cells_, path, z, amount, sum);
   Scalar lost(0);
   const auto leg = [&](const Scalar& from, const Scalar& to) {
     const bool upward = from < to;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "shearfront/exact/canonical_form.hpp"
-#include "shearfront/exact/exponential_medium.hpp"
 #include "shearfront/exact/layered_medium.hpp"
-#include "shearfront/exact/linear_medium.hpp"
 #include "shearfront/exact/scaled_medium.hpp"
+#include "shearfront/exact/sloped_medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
@@ -47,17 +47,18 @@ namespace {
 
 /// In a unit of time in which its rates are about 1 where they are very large or small.
 template <Real Scalar>
-std::shared_ptr<const Medium<Scalar>> linear_medium(const CanonicalForm<Scalar>& form) {
-  LinearPieces<Scalar> pieces{form.boundaries(), form.low_rates(), form.high_rates()};
-  const Scalar fastest = std::max(*std::max_element(pieces.low.begin(), pieces.low.end()),
-                                  *std::max_element(pieces.high.begin(), pieces.high.end()));
+std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scalar>& form) {
+  std::vector<Scalar> low = form.low_rates(), high = form.high_rates();
+  const Scalar fastest =
+      std::max(*std::max_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end()));
   constexpr int kFar = 60;  // closed forms multiply a few rates
   const int exponent = std::ilogb(to_double(fastest));
   const bool is_far = exponent > kFar || exponent < -kFar;
   const Scalar unit = is_far ? Scalar(std::ldexp(1.0, exponent)) : Scalar(1);
-  for (auto* rates : {&pieces.low, &pieces.high})
+  for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
-  auto medium = std::make_unique<const LinearMedium<Scalar>>(
+  SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
+  auto medium = std::make_unique<const SlopedMedium<Scalar>>(
       std::move(pieces), Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries()),
       form.mass());
   if (!is_far) return medium;
@@ -68,9 +69,8 @@ std::shared_ptr<const Medium<Scalar>> linear_medium(const CanonicalForm<Scalar>&
 
 template <Real Scalar>
 std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form) {
-  if (form.exponential()) return std::make_shared<const ExponentialMedium<Scalar>>(form);
   const auto& y = form.boundaries();
-  if (form.is_linear()) return linear_medium(form);
+  if (form.has_pieces()) return medium_of_pieces(form);
   const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
     Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), y);
     return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());

@@ -59,8 +59,8 @@ class Medium {
 
   /// Bottom, inner boundaries of the pieces, top.
   [[nodiscard]] virtual const std::vector<Scalar>& boundaries() const = 0;
-  /// How many numbers describe a(z) in a piece: 1 where it is constant (r = s a), 2 where it is exponential
-  /// (amplitude, decay), as linear pieces would have (a at both ends).
+  /// How many numbers describe a(z) in a piece: 1 where it is constant (r = s a), 2 where it is linear or exponential (r at
+  /// both ends).
   [[nodiscard]] virtual std::size_t numbers_per_piece() const = 0;
   /// Best path that does not start at a wall; kind none if there is none. May return any candidate whose
   /// value exceeds `upper` when the best one does. Domain: bottom <= z <= top, 0 < t < infinity.
@@ -99,8 +99,8 @@ class Medium {
   Scalar mass_;
 };
 
-/// The medium of a canonical form: layers of parabolas, of other fluxes, pieces with a linear rate, or
-/// one exponential piece.
+/// The medium of a canonical form: layers of parabolas, of other fluxes, or pieces with a linear or an
+/// exponential rate.
 template <Real Scalar>
 [[nodiscard]] std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form);
 

@@ -25,11 +25,11 @@ struct Path {
   Scalar H{0};                        ///< conserved along the path, dM/dt at its end
   PathKind kind = PathKind::none;
   bool upward = false;     ///< arrives from below
-  bool turned = false;     ///< linear pieces: it set out the other way and has turned
-  bool is_state = false;   ///< waiting, linear pieces: `source` is the cell of Cells where it starts
+  bool turned = false;     ///< sloped pieces: it set out the other way and has turned
+  bool is_state = false;   ///< waiting, sloped pieces: `source` is the cell of Cells where it starts
   std::size_t source = 0;  ///< fan, waiting: point of Cells; constant: cell of Cells
   std::size_t interface =
-      0;           ///< waiting: boundary index of the interface; linear pieces: point of Cells where it
+      0;           ///< waiting: boundary index of the interface; sloped pieces: point of Cells where it
                    ///< rests; turned: cell where it turns
   Scalar foot{0};  ///< height where it starts
   /// Layered media: 4 H = r_reference (1 - x^2), so that what layer k lacks to its capacity,

@@ -30,7 +30,7 @@ struct PathNode {
 /// A cut lies where the minimising path begins in another way. Optimal paths do not cross, so the heights
 /// served by one source in one way are an interval, and its ends are found by bisection (where phi jumps
 /// down, sped up by intersecting the values of M of both sides). Between the cuts phi is smooth; it does not decrease,
-/// save where rates are linear in pieces (is_monotone()).
+/// save in some beds of sloped pieces (is_monotone()).
 /// Precondition: 0 < t < +infinity. Cost of a cut: about 20 queries
 /// for a shock, 50 for a kink.
 template <Real Scalar>
@@ -45,7 +45,7 @@ class SmoothPieces {
               std::max({Scalar(medium.top() - medium.bottom()), size(medium.top()), size(medium.bottom())});
   }
 
-  [[nodiscard]] bool is_monotone() const { return !exact_->form().is_linear(); }
+  [[nodiscard]] bool is_monotone() const { return exact_->form().is_monotone(); }
   /// Bottom, interfaces, top.
   [[nodiscard]] const std::vector<Scalar>& boundaries() const { return exact_->medium().boundaries(); }
 

@@ -78,8 +78,8 @@ class ExactRun final : public Run {
   [[nodiscard]] std::string approximation() const {
     const std::string n = std::to_string(solution_.n_layers());
     std::string text = "exact for " + n + " layers as a staircase";
-    if (solution_.form().is_linear()) {
-      text = "exact for " + n + " linear pieces";
+    if (solution_.form().has_pieces()) {
+      text = "exact for " + n + " pieces";
       if (!solution_.meets_tolerance())
         text += is_given_ ? ", as many as asked for"
                           : ", no more, although the tolerance of " + number_text(tolerance_) + " takes more";

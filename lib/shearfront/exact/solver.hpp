@@ -8,7 +8,7 @@ namespace shearfront {
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription =
-      "Lax-Hopf formula, exact to rounding where a is constant or linear in pieces, or exponential";
+      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces";
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
@@ -17,18 +17,15 @@ struct ExactSolver {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(
-          OptionInfo{
-              "tolerance",
-              "aim for the error of M, in heights of the bed, where linear pieces stand for a smooth bed",
-              {0, 1, true},
-              {},
-              "1e-6"},
-          self.tolerance);
+      visit(OptionInfo{"tolerance",
+                       "aim for the error of M, in heights of the bed, where pieces stand for a smooth bed",
+                       {0, 1, true},
+                       {},
+                       "1e-6"},
+            self.tolerance);
       visit(OptionInfo{"layers",
                        "layers that stand for a smooth bed with a flux that is no parabola; with parabolas, "
-                       "so many linear "
-                       "pieces instead of the tolerance",
+                       "so many pieces instead of the tolerance",
                        {1, 1e6},
                        {},
                        "128 layers, pieces by the tolerance"},

@@ -89,7 +89,8 @@ std::string kind_of(const Option& option) {
 
 /// Without its solvers.
 OptionValues values_of(const Option& option) {
-  return {std::visit(
+  return {std::string(option.info.sentence),
+          std::visit(
               [&]<class Value>(const Value&) -> std::string {
                 if constexpr (std::same_as<Value, OptionChoice> || std::same_as<Value, bool>)
                   return "";
@@ -137,14 +138,11 @@ std::vector<OptionText> all_options() {
       auto known = std::find_if(all.begin(), all.end(),
                                 [&](const OptionText& o) { return o.name == option.info.name; });
       const std::string kind = kind_of(option);
-      if (known == all.end())
-        known = all.insert(all.end(),
-                           {std::string(option.info.name), std::string(option.info.sentence), kind, {}});
-      SHEARFRONT_EXPECTS(known->sentence == option.info.sentence && known->kind == kind,
-                         "an option that means the same to all its solvers");
+      if (known == all.end()) known = all.insert(all.end(), {std::string(option.info.name), kind, {}});
+      SHEARFRONT_EXPECTS(known->kind == kind, "an option that is given alike to all its solvers");
       OptionValues own = values_of(option);
       auto values = std::find_if(known->values.begin(), known->values.end(), [&](const OptionValues& v) {
-        return v.allowed == own.allowed && v.initial == own.initial;
+        return v.sentence == own.sentence && v.allowed == own.allowed && v.initial == own.initial;
       });
       if (values == known->values.end()) values = known->values.insert(values, std::move(own));
       values->solvers.push_back(name);

@@ -9,17 +9,18 @@
 /// Options of solvers as text: how the command line and files give them, and how they are listed.
 namespace shearfront {
 
-/// What an option may be, and is if it is not given, for the solvers where that is the same.
+/// What an option is, may be, and is if it is not given, for the solvers where that is the same.
 struct OptionValues {
+  std::string sentence;
   std::string allowed;  ///< "> 0 and <= 1"; empty for flags and names
   std::string initial;  ///< the default
   std::vector<std::string> solvers;
 };
 
-/// One option of all solvers that have it. Its name, sentence and kind are the same for all of them; its values need
-/// not be.
+/// One option of all solvers that have it. Its name and kind are the same for all of them; what it is and its values
+/// need not be.
 struct OptionText {
-  std::string name, sentence;
+  std::string name;
   std::string kind;  ///< what to give: "N" (a whole number), "X" (a number), "a|b"; empty: a flag
   std::vector<OptionValues> values;
 
@@ -30,7 +31,7 @@ struct OptionText {
 /// What a number may be: "> 0 and <= 1".
 [[nodiscard]] std::string allowed_text(const OptionRange& range);
 
-/// The options of all solvers, each once. Precondition: options of the same name have the same sentence and kind.
+/// The options of all solvers, each once. Precondition: options of the same name have the same kind.
 [[nodiscard]] std::vector<OptionText> all_options();
 
 /// Sets an option from its text ("true" for a flag). Errors: InputError with `key` as its key and what is allowed.

@@ -10,10 +10,12 @@ using detail::json_digits;
 using detail::json_text;
 
 Json to_json(const Summary& s) {
-  return {{"collisions", s.collisions}, {"fronts_max", s.fronts_max},
-          {"levels", s.levels},         {"cell_updates", s.cell_updates},
-          {"wall_s", s.wall_s},         {"status", name_of(s.status)},
-          {"message", s.message}};
+  Json all = {{"collisions", s.collisions}, {"fronts_max", s.fronts_max},
+              {"levels", s.levels},         {"cell_updates", s.cell_updates},
+              {"wall_s", s.wall_s},         {"status", name_of(s.status)},
+              {"message", s.message}};
+  if (!s.remark.empty()) all["remark"] = s.remark;
+  return all;
 }
 
 Json document(std::string_view scene, std::string_view method) {

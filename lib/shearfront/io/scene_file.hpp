@@ -12,7 +12,8 @@ namespace shearfront {
 /// Models are looked up in FluxList and DepthFunctionList and their entries read through fields(), so a new
 /// model needs no change here. Guaranteed:
 ///   (1) numbers are read in the scalar from their text in the file: in Real110, 0.31 is the decimal 0.31;
-///   (2) every complaint is reported, one line each in the order of the file, with line and column;
+///   (2) every complaint is reported, one line each in the order of the file, with line and column; of more than
+///       1000 the number of the others;
 ///   (3) a file is valid or not whatever the scalar, except for what rounding to the scalar decides.
 /// A scene without a name gets that of the file. Errors: FileError (an InputError).
 /// Cost: O(size of the file); 1e6 numbers take about a second.

@@ -5,12 +5,20 @@
 #include <charconv>
 #include <utility>
 
+#include "shearfront/io/detail/deep_key.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::detail {
 namespace {
 
 toml::table parse(const TextSource& text) {
+  if (const auto deep = first_deep_key(text.text())) {
+    ComplaintReport report(text.name());
+    report.add(text.position(*deep),
+               {"key", "", "must have at most " + std::to_string(kMostKeyNames) + " names",
+                Complaint::Kind::syntax});
+    report.throw_if_any();
+  }
   try {
     return toml::parse(with_tame_numbers(text.text()), text.name());
   } catch (const toml::parse_error& error) {
@@ -107,7 +115,8 @@ TomlSource::Found TomlSource::find(std::string_view path) const {
 }
 
 std::string TableReader::path(std::string_view key) const {
-  const std::string shown = is_bare(key) ? std::string(key) : quoted_text(key);
+  constexpr std::size_t kLongestShown = 60;
+  const std::string shown = is_bare(key) ? printable(key, kLongestShown) : quoted_text(key);
   return path_.empty() ? shown : path_ + "." + shown;
 }
 

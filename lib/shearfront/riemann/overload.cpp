@@ -27,7 +27,7 @@ struct Interval {
   }
 };
 
-/// Values that are monotone on the piece, at its two ends.
+/// Values that are monotone on the stretch, at its two ends.
 template <class Function>
 Interval between(const Function& f, double lo, double hi) {
   Interval values;
@@ -36,31 +36,31 @@ Interval between(const Function& f, double lo, double hi) {
   return values;
 }
 
-/// A piece of the bed between two knots.
-struct Piece {
+/// Part of the bed between two knots.
+struct Stretch {
   double bottom;
   Interval starting;  ///< fluxes of its initial states
   Interval room;      ///< fluxes that its states have at every height
 };
 
-Piece piece_of(const Scene<double>& scene, double lo, double hi) {
+Stretch stretch_of(const Scene<double>& scene, double lo, double hi) {
   const Flux<double>& flux = scene.flux_at(lo);
   const Interval rate = between([&](double z) { return scene.rate_at(z); }, lo, hi);
   const Interval solid = between([&](double z) { return scene.solid_fraction_at(z); }, lo, hi);
   const double least = scene.scale() * rate.least * solid.least,
                most = scene.scale() * rate.most * solid.most;
-  Piece piece{lo, {}, {}};
+  Stretch stretch{lo, {}, {}};
   const auto start = [&](double share) {
-    piece.starting.take(least * flux.value(share));
-    piece.starting.take(most * flux.value(share));
+    stretch.starting.take(least * flux.value(share));
+    stretch.starting.take(most * flux.value(share));
   };
   start(scene.initial_share(lo));
   for (const double z : scene.initial_breaks())
     if (z > lo && z < hi) start(scene.initial_share(z));
   const double at_lowest = flux.value(flux.range().lowest), at_highest = flux.value(flux.range().highest);
   const double low = std::min(at_lowest, at_highest), high = std::max(at_lowest, at_highest);
-  piece.room = {std::max(least * low, most * low), std::min(least * high, most * high)};
-  return piece;
+  stretch.room = {std::max(least * low, most * low), std::min(least * high, most * high)};
+  return stretch;
 }
 
 }  // namespace
@@ -69,32 +69,32 @@ std::string overload(const Scene<double>& scene) {
   std::vector<double> edges = scene.knots();
   edges.insert(edges.begin(), scene.bottom());
   edges.push_back(scene.top());
-  std::vector<Piece> pieces;
+  std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-    pieces.push_back(piece_of(scene, edges[i], edges[i + 1]));
+    stretches.push_back(stretch_of(scene, edges[i], edges[i + 1]));
   const bool is_upward = course_of(scene.fluxes().front()) == FluxCourse::rising;
-  if (!is_upward) std::reverse(pieces.begin(), pieces.end());
+  if (!is_upward) std::reverse(stretches.begin(), stretches.end());
   Interval coming;
   if (scene.spec().is_periodic)
-    for (const Piece& piece : pieces) coming.take(piece.starting);
+    for (const Stretch& stretch : stretches) coming.take(stretch.starting);
   const auto& outside = is_upward ? scene.spec().outside_bottom : scene.spec().outside_top;
   if (outside) {
     const double z = is_upward ? scene.bottom() : std::nextafter(scene.top(), scene.bottom());
     const double k = scene.scale() * scene.rate_at(z) * scene.solid_fraction_at(z);
     for (const double share : outside->values) coming.take(k * scene.flux_at(z).value(share));
   }
-  for (const Piece& piece : pieces) {
+  for (const Stretch& stretch : stretches) {
     constexpr double kRoundings = 8;  // in the products of rates, solid fractions and fluxes
     const double slack = kRoundings * std::numeric_limits<double>::epsilon() *
-                         std::max(std::abs(piece.room.least), std::abs(piece.room.most));
-    if (coming.least < piece.room.least - slack || coming.most > piece.room.most + slack) {
-      const bool is_much = coming.most > piece.room.most + slack;
-      return "the layer above z = " + number_text(piece.bottom) + " has no state for the flux " +
+                         std::max(std::abs(stretch.room.least), std::abs(stretch.room.most));
+    if (coming.least < stretch.room.least - slack || coming.most > stretch.room.most + slack) {
+      const bool is_much = coming.most > stretch.room.most + slack;
+      return "the layer above z = " + number_text(stretch.bottom) + " has no state for the flux " +
              number_text(is_much ? coming.most : coming.least) +
-             " that may come to it; its own lie between " + number_text(piece.room.least) + " and " +
-             number_text(piece.room.most);
+             " that may come to it; its own lie between " + number_text(stretch.room.least) + " and " +
+             number_text(stretch.room.most);
     }
-    coming.take(piece.starting);
+    coming.take(stretch.starting);
   }
   return {};
 }

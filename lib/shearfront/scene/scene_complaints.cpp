@@ -61,6 +61,12 @@ class Checker {
   void domain() {
     check_number("domain.bottom", Range::any, spec_.bottom, complaints_);
     check_number("domain.top", Range::any, spec_.top, complaints_);
+    // Heights are subtracted, and multiplied with fractions and small numbers.
+    const Scalar farthest(1e300);
+    for (const auto& [key, z] :
+         {std::pair("domain.bottom", spec_.bottom), std::pair("domain.top", spec_.top)})
+      if (is_finite(z) && (z > farthest || z < -farthest))
+        add(key, number_text(z), "must be between -1e+300 and 1e+300");
     if (is_finite(spec_.bottom) && is_finite(spec_.top) && !(spec_.top > spec_.bottom))
       add("domain.top", number_text(spec_.top),
           "must be greater than domain.bottom (" + number_text(spec_.bottom) + ")");

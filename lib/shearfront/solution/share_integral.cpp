@@ -12,11 +12,11 @@ namespace shearfront {
 namespace {
 
 /// phi over [lo, hi] without a knot of c, linear between its ends.
-struct Piece {
+struct SharePiece {
   double lo, hi, phi_lo, phi_hi;
 };
 
-double integral_of(const Scene<double>& scene, const Piece& piece, const ShareFunction& g) {
+double integral_of(const Scene<double>& scene, const SharePiece& piece, const ShareFunction& g) {
   const double width = piece.hi - piece.lo;
   const auto phi_at = [&](double z) {
     return piece.phi_lo + (piece.phi_hi - piece.phi_lo) * ((z - piece.lo) / width);

@@ -45,6 +45,7 @@ enum class Status {
 struct Summary {
   Status status = Status::not_run;
   std::string message = "solve() was not called";
+  std::string remark;              ///< of a usable result: what is less good than usual, and what helps
   std::uint64_t collisions = 0;    ///< front tracking: Riemann problems solved after t = 0
   std::uint64_t fronts_max = 0;    ///< front tracking: most fronts alive at one time
   std::uint64_t levels = 0;        ///< front tracking: flux levels of the grid

@@ -62,7 +62,9 @@ SolverResult solve(const Scene<double>& scene, const Method& method, const Solve
     result.summary = unsupported(std::move(why));
     return result;
   }
-  const auto run = method.start(scene, {request.timeline, request.fronts, progress});
+  double last_time = 0;
+  for (const double t : request.times) last_time = std::max(last_time, t);
+  const auto run = method.start(scene, {request.timeline, request.fronts, progress, last_time});
   const Guarantees guarantees = method.guarantees();
   const std::size_t n = request.heights.size();
   result.samples.resize(request.times.size() * n);
@@ -116,9 +118,10 @@ PlaceSamples sample(const Scene<double>& scene, const Method& method, const std:
     result.summary = unsupported(std::move(why));
     return result;
   }
-  const auto run = method.start(scene, {false, false, progress});
-  result.samples.resize(places.size());
   const auto order = ascending(places, [](const Place& place) { return place.t; });
+  const double last_time = places.empty() ? 0 : places[order.back()].t;
+  const auto run = method.start(scene, {false, false, progress, last_time});
+  result.samples.resize(places.size());
   std::vector<double> heights;
   for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
     const double t = places[order[from]].t;

@@ -31,6 +31,9 @@ struct Watch {
   bool timeline = false;  ///< event times are wanted (solvers with has_timeline)
   bool fronts = false;    ///< front segments are wanted (solvers with has_fronts)
   Progress progress;
+  double last_time =
+      0;  ///< the latest time that will be asked for, where it is known: work that is too much for
+          ///< it is refused before any is done
 };
 
 /// One front of a front-tracking solution from its birth to its end: a straight segment of the (t, z) plane

@@ -3,7 +3,6 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <set>
 #include <string>
 #include <string_view>
@@ -49,7 +48,8 @@ class TextSource {
 /// `most` and how many more there are. Memory: O(most).
 class ComplaintReport {
  public:
-  explicit ComplaintReport(std::string file, std::size_t most = std::numeric_limits<std::size_t>::max())
+  static constexpr std::size_t kUsualMost = 1000;  ///< complaints that are told; of the others their number
+  explicit ComplaintReport(std::string file, std::size_t most = kUsualMost)
       : file_(std::move(file)), most_(most) {}
 
   void add(Position position, Complaint complaint) { add(position, position, std::move(complaint)); }

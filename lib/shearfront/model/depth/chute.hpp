@@ -23,6 +23,7 @@ struct Chute {
   static constexpr std::string_view kName = "chute";
   static constexpr std::string_view kFormula = "amplitude exp(|z - centre| / decay)";
   static constexpr bool kIsLayered = false;
+  static constexpr bool kIsExponential = true;
 
   Scalar amplitude{1}, decay{1}, centre{0};
 
@@ -64,6 +65,18 @@ struct Chute {
     add(0, mean / amplitude);
     add(1, -mean * (r + h * (Scalar(1) - exponential_mean_place(h))) / decay);
     add(2, is_below ? Scalar(mean / decay) : Scalar(-mean / decay));
+  }
+  template <class AddLow, class AddHigh>
+  void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {
+    const bool is_below = hi <= centre;
+    const auto at = [&](const Scalar& z, auto& add) {
+      const Scalar a = value(z), by_centre = a / decay;
+      add(0, Scalar(a / amplitude));
+      add(1, Scalar(-a * (distance(z) / decay) / decay));
+      add(2, is_below ? by_centre : Scalar(-by_centre));
+    };
+    at(lo, add_low);
+    at(hi, add_high);
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return {centre}; }
 

@@ -21,6 +21,7 @@ struct Exponential {
   static constexpr std::string_view kName = "exponential";
   static constexpr std::string_view kFormula = "amplitude exp(-z / decay)";
   static constexpr bool kIsLayered = false;
+  static constexpr bool kIsExponential = true;
 
   Scalar amplitude{1}, decay{1};
 
@@ -60,7 +61,16 @@ struct Exponential {
     add(1, mean * (lo / decay + h * exponential_mean_place(h)) / decay);
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
-  [[nodiscard]] ExponentialPiece<Scalar> exponential() const { return {amplitude, decay}; }
+  template <class AddLow, class AddHigh>
+  void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {
+    const auto at = [&](const Scalar& z, auto& add) {
+      const Scalar a = value(z);
+      add(0, Scalar(a / amplitude));
+      add(1, Scalar(a * (z / decay) / decay));
+    };
+    at(lo, add_low);
+    at(hi, add_high);
+  }
 
   static std::vector<Exponential> samples() {
     return {

@@ -14,27 +14,20 @@
 /// from value(), harmonic_mean() and knots(), more slowly.
 namespace shearfront {
 
-/// a(z) = amplitude exp(-z / decay).
-template <Real Scalar>
-struct ExponentialPiece {
-  Scalar amplitude, decay;
-};
-
-/// Where all of a model is exponential: its two entries, amplitude and decay, if it has an exponential() that says so.
-template <class Model>
-[[nodiscard]] auto exponential_piece(const Model& model) {
-  using Scalar = std::remove_cvref_t<decltype(model.value({}))>;
-  if constexpr (requires { model.exponential(); })
-    return std::optional<ExponentialPiece<Scalar>>(model.exponential());
-  else
-    return std::optional<ExponentialPiece<Scalar>>();
-}
-
 /// Whether a model says (kIsLinear) that a(z) is linear between its knots: the exact engine then takes it as it is.
 template <class Model>
 [[nodiscard]] constexpr bool is_linear_between_knots(const Model& /*model*/) {
   if constexpr (requires { Model::kIsLinear; })
     return Model::kIsLinear;
+  else
+    return false;
+}
+
+/// Likewise (kIsExponential) that log a(z) is.
+template <class Model>
+[[nodiscard]] constexpr bool is_exponential_between_knots(const Model& /*model*/) {
+  if constexpr (requires { Model::kIsExponential; })
+    return Model::kIsExponential;
   else
     return false;
 }
@@ -62,7 +55,8 @@ template <class Model, class Scalar>
 }
 
 /// Derivatives of end_values, the ends held fixed: calls add_low(entry, derivative) and add_high(entry, derivative), entries in
-/// the order of fields(); a knot at an end moves out of the interval. Models that are linear between knots have it.
+/// the order of fields(); a knot at an end moves out of the interval. Models that are linear or exponential between knots have
+/// it.
 template <class Model, class Scalar, class AddLow, class AddHigh>
 void end_value_derivatives(const Model& model, const Scalar& lo, const Scalar& hi, AddLow&& add_low,
                            AddHigh&& add_high) {

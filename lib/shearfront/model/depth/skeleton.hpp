@@ -46,10 +46,9 @@ struct SkeletonDepthFunction {
   }
   /// Which entry each of knots() is, in their order; kNoEntry for none.
   [[nodiscard]] std::vector<std::size_t> knot_entries() const { return {}; }
-  // static constexpr bool kIsLinear = true, if a(z) is linear between knots(); then also, where a jumps at one of them,
-  // bool jumps_at(z), EndValues<Scalar> end_values(lo, hi), and always end_value_derivatives(lo, hi, add_low, add_high): see model.hpp.
-  // std::optional<ExponentialPiece<Scalar>> exponential() const, if all of the model is amplitude exp(-z / decay) and
-  // these are its two entries, in this order: then the exact engine has closed forms.
+  // static constexpr bool kIsLinear = true, if a(z) is linear between knots(), or kIsExponential = true, if log a(z) is: the exact
+  // engine then takes it as it is. Then always end_value_derivatives(lo, hi, add_low, add_high), and, where a jumps at a
+  // knot, bool jumps_at(z) and EndValues<Scalar> end_values(lo, hi): see model.hpp.
 
   static std::vector<SkeletonDepthFunction> samples() { return {{Scalar(1)}, {Scalar(3)}}; }
 };

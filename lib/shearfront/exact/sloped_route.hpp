@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "shearfront/exact/linear_crossing.hpp"
+#include "shearfront/exact/sloped_crossing.hpp"
+#include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
@@ -13,26 +14,33 @@ namespace shearfront::exact {
 /// The way of a path without its start and its end: runs between nodes, each passed once or twice, and a turn. Its least
 /// rate `least` is the largest h that can pass; with m the node that has it, h = least (1 - q_m^2).
 template <Real Scalar>
-struct LinearRoute {
+struct SlopedRoute {
   struct Run {
     Scalar d, r1, r2;
+    RateForm form;
     bool twice;
   };
   boost::container::small_vector<Run, 24> runs;
+  SlopedStretches<Scalar> stretches;  ///< of the runs
   Scalar least = infinity<Scalar>();
-  Scalar turn_slope{0};  ///< |b| of the piece in which it turns; 0: it does not
-  Scalar turn_rate{0};   ///< r where it enters that piece for good
+  Scalar turn_bend{0};  ///< |bend| of the piece in which it turns; 0: it does not
+  RateForm turn_form = RateForm::linear;
+  Scalar turn_rate{0};  ///< r where it enters that piece for good
 
-  void add(const Scalar& d, const Scalar& r1, const Scalar& r2, bool twice) {
+  explicit SlopedRoute(std::size_t n_pieces) : stretches(n_pieces) {}
+
+  void add(RateForm form, const RelativeBends<Scalar>& bends, const Scalar& d, const Scalar& r1,
+           const Scalar& r2, bool twice) {
     least = std::min({least, r1, r2});
-    if (d > 0) runs.push_back({d, r1, r2, twice});
+    if (d > 0) runs.push_back({d, r1, r2, form, twice});
+    stretches.add(bends, d, r1, r2, twice);
   }
 };
 
 /// A route at one h. F = q_m dT/dh is held between bounds on an interval of h by parts that are monotone in h:
 /// F = rising + q_m steep + up - down, where rising and steep do not decrease and up, down and q_m do not increase.
 template <Real Scalar>
-struct LinearSample {
+struct SlopedSample {
   Scalar v{0};  ///< the variable of the search
   Scalar h{0}, qm2{0}, qm{0};
   Scalar y{0};          ///< start
@@ -54,7 +62,7 @@ template <Real Scalar>
 
 /// Adds all runs and the turn of a route to a sample that has h, qm2, qm.
 template <Real Scalar>
-void add_route(const LinearRoute<Scalar>& route, LinearSample<Scalar>& s) {
+void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
   const Scalar& least = route.least;
   Scalar r_last(-1), q_last(0);
   for (const auto& run : route.runs) {
@@ -62,27 +70,38 @@ void add_route(const LinearRoute<Scalar>& route, LinearSample<Scalar>& s) {
     const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, least, s.qm2);
     r_last = run.r2;
     q_last = q2;
-    const Crossing<Scalar> c(run.d, run.r1, q1, run.r2, q2, s.h);
+    const Crossing<Scalar> c(run.form, run.d, run.r1, q1, run.r2, q2, s.h);
     const Scalar n(run.twice ? 2 : 1);
     s.T += n * c.T;
     s.X += n * c.X;
-    const Scalar by = n * run.d / (run.r1 * run.r2 * (q1 + q2));
-    if (run.r1 == least)
-      s.rising += by / q2;
-    else if (run.r2 == least)
-      s.rising += by / q1;
-    else
-      s.steep += by / (q1 * q2);
+    if (run.form == RateForm::linear) {
+      const Scalar by = n * run.d / (run.r1 * run.r2 * (q1 + q2));
+      if (run.r1 == least)
+        s.rising += by / q2;
+      else if (run.r2 == least)
+        s.rising += by / q1;
+      else
+        s.steep += by / (q1 * q2);
+    } else {
+      // T = 2 sigma / (q1 + q2); with q_m at one end the product does not decrease either.
+      const Scalar by = n * c.T / (Scalar(2) * (q1 + q2));
+      if (run.r1 == least)
+        s.rising += by * (Scalar(1) / run.r1 + q1 / (run.r2 * q2));
+      else if (run.r2 == least)
+        s.rising += by * (Scalar(1) / run.r2 + q2 / (run.r1 * q1));
+      else
+        s.steep += by * (Scalar(1) / (run.r1 * q1) + Scalar(1) / (run.r2 * q2));
+    }
   }
-  if (route.turn_slope > 0) {
+  if (route.turn_bend > 0) {
     const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.qm2);
-    const Scalar T = Scalar(4) / route.turn_slope * artanh_of(q, route.turn_rate, s.h);
-    s.T += T;
-    s.T_falling += T;
-    s.X_falling += route.turn_rate * q / route.turn_slope;
+    const Turn<Scalar> turn(route.turn_form, route.turn_bend, route.turn_rate, q, s.h);
+    s.T += turn.T;
+    s.T_falling += turn.T;
+    s.X_falling += turn.X;
     s.X += s.X_falling;
     const Scalar ratio = route.turn_rate == least ? Scalar(1) : Scalar(s.qm / q);
-    s.down += Scalar(2) * ratio / (route.turn_slope * s.h);
+    s.down += ratio * turn.steep;
   }
 }
 
@@ -91,14 +110,14 @@ void add_route(const LinearRoute<Scalar>& route, LinearSample<Scalar>& s) {
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
 /// point before t, so the sign is known: + for straight fans, - for turned ones.
 template <Real Scalar, class At, class Slope, class Found>
-class LinearRootSearch {
+class SlopedRootSearch {
  public:
-  LinearRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
+  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
       : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {
     tolerance_ = Scalar(256) * unit_roundoff<Scalar>() * t;
   }
 
-  void run(const LinearSample<Scalar>& a, const LinearSample<Scalar>& b, int depth = 0) {
+  void run(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b, int depth = 0) {
     // T between the values of its rising and its falling part.
     if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance_) return;
     if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance_) return;
@@ -110,15 +129,15 @@ class LinearRootSearch {
     if (is_sure || depth == kMost) return solve(a, b);
     const Scalar middle = split(a.v, b.v);
     if (!(middle > std::min(a.v, b.v) && middle < std::max(a.v, b.v))) return solve(a, b);
-    const LinearSample<Scalar> m = at_(middle);
+    const SlopedSample<Scalar> m = at_(middle);
     run(a, m, depth + 1);
     run(m, b, depth + 1);
   }
 
   /// T is monotone on [a, b] with the sign wanted.
-  void solve(const LinearSample<Scalar>& a, const LinearSample<Scalar>& b) {
-    const LinearSample<Scalar>& less = sign_ > 0 ? a : b;  // T <= t there
-    const LinearSample<Scalar>& more = sign_ > 0 ? b : a;
+  void solve(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b) {
+    const SlopedSample<Scalar>& less = sign_ > 0 ? a : b;  // T <= t there
+    const SlopedSample<Scalar>& more = sign_ > 0 ? b : a;
     if (less.T >= t_) {
       if (less.T <= t_ + tolerance_) found_(less, Scalar(0));
       return;
@@ -132,7 +151,7 @@ class LinearRootSearch {
     using std::sqrt;
     const Scalar close = sqrt(unit_roundoff<Scalar>());
     for (int n = 0; n < 400; ++n) {
-      const LinearSample<Scalar> s = at_(v);
+      const SlopedSample<Scalar> s = at_(v);
       const Scalar gap = t_ - s.T;
       (gap > 0 ? lo : hi) = v;
       Scalar step = gap / slope_(s);

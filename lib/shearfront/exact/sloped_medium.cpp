@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/exact/linear_medium.hpp"
+#include "shearfront/exact/sloped_medium.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "shearfront/exact/linear_arrival.hpp"
-#include "shearfront/exact/linear_gradient.hpp"
-#include "shearfront/exact/linear_search.hpp"
+#include "shearfront/exact/arc.hpp"
+#include "shearfront/exact/initial_amount.hpp"
+#include "shearfront/exact/sloped_arrival.hpp"
+#include "shearfront/exact/sloped_gradient.hpp"
+#include "shearfront/exact/sloped_search.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
 
 template <Real Scalar>
-LinearMedium<Scalar>::LinearMedium(LinearPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass)
+SlopedMedium<Scalar>::SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass)
     : Medium<Scalar>(std::move(cells), std::move(mass)),
       pieces_(std::move(pieces)),
       up_(pieces_, cells_, false),
@@ -21,22 +23,22 @@ LinearMedium<Scalar>::LinearMedium(LinearPieces<Scalar> pieces, Cells<Scalar> ce
       throats_(up_, down_) {}
 
 template <Real Scalar>
-Path<Scalar> LinearMedium<Scalar>::best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const {
+Path<Scalar> SlopedMedium<Scalar>::best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const {
   return search(z, t, upper, false);
 }
 
 template <Real Scalar>
-Path<Scalar> LinearMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t) const {
+Path<Scalar> SlopedMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t) const {
   return search(z, t, infinity<Scalar>(), true);
 }
 
 template <Real Scalar>
-Path<Scalar> LinearMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
+Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                           bool moving_only) const {
   using std::sqrt;
   Path<Scalar> best;
-  LinearSearch<Scalar>(up_, z, t, upper, moving_only, best).run();
-  LinearSearch<Scalar>(down_, Scalar(-z), t, upper, moving_only, best).run();
+  SlopedSearch<Scalar>(up_, z, t, upper, moving_only, best).run();
+  SlopedSearch<Scalar>(down_, Scalar(-z), t, upper, moving_only, best).run();
   const std::size_t above = cells_.cell_at(z);
   const bool is_node = above > 0 && z == cells_.x[above];
   const std::size_t below = is_node ? above - 1 : above;
@@ -50,42 +52,36 @@ Path<Scalar> LinearMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
   const Scalar q = q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0);
   const Scalar less = std::min(Scalar(0.5), Scalar(Scalar(2) * best.H / r / (Scalar(1) + q)));
   best.p = best.upward ? Scalar(Scalar(1) - less) : less;
+  // A state that has not left its cell knows p itself: after no time it is what it was, to the bit.
+  const bool is_inside =
+      best.kind == PathKind::constant && best.source == above && (!best.turned || best.interface == above);
+  if (is_inside)
+    best.p = arc_from_state(up_.form[above], up_.bend[above], t, up_.p[above], up_.missing[above], r).p;
   return best;
 }
 
 template <Real Scalar>
-Scalar LinearMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& to) const {
+Scalar SlopedMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& to) const {
   const Scalar &lo = std::min(from, to), &hi = std::max(from, to), one(1);
   Scalar time(0);
   for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
     const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
-    if (b > a) time += Crossing<Scalar>(b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one, Scalar(0)).T;
+    if (b > a)
+      time += Crossing<Scalar>(pieces_.form[k], b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
+                               Scalar(0))
+                  .T;
   }
   return time;
 }
 
 /// The value of a path is (M0 at its start + U) + sum X + H (t - sum T), U the height gained on its ways up, those in a turn
 /// counted to the far end of the piece: the bracket holds data only, and the other terms are small where H is. A turn
-/// from the rate r to h in a piece that ends at r_end has X = (r_end - h / (1 + q)) / |b| then.
+/// from the rate r to h in a linear piece that ends at r_end has X = (r_end - h / (1 + q)) / |b| then.
 template <Real Scalar>
-Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
+Scalar SlopedMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                        FinalAmount amount) const {
   CompensatedSum<Scalar> sum;
-  if (amount == FinalAmount::full_below || (amount == FinalAmount::both && path.upward)) {
-    sum += z;
-    sum += -cells_.x.front();
-  } else {
-    sum += cells_.M.back();
-    sum += cells_.M_low.back();
-  }
-  sum += -cells_.M[path.source];
-  sum += -cells_.M_low[path.source];
-  if (path.kind == PathKind::constant || path.is_state) {
-    const TwoSum<Scalar> inside(path.foot, Scalar(-cells_.x[path.source]));
-    const TwoProduct<Scalar> initial(inside.high, cells_.phi[path.source]);
-    sum += -initial.high;
-    sum += -(initial.low + inside.low * cells_.phi[path.source]);
-  }
+  add_final_less_initial(cells_, path, z, amount, sum);
   const Scalar h = Scalar(4) * path.H;
   const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
   const auto rise = [&](const Scalar& from, const Scalar& to) {
@@ -100,7 +96,7 @@ Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
       const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
       if (!(b > a)) continue;
       const Scalar r1 = pieces_.rate(k, a), r2 = pieces_.rate(k, b);
-      const Crossing<Scalar> c(b - a, r1, q(r1), r2, q(r2), h);
+      const Crossing<Scalar> c(pieces_.form[k], b - a, r1, q(r1), r2, q(r2), h);
       T += n * c.T;
       X += n * c.X;
     }
@@ -121,9 +117,13 @@ Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
     run(path.foot, z, 1);
     run(outer, last, 2);
     const Scalar r = pieces_.rate(j, last), &r_end = is_up ? pieces_.high[j] : pieces_.low[j];
-    const Scalar slope = is_up ? Scalar(-pieces_.slope(j)) : pieces_.slope(j);
-    T += Scalar(4) / slope * artanh_of(q(r), r, h);
-    X += (r_end - h / (Scalar(1) + q(r))) / slope;
+    const Scalar bend = is_up ? Scalar(-pieces_.bend[j]) : pieces_.bend[j];
+    const Turn<Scalar> turn(pieces_.form[j], bend, r, q(r), h);
+    T += turn.T;
+    if (pieces_.form[j] == RateForm::linear)
+      X += (r_end - h / (Scalar(1) + q(r))) / bend;
+    else
+      X += turn.X - (is_up ? Scalar(far - last) : Scalar(last - far));
   } else {
     rise(path.foot, z);
     if (h > 0) run(path.foot, z, 1);
@@ -135,16 +135,16 @@ Scalar LinearMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
 }
 
 template <Real Scalar>
-std::optional<Scalar> LinearMedium<Scalar>::first_wave(std::size_t i) const {
-  return LinearArrival<Scalar>(*this, i).find();
+std::optional<Scalar> SlopedMedium<Scalar>::first_wave(std::size_t i) const {
+  return SlopedArrival<Scalar>(*this, i).find();
 }
 
 template <Real Scalar>
-PathGradient<Scalar> LinearMedium<Scalar>::gradient(const Path<Scalar>& path, const Scalar& z,
+PathGradient<Scalar> SlopedMedium<Scalar>::gradient(const Path<Scalar>& path, const Scalar& z,
                                                     const Scalar& t) const {
-  return LinearGradient<Scalar>(pieces_, cells_, path, z, t).run();
+  return SlopedGradient<Scalar>(pieces_, cells_, path, z, t).run();
 }
 
-template class LinearMedium<Instantiated>;
+template class SlopedMedium<Instantiated>;
 
 }  // namespace shearfront::exact

@@ -6,20 +6,34 @@
 #include <vector>
 
 #include "shearfront/exact/cells.hpp"
-#include "shearfront/exact/linear_crossing.hpp"
+#include "shearfront/exact/sloped_crossing.hpp"
+#include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
 
-/// Pieces in which the rate r = s a is linear in z; it may jump between them.
+/// Pieces in which the rate r = s a is linear or exponential in z; it may jump between them.
 template <Real Scalar>
-struct LinearPieces {
+struct SlopedPieces {
   std::vector<Scalar> boundaries;
   std::vector<Scalar> low, high;  ///< r at the lower and upper end of each piece
+  std::vector<RateForm> form;
+  std::vector<Scalar> bend;  ///< exact/rate_form.hpp; its sign is that of the slope
+
+  SlopedPieces(std::vector<Scalar> heights, std::vector<Scalar> lows, std::vector<Scalar> highs,
+               std::vector<RateForm> forms)
+      : boundaries(std::move(heights)), low(std::move(lows)), high(std::move(highs)), form(std::move(forms)) {
+    for (std::size_t k = 0; k < size(); ++k) {
+      if (low[k] == high[k]) form[k] = RateForm::linear;
+      bend.push_back(bend_between(form[k], low[k], high[k], width(k)));
+    }
+  }
 
   [[nodiscard]] std::size_t size() const { return low.size(); }
-  [[nodiscard]] Scalar slope(std::size_t k) const {
-    return (high[k] - low[k]) / (boundaries[k + 1] - boundaries[k]);
+  [[nodiscard]] Scalar width(std::size_t k) const { return boundaries[k + 1] - boundaries[k]; }
+  /// dr/dz at the end of a piece, seen from inside.
+  [[nodiscard]] Scalar end_slope(std::size_t k, bool is_high) const {
+    return slope_at(form[k], bend[k], is_high ? high[k] : low[k]);
   }
   /// An inner boundary belongs to the piece above it, the top to the last.
   [[nodiscard]] std::size_t piece_at(const Scalar& z) const {
@@ -29,25 +43,28 @@ struct LinearPieces {
   /// r at a height of piece k, from the nearer end.
   [[nodiscard]] Scalar rate(std::size_t k, const Scalar& z) const {
     const Scalar below = z - boundaries[k], above = boundaries[k + 1] - z;
-    return below < above ? Scalar(low[k] + slope(k) * below) : Scalar(high[k] - slope(k) * above);
+    return below < above ? Scalar(low[k] + rise_of(form[k], bend[k], low[k], below))
+                         : Scalar(high[k] + rise_of(form[k], bend[k], high[k], Scalar(-above)));
   }
 };
 
 /// The bed as a path sees it that sets out upwards, cut at all boundaries and all initial jumps. The other view, of
 /// those that set out downwards, is the same turned upside down: heights -z, momenta 1 - p, amounts as they are.
 template <Real Scalar>
-struct LinearView {
+struct SlopedView {
   bool is_mirror = false;
-  std::vector<Scalar> x;           ///< nodes, ascending
-  std::vector<Scalar> M;           ///< int phi(z, 0) dz from the true bottom, at the nodes
-  std::vector<Scalar> low, high;   ///< r at the ends of each cell
-  std::vector<Scalar> slope;       ///< of r
+  std::vector<Scalar> x;          ///< nodes, ascending
+  std::vector<Scalar> M;          ///< int phi(z, 0) dz from the true bottom, at the nodes
+  std::vector<Scalar> low, high;  ///< r at the ends of each cell
+  std::vector<RateForm> form;
+  std::vector<Scalar> bend;  ///< of r in each cell
+  std::vector<RelativeBends<Scalar>> bends;
   std::vector<Scalar> p, missing;  ///< initial state of each cell, and what it lacks to 1
   std::vector<Scalar> q0;          ///< 2 p - 1
   std::vector<Scalar> pure;        ///< int dz / r from the first node
   std::vector<bool> emits;         ///< a fan can leave the node upwards
 
-  LinearView(const LinearPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored)
+  SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored)
       : is_mirror(mirrored), M(cells.M) {
     const Scalar one(1);
     for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
@@ -58,20 +75,24 @@ struct LinearView {
           cells.x[i + 1] == pieces.boundaries[k + 1] ? pieces.high[k] : pieces.rate(k, cells.x[i + 1]);
       low.push_back(mirrored ? hi : lo);
       high.push_back(mirrored ? lo : hi);
-      slope.push_back(mirrored ? Scalar(-pieces.slope(k)) : pieces.slope(k));
+      form.push_back(pieces.form[k]);
+      bend.push_back(mirrored ? Scalar(-pieces.bend[k]) : pieces.bend[k]);
       p.push_back(mirrored ? Scalar(one - cells.phi[i]) : cells.phi[i]);
       missing.push_back(mirrored ? cells.phi[i] : Scalar(one - cells.phi[i]));
       q0.push_back(mirrored ? Scalar(one - Scalar(2) * cells.phi[i])
                             : Scalar(Scalar(2) * cells.phi[i] - one));
     }
     if (mirrored) {
-      for (auto* all : {&x, &M, &low, &high, &slope, &p, &missing, &q0})
+      for (auto* all : {&x, &M, &low, &high, &bend, &p, &missing, &q0})
         std::reverse(all->begin(), all->end());
+      std::reverse(form.begin(), form.end());
     }
+    for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
     pure = {Scalar(0)};
     emits.assign(x.size(), false);
     for (std::size_t i = 0; i < n_cells(); ++i) {
-      pure.push_back(pure[i] + Crossing<Scalar>(x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
+      pure.push_back(pure[i] +
+                     Crossing<Scalar>(form[i], x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
       emits[i] = i > 0 && may_emit(i);
     }
   }
@@ -81,15 +102,16 @@ struct LinearView {
   /// r at a height of a cell, from the nearer end.
   [[nodiscard]] Scalar rate(std::size_t cell, const Scalar& z) const {
     const Scalar below = z - x[cell], above = x[cell + 1] - z;
-    const Scalar r =
-        below < above ? Scalar(low[cell] + slope[cell] * below) : Scalar(high[cell] - slope[cell] * above);
+    const Scalar r = below < above
+                         ? Scalar(low[cell] + rise_of(form[cell], bend[cell], low[cell], below))
+                         : Scalar(high[cell] + rise_of(form[cell], bend[cell], high[cell], Scalar(-above)));
     return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
   }
   /// Time of a pure state from a height in a cell to its upper end.
   [[nodiscard]] Scalar pure_above(std::size_t cell, const Scalar& z) const {
     const Scalar d = x[cell + 1] - z;
     if (!(d > 0)) return Scalar(0);
-    return Crossing<Scalar>(d, rate(cell, z), Scalar(1), high[cell], Scalar(1), Scalar(0)).T;
+    return Crossing<Scalar>(form[cell], d, rate(cell, z), Scalar(1), high[cell], Scalar(1), Scalar(0)).T;
   }
   /// Initial amount below a height of a cell, in the true orientation.
   [[nodiscard]] Scalar amount(std::size_t cell, const Scalar& z) const {
@@ -107,9 +129,9 @@ struct LinearView {
   /// lower side the rate does not fall, at kinks with a minimum, at the ends of flat minima.
   [[nodiscard]] bool is_throat(std::size_t node) const {
     const Scalar &below = high[node - 1], &above = low[node];
-    if (below < above) return !(slope[node - 1] > 0);
-    if (below > above) return !(slope[node] < 0);
-    return !(slope[node - 1] > 0) && !(slope[node] < 0) && (slope[node - 1] != 0 || slope[node] != 0);
+    if (below < above) return !(bend[node - 1] > 0);
+    if (below > above) return !(bend[node] < 0);
+    return !(bend[node - 1] > 0) && !(bend[node] < 0) && (bend[node - 1] != 0 || bend[node] != 0);
   }
   [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
 

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "shearfront/exact/linear_bed.hpp"
-#include "shearfront/exact/linear_route.hpp"
 #include "shearfront/exact/path.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
 
 /// The paths to (z, t), heights of the view, along a given route: those of a fan or of a constant state that take the time t.
 template <Real Scalar>
-class LinearCandidates {
+class SlopedCandidates {
  public:
-  LinearCandidates(const LinearView<Scalar>& view, const Scalar& z, const Scalar& t, const Scalar& upper,
+  SlopedCandidates(const SlopedView<Scalar>& view, const Scalar& z, const Scalar& t, const Scalar& upper,
                    bool moving_only, Path<Scalar>& best)
       : view_(view), z_(z), t_(t), upper_(upper), moving_only_(moving_only), best_(best), n_(view.n_cells()) {
     const auto it = std::upper_bound(view.x.begin() + 1, view.x.end() - 1, z);
@@ -23,17 +23,17 @@ class LinearCandidates {
     rate_above_ = view.rate(above_, z);
     slack_ = Scalar(64) * unit_roundoff<Scalar>() * (view.x.back() - view.x.front());
     const Scalar from = z - view.x[below_];
-    pure_z_ =
-        from > 0
-            ? Scalar(view.pure[below_] +
-                     Crossing<Scalar>(from, view.low[below_], Scalar(1), rate_below_, Scalar(1), Scalar(0)).T)
-            : view.pure[below_];
+    pure_z_ = from > 0
+                  ? Scalar(view.pure[below_] + Crossing<Scalar>(view.form[below_], from, view.low[below_],
+                                                                Scalar(1), rate_below_, Scalar(1), Scalar(0))
+                                                   .T)
+                  : view.pure[below_];
     late_ = t * (Scalar(1) + Scalar(256) * unit_roundoff<Scalar>());
   }
 
  protected:
-  using Route = LinearRoute<Scalar>;
-  using Sample = LinearSample<Scalar>;
+  using Route = SlopedRoute<Scalar>;
+  using Sample = SlopedSample<Scalar>;
 
   [[nodiscard]] Scalar limit() const { return std::min(upper_, best_.value) + slack_; }
   [[nodiscard]] std::size_t true_cell(std::size_t cell) const {
@@ -116,7 +116,7 @@ class LinearCandidates {
       zero = at(Scalar(0));
       return finish_fan(route, node, base, zero, Scalar(0), false, 0);
     }
-    LinearRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, 1, at, slope, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, 1, at, slope, found)
         .solve(zero, top);
   }
 
@@ -132,7 +132,7 @@ class LinearCandidates {
     const auto found = [&](const Sample& s, const Scalar& step) {
       finish_fan(route, node, base, s, step, true, j);
     };
-    LinearRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, -1, at, slope, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, -1, at, slope, found)
         .run(a, b);
   }
   /// No path along the route with h above that of the sample costs less: H' t + int p dz at a smaller H'.
@@ -140,35 +140,43 @@ class LinearCandidates {
     return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - (s.T - s.T_falling));
   }
 
-  // States: h = 4 g r(y); the search runs over the distance e of the start from the end of its range where h is largest, or over
-  // its root where h is the least rate there.
+  // States: h = 4 g r(y); the search runs over what r has lost since the end of its range where h is largest, or over its root
+  // where h is the least rate there.
   enum class Leaves { upwards, downwards };
   struct StateRange {
     std::size_t cell;
     Leaves leaves;
-    Scalar anchor, e_max, qa2, kappa, rate;  ///< rate of r at the anchor
+    Scalar anchor, most_lost, qa2, kappa, rate;  ///< rate of r at the anchor
     bool is_capped, is_empty;
   };
 
+  /// The height of a cell where r is `rate`, `lost` less than at the anchor.
+  [[nodiscard]] Scalar start_of(const StateRange& range, const Scalar& lost) const {
+    const std::size_t k = range.cell;
+    return range.anchor + distance_of(view_.form[k], view_.bend[k], range.rate, Scalar(-lost));
+  }
+
   [[nodiscard]] StateRange range_of(const Route& route, std::size_t k, Leaves leaves,
                                     const Scalar& h_low) const {
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k], &b = view_.slope[k],
-                 q2 = view_.q0[k] * view_.q0[k];
-    const Scalar slope = b < 0 ? Scalar(-b) : b, width = view_.x[k + 1] - view_.x[k];
-    const Scalar& most = b > 0 ? view_.high[k] : view_.low[k];  // rate at the end with the largest h
-    // Where h is met: (4 g r - h) / (4 g slope), and 4 g r - h = (r - h) - r q0^2 where g has lost what 1 - 4 g keeps.
-    const auto place = [&](const Scalar& h) {
-      return q2 > Scalar(0.5) ? Scalar((most - h / four_g) / slope)
-                              : Scalar(((most - h) - most * q2) / (four_g * slope));
+    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k], q2 = view_.q0[k] * view_.q0[k];
+    const bool is_rising = view_.bend[k] > 0;
+    const Scalar &most = is_rising ? view_.high[k] : view_.low[k],  // rate at the end with the largest h
+        &end = is_rising ? view_.x[k + 1] : view_.x[k];
+    // What r has lost where h is met: r - h / (4 g), and 4 g r - h = (r - h) - r q0^2 where g has lost what 1 - 4 g keeps.
+    const auto lost_at = [&](const Scalar& h) {
+      return q2 > Scalar(0.5) ? Scalar(most - h / four_g) : Scalar(((most - h) - most * q2) / four_g);
     };
-    const Scalar first = place(route.least);
-    StateRange range{k,         leaves,     Scalar(0), Scalar(0), Scalar(0), four_g * slope / route.least,
-                     Scalar(0), first >= 0, false};
-    const Scalar skip = std::max(Scalar(0), first), last = std::min(width, place(h_low));
+    const Scalar first = lost_at(route.least);
+    StateRange range{k, leaves, end, Scalar(0), Scalar(0), four_g / route.least, most, first >= 0, false};
+    const Scalar skip = std::max(Scalar(0), first),
+                 last = std::min(
+                     is_rising ? Scalar(view_.high[k] - view_.low[k]) : Scalar(view_.low[k] - view_.high[k]),
+                     lost_at(h_low));
     range.is_empty = !(skip <= last);
-    range.anchor = b > 0 ? Scalar(view_.x[k + 1] - skip) : Scalar(view_.x[k] + skip);
-    range.rate = most - slope * skip;
-    range.e_max = last - skip;
+    if (range.is_empty) return range;
+    if (skip > 0) range.anchor = start_of(range, skip);
+    range.rate = most - skip;
+    range.most_lost = last - skip;
     if (!range.is_capped)
       range.qa2 = std::max(Scalar(0), Scalar(((route.least - most) + most * q2) / route.least));
     return range;
@@ -177,37 +185,53 @@ class LinearCandidates {
   [[nodiscard]] Sample state_sample(const Route& route, const StateRange& range, const Scalar& v) const {
     using std::sqrt;
     const std::size_t k = range.cell;
-    const Scalar& b = view_.slope[k];
-    const Scalar slope = b < 0 ? Scalar(-b) : b, e = range.is_capped ? Scalar(v * v) : v;
+    const Scalar lost = range.is_capped ? Scalar(v * v) : v;
     Sample s;
     s.v = v;
-    s.y = b > 0 ? Scalar(range.anchor - e) : Scalar(range.anchor + e);
-    const Scalar r = range.rate - slope * e;
+    s.y = start_of(range, lost);
+    const Scalar r = range.rate - lost;
     s.h = Scalar(4) * view_.p[k] * view_.missing[k] * r;
-    s.qm2 = range.qa2 + range.kappa * e;
+    s.qm2 = range.qa2 + range.kappa * lost;
     s.qm = sqrt(s.qm2);
     add_route(route, s);
     const bool up = range.leaves == Leaves::upwards;
     const Scalar& exit = up ? view_.high[k] : view_.low[k];
     const Scalar d = up ? view_.x[k + 1] - s.y : s.y - view_.x[k];
     const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
-    const Crossing<Scalar> c(std::max(Scalar(0), d), r, view_.q0[k], exit, q, s.h);
+    const Crossing<Scalar> c(view_.form[k], std::max(Scalar(0), d), r, view_.q0[k], exit, q, s.h);
     s.T += c.T;
     s.X += c.X;
-    const Scalar by = (exit == route.least || !(q > 0) ? Scalar(1) : Scalar(s.qm / q)) / (slope * s.h);
-    if (up && b < 0) {
-      s.up += by;
-    } else {
-      s.down += by;
-      s.T_falling += c.T;
-    }
+    const bool is_rising_h = up && view_.bend[k] < 0;
+    add_start(route, k, q, is_rising_h, !up, s);
+    if (!is_rising_h) s.T_falling += c.T;
     if (!up) {
-      const Scalar turn = Scalar(4) / slope * artanh_of(view_.q0[k], r, s.h);
-      s.T += turn;
-      s.T_falling += turn;
-      s.X += r * view_.q0[k] / slope;
+      const Turn<Scalar> turn(view_.form[k], size_of_bend(k), r, view_.q0[k], s.h);
+      s.T += turn.T;
+      s.T_falling += turn.T;
+      s.X += turn.X;
     }
     return s;
+  }
+
+  [[nodiscard]] Scalar size_of_bend(std::size_t k) const {
+    return view_.bend[k] < 0 ? Scalar(-view_.bend[k]) : view_.bend[k];
+  }
+
+  /// dT/dh at fixed q0 of the way from the start to the end of its cell where q is `q`. Linear: T = +-(2 / b) (artanh q -+ artanh
+  /// q0). Exponential: T = +-(2 / (k h)) (q -+ q0), in parts that are monotone.
+  void add_start(const Route& route, std::size_t k, const Scalar& q, bool is_rising, bool turns,
+                 Sample& s) const {
+    const Scalar& exit = turns ? view_.low[k] : view_.high[k];
+    const Scalar ratio = exit == route.least || !(q > 0) ? Scalar(1) : Scalar(s.qm / q);
+    if (view_.form[k] == RateForm::linear) {
+      (is_rising ? s.up : s.down) += ratio / (size_of_bend(k) * s.h);
+      return;
+    }
+    const Scalar unit = Scalar(1) / (size_of_bend(k) * s.h * s.h);
+    const Scalar of_end = ratio * (Scalar(1) + q * q) * unit,
+                 of_start = Scalar(2) * view_.q0[k] * s.qm * unit;
+    (is_rising ? s.up : s.down) += of_end;
+    (is_rising || turns ? s.down : s.up) += of_start;
   }
 
   void search_state(const Route& route, const StateRange& range, int sign, const Scalar& top, bool turned,
@@ -217,26 +241,23 @@ class LinearCandidates {
     const std::size_t k = range.cell;
     const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
     const auto slope = [&](const Sample& s) {
-      const Scalar by = Scalar(-4) * view_.p[k] * view_.missing[k] *
-                        (view_.slope[k] < 0 ? Scalar(-view_.slope[k]) : view_.slope[k]);
+      const Scalar by = Scalar(-4) * view_.p[k] * view_.missing[k];
       return range.is_capped ? Scalar(s.F() * Scalar(2) * by / sqrt(range.kappa)) : Scalar(s.F() * by / s.qm);
     };
+    const Scalar v_max = range.is_capped ? Scalar(sqrt(range.most_lost)) : range.most_lost;
     const auto found = [&](const Sample& s, const Scalar& step) {
-      const Scalar v_max = range.is_capped ? Scalar(sqrt(range.e_max)) : range.e_max;
       const Scalar v = std::clamp(Scalar(s.v + step), Scalar(0), v_max),
-                   e = range.is_capped ? Scalar(v * v) : v;
-      const Scalar& b = view_.slope[k];
-      const Scalar r = range.rate - (b < 0 ? Scalar(-b) : b) * e;
-      const Scalar y = b > 0 ? Scalar(range.anchor - e) : Scalar(range.anchor + e);
+                   lost = range.is_capped ? Scalar(v * v) : v;
+      const Scalar r = range.rate - lost, y = start_of(range, lost);
       const Scalar h = Scalar(4) * view_.p[k] * view_.missing[k] * r;
       const Scalar height = range.leaves == Leaves::downwards ? s.y : top;
       const Scalar value = view_.amount(k, s.y) + gained(s.y, height) + s.X +
                            (s.h + (h - s.h) / Scalar(2)) / Scalar(4) * (t_ - s.T);
       offer(value, h, PathKind::constant, !turned, turned, k, y, turn, route.least,
-            sqrt(Scalar(range.qa2 + range.kappa * e)));
+            sqrt(Scalar(range.qa2 + range.kappa * lost)));
     };
-    const Sample b = at(Scalar(0)), a = at(range.is_capped ? Scalar(sqrt(range.e_max)) : range.e_max);
-    LinearRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
+    const Sample b = at(Scalar(0)), a = at(v_max);
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
         .run(a, b);
   }
 
@@ -258,14 +279,14 @@ class LinearCandidates {
     const Scalar width = view_.x[k + 1] - view_.x[k];
     if (d > width + slack_) return;
     d = std::min(d, width);
-    const Crossing<Scalar> c(d, r, q0, r, q0, s.h);
+    const Crossing<Scalar> c(RateForm::linear, d, r, q0, r, q0, s.h);
     const Scalar y = view_.x[k + 1] - d;
     const Scalar value =
         view_.amount(k, y) + gained(y, top) + (s.X + c.X) + s.h / Scalar(4) * (t_ - (s.T + c.T));
     offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
   }
 
-  const LinearView<Scalar>& view_;
+  const SlopedView<Scalar>& view_;
   Scalar z_, t_, upper_;
   bool moving_only_;
   Path<Scalar>& best_;

@@ -4,42 +4,91 @@
 #include <cmath>
 #include <cstddef>
 
-#include "shearfront/exact/linear_bed.hpp"
-#include "shearfront/exact/linear_route.hpp"
+#include "shearfront/exact/arc.hpp"
 #include "shearfront/exact/medium.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_route.hpp"
+#include "shearfront/model/depth/model.hpp"
 
 namespace shearfront::exact {
 
-/// Derivatives of the time of a run at fixed h with respect to the rates at both ends of it, and of int p dz at fixed H over
-/// h / 4: J_i = int hat_i / (r^2 q) dz, -2 dT/dr_i = J_i + L_i, L_i = int hat_i / (r^2 q^3) dz.
+/// Derivatives with respect to the rates at both ends of a run: of its time at fixed h, and of int p dz at fixed H, over h / 4:
+/// J_i = int (dr / dr_i) / (r^2 q) dz.
 template <Real Scalar>
 struct CrossingDerivatives {
-  Scalar J1, J2;
-  Scalar rest1, rest2;  ///< q_i (L_i - J_i)
+  Scalar J1, J2, T1, T2;
 
-  CrossingDerivatives(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-                      const Scalar& h) {
+  CrossingDerivatives(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
+                      const Scalar& q2, const Scalar& h) {
+    form == RateForm::linear ? linear(d, r1, q1, r2, q2, h) : exponential(d, r1, q1, r2, q2, h);
+  }
+
+ private:
+  /// -2 T_i = J_i + L_i, L_i = int hat_i / (r^2 q^3) dz.
+  void linear(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
+              const Scalar& h) {
     const Scalar one(1), two(2), four(4), sum = q1 + q2;
     const Scalar product = (one + q1) * (one + q2), w1 = r1 * (one + q1) * (one + q1);
     const Scalar D = w1 + r2 * (one + q2) * (one + q2), y = two * d * product / (sum * D);
     const Scalar b = (r2 - r1) / d, x = (r2 - r1) * (two * product) / (sum * D);
-    const Scalar c = two / d * b * y * y * y * artanh_rest(x), part = four * d * product / (sum * sum * D);
+    const Scalar c = two / d * b * y * y * y * artanh_rest(Scalar(x * x)),
+                 part = four * d * product / (sum * sum * D);
     J1 = part * q2 / r1 - c;
     J2 = part * q1 / r2 + c;
-    rest1 = two * h * d / (r1 * r1 * r2 * sum * sum);
-    rest2 = two * h * d / (r1 * r2 * r2 * sum * sum);
+    T1 = -J1 - h * d / (r1 * r1 * r2 * sum * sum) / q1;
+    T2 = -J2 - h * d / (r1 * r2 * r2 * sum * sum) / q2;
+  }
+  /// r_i dr/dr_i = r times the part of the way that lies on the side of i: the mean of that part over the time for J, over
+  /// int dz / r for T.
+  void exponential(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
+                   const Scalar& h) {
+    using std::log;
+    const Scalar one(1), two(2), sum = q1 + q2, T = two * exponential_slowness(d, r1, r2) / sum;
+    const Scalar size = r2 > r1 ? Scalar(log(Scalar(r2 / r1))) : Scalar(log(Scalar(r1 / r2)));
+    const Scalar in_r = r2 > r1 ? Scalar(one - exponential_mean_place(size)) : exponential_mean_place(size);
+    const Scalar in_time = mean_place_in_time(r1, q1, r2, q2, h);
+    J1 = T / r1 * (one - in_time);
+    J2 = T / r2 * in_time;
+    T1 = -T / r1 * ((one - in_r) + h / r1 / (two * q1 * sum));
+    T2 = -T / r2 * (in_r + h / r2 / (two * q2 * sum));
+  }
+  /// q grows evenly in time: the mean of log(r / r1) / log(r2 / r1) over q.
+  [[nodiscard]] static Scalar mean_place_in_time(const Scalar& r1, const Scalar& q1, const Scalar& r2,
+                                                 const Scalar& q2, const Scalar& h) {
+    using std::log1p;
+    const Scalar rise = (r2 - r1) / r1, one(1);
+    if (rise == 0) return Scalar(0.5);
+    const Scalar less = -(rise / (one + rise)) * ((one + q1) / (q1 + q2)),  // (1 - q2) / (1 - q1) - 1
+        more = h / r2 * rise / ((q1 + q2) * (one + q1));                    // (1 + q2) / (1 + q1) - 1
+    return -(mean_log(less) + mean_log(more)) / log1p(rise);
+  }
+  /// int_0^1 log(1 + x u) du = ((1 + x) log(1 + x) - x) / x, by its series sum -(-x)^n / (n (n + 1)) for small x.
+  [[nodiscard]] static Scalar mean_log(const Scalar& x) {
+    using std::log1p;
+    const Scalar size = x < 0 ? Scalar(-x) : x;
+    if (!(x > Scalar(-1))) return Scalar(-1);
+    if (size > Scalar(0.125)) return ((Scalar(1) + x) * log1p(x) - x) / x;
+    Scalar power = x, sum(0);
+    for (int n = 1; n < 400; ++n) {
+      const Scalar term = power / Scalar(n * (n + 1));
+      sum += term;
+      const Scalar term_size = term < 0 ? Scalar(-term) : term, sum_size = sum < 0 ? Scalar(-sum) : sum;
+      if (term_size <= unit_roundoff<Scalar>() * sum_size * Scalar(0.25)) break;
+      power *= -x;
+    }
+    return sum;
   }
 };
 
-/// Derivatives along a path through linear pieces, the rates at both ends of each piece as its numbers; a boundary moves with
+/// Derivatives along a path through sloped pieces, the rates at both ends of each piece as its numbers; a boundary moves with
 /// them. Cost: O(pieces touched).
 ///
 /// Moving a boundary between the slopes b_- and b_+ changes r next to it as changing the rates there by -b_- and -b_+
 /// does, and moves the jump with it.
 template <Real Scalar>
-class LinearGradient {
+class SlopedGradient {
  public:
-  LinearGradient(const LinearPieces<Scalar>& pieces, const Cells<Scalar>& cells, const Path<Scalar>& path,
+  SlopedGradient(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, const Path<Scalar>& path,
                  const Scalar& z, const Scalar& t)
       : pieces_(pieces),
         cells_(cells),
@@ -81,16 +130,22 @@ class LinearGradient {
     return q_at(rate, path_.r_reference, Scalar(path_.x * path_.x));
   }
   [[nodiscard]] Scalar at(std::size_t k, const Scalar& z) const { return pieces_.rate(k, z); }
-  /// Part of the number at the upper end of piece k in the rate at z.
-  [[nodiscard]] Scalar part(std::size_t k, const Scalar& z) const {
-    return (z - pieces_.boundaries[k]) / (pieces_.boundaries[k + 1] - pieces_.boundaries[k]);
+  /// Derivatives of the rate at z by the rates at both ends of its piece, which has the rate `rate` there.
+  struct EndParts {
+    Scalar low, high;
+  };
+  [[nodiscard]] EndParts parts(std::size_t k, const Scalar& z) const {
+    const Scalar high = (z - pieces_.boundaries[k]) / pieces_.width(k), low = Scalar(1) - high;
+    if (pieces_.form[k] == RateForm::linear) return {low, high};
+    const Scalar rate = at(k, z);
+    return {low * (rate / pieces_.low[k]), high * (rate / pieces_.high[k])};
   }
   [[nodiscard]] Pair& number(std::size_t k, bool is_high) {
     return out_.pieces[2 * (k - out_.first) + (is_high ? 1 : 0)];
   }
   /// Adds to the numbers of piece k what the rate at z does.
   void add_at(std::size_t k, const Scalar& z, const Scalar& M, const Scalar& phi) {
-    const Scalar high = part(k, z), low = Scalar(1) - high;
+    const auto [low, high] = parts(k, z);
     number(k, false).M += low * M;
     number(k, false).phi += low * phi;
     number(k, true).M += high * M;
@@ -117,20 +172,20 @@ class LinearGradient {
     out_.boundaries.resize(highest - out_.first + 1);
   }
 
-  /// The run between two heights, passed n times. At the start of a constant state its q is q_start_, of which
-  /// derivatives are kept times q: with_q0_ is a sum of those.
+  /// The run between two heights, passed n times.
   void add_run(const Scalar& from, const Scalar& to, int n) {
     const Scalar &lo = std::min(from, to), &hi = std::max(from, to), times(n);
     for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
       const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
       if (!(b > a)) continue;
       const Scalar d = b - a, r1 = at(k, a), r2 = at(k, b), q1 = q(r1), q2 = q(r2);
-      const CrossingDerivatives<Scalar> by(d, r1, q1, r2, q2, h_);
-      T_h_ += times * crossing_T_h(d, r1, q1, r2, q2);
-      time_ += times * Crossing<Scalar>(d, r1, q1, r2, q2, h_).T;
-      const Scalar half = times / Scalar(2), gain = times * h_ / Scalar(4);
-      add_at(k, a, gain * by.J1, -half * (Scalar(2) * by.J1 + by.rest1 / q1));
-      add_at(k, b, gain * by.J2, -half * (Scalar(2) * by.J2 + by.rest2 / q2));
+      const RateForm form = pieces_.form[k];
+      const CrossingDerivatives<Scalar> by(form, d, r1, q1, r2, q2, h_);
+      T_h_ += times * crossing_T_h(form, d, r1, q1, r2, q2);
+      time_ += times * Crossing<Scalar>(form, d, r1, q1, r2, q2, h_).T;
+      const Scalar gain = times * h_ / Scalar(4);
+      add_at(k, a, gain * by.J1, times * by.T1);
+      add_at(k, b, gain * by.J2, times * by.T2);
     }
   }
   /// The jumps passed n times.
@@ -155,24 +210,38 @@ class LinearGradient {
 
   /// The turn in piece j, beyond the height `from`.
   void add_turn(std::size_t j, const Scalar& from) {
-    const Scalar A = at(j, from), qA = q(A), two(2), four(4);
-    const Scalar width = pieces_.boundaries[j + 1] - pieces_.boundaries[j];
+    const Scalar A = at(j, from), qA = q(A),
+                 bend = pieces_.bend[j] < 0 ? Scalar(-pieces_.bend[j]) : pieces_.bend[j];
     const Scalar& near = is_set_up_ ? pieces_.low[j] : pieces_.high[j];  // on the side it comes from
     const Scalar& far = is_set_up_ ? pieces_.high[j] : pieces_.low[j];
-    const Scalar fall = near - far, slope = fall / width;
-    const Scalar T = four / slope * artanh_of(qA, A, h_);
-    time_ += T;
-    T_h_ -= two / (slope * h_ * qA);
-    // int (near - r) / (r^2 q) and int (r - far) / (r^2 q) over both ways.
-    const Scalar cube = qA * qA * qA * artanh_rest(qA);
-    const Scalar to_far = qA * ((near - A) + A * qA * qA) / h_ - cube;
-    const Scalar to_near = cube + qA * ((A - far) - A * qA * qA) / h_;
-    const Scalar scale = h_ / (slope * fall);
-    number(j, is_set_up_).M += scale * to_far;
-    number(j, !is_set_up_).M += scale * to_near;
-    add_at(j, from, Scalar(0), two / (slope * A * qA));
-    number(j, is_set_up_).phi += T / fall;  // |b| = (near - far) / width
-    number(j, !is_set_up_).phi -= T / fall;
+    const Turn<Scalar> turn(pieces_.form[j], bend, A, qA, h_);
+    time_ += turn.T;
+    T_h_ -= turn.steep / qA;
+    Pair &by_near = number(j, !is_set_up_), &by_far = number(j, is_set_up_);
+    const Scalar two(2), four(4);
+    const Scalar cube = qA * qA * qA * artanh_rest(Scalar(qA * qA));  // artanh q - q
+    if (pieces_.form[j] == RateForm::linear) {
+      const Scalar fall = near - far;  // |b| = fall / width
+      // int (near - r) / (r^2 q) and int (r - far) / (r^2 q) over both ways.
+      const Scalar to_far = qA * ((near - A) + A * qA * qA) / h_ - cube;
+      const Scalar to_near = cube + qA * ((A - far) - A * qA * qA) / h_;
+      const Scalar scale = h_ / (bend * fall);
+      by_far.M += scale * to_far;
+      by_near.M += scale * to_near;
+      add_at(j, from, Scalar(0), two / (bend * A * qA));
+      by_far.phi += turn.T / fall;
+      by_near.phi -= turn.T / fall;
+    } else {
+      // The part of the piece passed, in time: that at `from`, and log(A / r) / log(near / far) beyond.
+      const Scalar fall = bend * pieces_.width(j), w_high = (from - pieces_.boundaries[j]) / pieces_.width(j);
+      const Scalar beyond = Scalar(8) / (bend * h_) * cube / fall;
+      const Scalar passed = (is_set_up_ ? w_high : Scalar(Scalar(1) - w_high)) * turn.T + beyond;
+      by_far.M += h_ / four / far * passed;
+      by_near.M += h_ / four / near * (turn.T - passed);
+      add_at(j, from, Scalar(0), two / (bend * A * A * qA));
+      by_far.phi += turn.T / (fall * far);
+      by_near.phi -= turn.T / (fall * near);
+    }
   }
 
   /// All runs, jumps and the turn: dM, and into the phi entries dT at fixed h.
@@ -219,7 +288,8 @@ class LinearGradient {
       return phi_in_one_piece(p0);
     const Scalar r = at(start_, path_.foot);
     const Scalar q0 = std::max(q(r), Scalar(unit_roundoff<Scalar>() * unit_roundoff<Scalar>()));
-    const Scalar b = is_set_up_ ? pieces_.slope(start_) : Scalar(-pieces_.slope(start_));
+    const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
+    const Scalar b = is_set_up_ ? slope : Scalar(-slope);
     const Scalar all = one - four * g * b * r * (q0 * T_h_), by_h = phi_by_h();
     const Scalar turn = by_h * four * g * b * r * q0 / all;
     for (Pair& pair : out_.pieces) pair.phi *= turn;
@@ -230,18 +300,32 @@ class LinearGradient {
     add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
-  /// logit phi = logit p0 + b t.
+  /// Linear: logit phi = logit p0 + b t. Exponential: phi depends on p0 and b = r(z) t / decay.
   void phi_in_one_piece(const Scalar& p0) {
     for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
     for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
-    const LinearDrift<Scalar> drift(pieces_.slope(end_), t_);
-    const Scalar one(1), D = p0 * drift.u + (one - p0) * drift.v, by = drift.u * drift.v / (D * D);
-    out_.phi_state = by;
-    const Scalar by_slope = by * p0 * (one - p0) * t_;
-    const Scalar width = pieces_.boundaries[end_ + 1] - pieces_.boundaries[end_];
-    number(end_, true).phi += by_slope / width;
-    number(end_, false).phi -= by_slope / width;
-    out_.phi_log_scale = by_slope * pieces_.slope(end_);
+    const Scalar &bend = pieces_.bend[end_], one(1), width = pieces_.width(end_);
+    if (pieces_.form[end_] == RateForm::linear) {
+      const LinearDrift<Scalar> drift(bend, t_);
+      const Scalar D = p0 * drift.u + (one - p0) * drift.v, by = drift.u * drift.v / (D * D);
+      out_.phi_state = by;
+      const Scalar by_bend = by * p0 * (one - p0) * t_;
+      number(end_, true).phi += by_bend / width;
+      number(end_, false).phi -= by_bend / width;
+      out_.phi_log_scale = by_bend * bend;
+      return;
+    }
+    const bool is_rising = bend > 0;  // then turned upside down
+    const Scalar p = is_rising ? Scalar(one - p0) : p0, sign(is_rising ? -1 : 1);
+    const Scalar decay = (is_rising ? one : Scalar(-one)) / bend, r = at(end_, z_), b = r * (t_ / decay);
+    const FootRoot<Scalar> root(b, p);
+    out_.phi_state = root.phi_by_state(b, p);
+    const Scalar by_log_b = sign * root.phi_by_log_b(b, p);
+    add_at(end_, z_, Scalar(0), by_log_b / r);
+    const Scalar fall = width / decay;  // log b changes with log(near / far) over this
+    number(end_, is_rising).phi += by_log_b / (fall * (is_rising ? pieces_.high[end_] : pieces_.low[end_]));
+    number(end_, !is_rising).phi -= by_log_b / (fall * (is_rising ? pieces_.low[end_] : pieces_.high[end_]));
+    out_.phi_log_scale = by_log_b;
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
@@ -266,8 +350,9 @@ class LinearGradient {
     for (std::size_t n = 1; n < out_.boundaries.size(); ++n) {
       const std::size_t k = out_.first + n;
       const Pair &below = number(k - 1, true), &above = number(k, false);
-      out_.boundaries[n].M -= pieces_.slope(k - 1) * below.M + pieces_.slope(k) * above.M;
-      out_.boundaries[n].phi -= pieces_.slope(k - 1) * below.phi + pieces_.slope(k) * above.phi;
+      const Scalar slope_below = pieces_.end_slope(k - 1, true), slope_above = pieces_.end_slope(k, false);
+      out_.boundaries[n].M -= slope_below * below.M + slope_above * above.M;
+      out_.boundaries[n].phi -= slope_below * below.phi + slope_above * above.phi;
     }
   }
 
@@ -306,7 +391,7 @@ class LinearGradient {
     }
   }
 
-  const LinearPieces<Scalar>& pieces_;
+  const SlopedPieces<Scalar>& pieces_;
   const Cells<Scalar>& cells_;
   const Path<Scalar>& path_;
   Scalar z_, t_, h_;

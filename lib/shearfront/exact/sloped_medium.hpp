@@ -4,17 +4,17 @@
 #include <optional>
 #include <vector>
 
-#include "shearfront/exact/linear_bed.hpp"
-#include "shearfront/exact/linear_throats.hpp"
 #include "shearfront/exact/medium.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_throats.hpp"
 
 namespace shearfront::exact {
 
-/// The Lax-Hopf formula for a(z) linear in pieces, jumps allowed: minimum over
+/// The Lax-Hopf formula for a(z) linear or exponential in pieces, jumps allowed: minimum over
 ///   1. paths inside one piece, in closed form, a turn included,
 ///   2. fans and constant states that leave their piece and go straight to z, or turn once where s a = 4 H in a piece that
-///      falls along their way (exact/linear_search.hpp),
-///   3. paths that rest at a throat at its capacity (exact/linear_throats.hpp).
+///      falls along their way (exact/sloped_search.hpp),
+///   3. paths that rest at a throat at its capacity (exact/sloped_throats.hpp).
 /// Walls are added by best_path().
 ///
 /// There are no others: a minimiser shifted in time is one, too, and the two meet once at most; two turns, or a turn and
@@ -23,9 +23,9 @@ namespace shearfront::exact {
 /// Cost of a query: O(pieces crossed) per source and per piece in which its paths may turn, those left out that cost more
 /// than the best so far. Immutable after construction, safe to share between threads.
 template <Real Scalar>
-class LinearMedium final : public Medium<Scalar> {
+class SlopedMedium final : public Medium<Scalar> {
  public:
-  LinearMedium(LinearPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass);
+  SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass);
 
   [[nodiscard]] const std::vector<Scalar>& boundaries() const override { return pieces_.boundaries; }
   /// s a at the lower and at the upper end.
@@ -33,7 +33,7 @@ class LinearMedium final : public Medium<Scalar> {
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override;
-  /// To a few u H t where paths lose little: amounts and heights are added up in twice the digits.
+  /// To a few u H t where paths lose little (and turn in linear pieces): amounts and heights are added up in twice the digits.
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override;
   [[nodiscard]] Scalar rate_at(const Scalar& z) const override {
@@ -46,17 +46,17 @@ class LinearMedium final : public Medium<Scalar> {
   [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
                                               const Scalar& t) const override;
 
-  [[nodiscard]] const LinearPieces<Scalar>& pieces() const { return pieces_; }
-  [[nodiscard]] const LinearView<Scalar>& view(bool is_mirror) const { return is_mirror ? down_ : up_; }
+  [[nodiscard]] const SlopedPieces<Scalar>& pieces() const { return pieces_; }
+  [[nodiscard]] const SlopedView<Scalar>& view(bool is_mirror) const { return is_mirror ? down_ : up_; }
 
  private:
   using Medium<Scalar>::cells_;
   [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                     bool moving_only) const;
 
-  LinearPieces<Scalar> pieces_;
-  LinearView<Scalar> up_, down_;
-  LinearThroats<Scalar> throats_;
+  SlopedPieces<Scalar> pieces_;
+  SlopedView<Scalar> up_, down_;
+  SlopedThroats<Scalar> throats_;
 };
 
 }  // namespace shearfront::exact

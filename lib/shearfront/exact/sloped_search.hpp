@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "shearfront/exact/linear_candidates.hpp"
+#include "shearfront/exact/arc.hpp"
+#include "shearfront/exact/sloped_candidates.hpp"
 
 namespace shearfront::exact {
 
 /// The best path to (z, t), heights of the view, among those that set out upwards in the view and leave their first cell,
 /// and those inside one cell.
 template <Real Scalar>
-class LinearSearch : private LinearCandidates<Scalar> {
+class SlopedSearch : private SlopedCandidates<Scalar> {
  public:
-  using LinearCandidates<Scalar>::LinearCandidates;
+  using SlopedCandidates<Scalar>::SlopedCandidates;
 
   void run() {
     for (const std::size_t cell : {below_, above_}) {
@@ -24,7 +25,7 @@ class LinearSearch : private LinearCandidates<Scalar> {
   }
 
  private:
-  using Base = LinearCandidates<Scalar>;
+  using Base = SlopedCandidates<Scalar>;
   using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::pure_z_,
       Base::rate_above_, Base::rate_below_, Base::slack_, Base::t_, Base::view_, Base::z_;
   using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
@@ -35,14 +36,14 @@ class LinearSearch : private LinearCandidates<Scalar> {
   /// In closed form: the state of a cell (in the upright view only), the fan of its lower node.
   void inside(std::size_t cell) {
     const Scalar& r = cell == below_ ? rate_below_ : rate_above_;
-    const LinearDrift<Scalar> drift(view_.slope[cell], t_);
-    if (!(drift.B > 0)) return;
+    const RateForm form = view_.form[cell];
+    const Scalar& bend = view_.bend[cell];
     const Scalar half(0.5);
-    const auto accept = [&](const LinearArc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
+    const auto accept = [&](const Arc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
                             const Scalar& M0) {
       const Scalar h = Scalar(4) * r * arc.p * arc.missing;
       // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
-      const bool is_fan = kind == PathKind::fan, is_flat = view_.slope[cell] == 0;
+      const bool is_fan = kind == PathKind::fan, is_flat = bend == 0;
       const bool ends_up = arc.p > half || (is_fan && is_flat);
       const bool starts_up = is_fan || arc.start_odds > Scalar(1),
                  starts_down = !is_fan && arc.start_odds < Scalar(1);
@@ -53,29 +54,31 @@ class LinearSearch : private LinearCandidates<Scalar> {
       offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
     };
     if (!view_.is_mirror && !(moving_only_ && (view_.p[cell] == 0 || view_.missing[cell] == 0))) {
-      const auto arc = LinearArc<Scalar>::from_state(drift, view_.p[cell], view_.missing[cell], r);
+      const auto arc = arc_from_state(form, bend, t_, view_.p[cell], view_.missing[cell], r);
       // In terms of the cell: where r is steep, heights that differ by rounding have other H.
       const Scalar gain = arc.up - arc.down, width = view_.x[cell + 1] - view_.x[cell];
       const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
-      if (gain <= (z_ - view_.x[cell]) + rounding && -gain <= (view_.x[cell + 1] - z_) + rounding) {
+      if (arc.exists && gain <= (z_ - view_.x[cell]) + rounding &&
+          -gain <= (view_.x[cell + 1] - z_) + rounding) {
         const Scalar y = z_ - gain;
         const Scalar kept = std::clamp(y, view_.x[cell], view_.x[cell + 1]);
         accept(arc, kept, PathKind::constant, cell, view_.amount(cell, y));
       }
     }
     if (cell > 0 && view_.emits[cell]) {
-      const auto arc = LinearArc<Scalar>::from_point(drift, z_ - view_.x[cell], view_.low[cell], r);
+      const auto arc = arc_from_point(form, bend, t_, Scalar(z_ - view_.x[cell]), view_.low[cell], r);
       const Scalar one(1), edge = one / Scalar(1 << 20);
-      if (arc.p >= 0 && arc.missing >= 0 && arc.start_odds >= one - edge)
+      if (arc.exists && arc.start_odds >= one - edge)
         accept(arc, view_.x[cell], PathKind::fan, cell, view_.M[cell]);
     }
   }
 
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
-    Route route;
+    Route route(n_);
     if (below_ != above_) turned_states(route, below_, z_, above_, rate_above_);
-    route.add(z_ - view_.x[below_], rate_below_, view_.low[below_], false);
+    route.add(view_.form[below_], view_.bends[below_], z_ - view_.x[below_], rate_below_, view_.low[below_],
+              false);
     for (std::size_t k = below_; k-- > 0;) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
@@ -87,22 +90,24 @@ class LinearSearch : private LinearCandidates<Scalar> {
       }
       state(route, k);
       turned_states(route, k, z_, above_, rate_above_);
-      route.add(view_.x[node] - view_.x[k], view_.high[k], view_.low[k], false);
+      route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
+                false);
     }
   }
 
   /// Everything that starts at or above z, sets out upwards and turns.
   void from_above() {
-    Route route;
+    Route route(n_);
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
       turned_fans(route, above_, z_, above_, rate_above_, true);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
       if (k > above_ || z_ == view_.x[k]) state_that_turns_at_once(route, k);
       if (k == above_)
-        route.add(view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
+        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
       else
-        route.add(view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k], false);
+        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k],
+                  false);
       const std::size_t node = k + 1;
       if (node == n_ || view_.pure[node] - pure_z_ > late_) return;
       turned_states(route, k, view_.x[node], node, view_.low[node]);
@@ -112,51 +117,97 @@ class LinearSearch : private LinearCandidates<Scalar> {
 
   [[nodiscard]] bool has_moving_state(std::size_t k) const {
     return view_.p[k] > 0 && view_.missing[k] > 0 &&
-           (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.slope[k] > 0));
+           (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
   }
 
   void turned_fans(const Route& once, std::size_t node, const Scalar& from, std::size_t first,
                    const Scalar& rate, bool skip_first) {
-    turns(once, view_.M[node], node, from, first, rate, skip_first,
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+    turns(once, view_.M[node], node, from, first, rate, skip_first, {Scalar(0), infinity<Scalar>()},
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
+              const auto& fill) {
+            if (!turn_times(way, j, lo, hi).may_be(t_)) return;
+            fill();
             turned_fan(way, node, j, lo, hi, top);
           });
   }
   void turned_states(const Route& once, std::size_t k, const Scalar& from, std::size_t first,
                      const Scalar& rate) {
     if (!has_moving_state(k)) return;
-    turns(once, view_.least_amount(k), k + 1, from, first, rate, false,
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+    turns(once, view_.least_amount(k), k + 1, from, first, rate, false, h_of_cell(k),
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
+              const auto& fill) {
+            const Range h = h_of_cell(k);
+            const Scalar h0 = std::max(lo, h.least), h1 = std::min(hi, h.most);
+            auto times = turn_times(way, j, h0, h1);
+            times.most += most_from_state(k, h0, h1);
+            if (!times.may_be(t_)) return;
+            fill();
             turned_state(way, k, j, lo, hi, top);
           });
   }
 
-  /// Calls found(route, j, least h, largest h, height above which it turns) for every cell j, `first` and above, in which
-  /// paths can turn that pass `node` upwards, with M0 at their start, and have `once` to pass besides.
+  struct Range {
+    Scalar least, most;
+  };
+  /// h of the state of cell k.
+  [[nodiscard]] Range h_of_cell(std::size_t k) const {
+    return {view_.h(k, std::min(view_.low[k], view_.high[k])),
+            view_.h(k, std::max(view_.low[k], view_.high[k]))};
+  }
+  using Stretches = SlopedStretches<Scalar>;
+  [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Scalar& h0,
+                                                     const Scalar& h1) const {
+    return way.stretches.times_with_turn(h0, h1, way.turn_rate, view_.bends[j]);
+  }
+  /// Most time from a start in cell k to its upper end.
+  [[nodiscard]] Scalar most_from_state(std::size_t k, const Scalar& h0, const Scalar& h1) const {
+    if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
+    return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
+  }
+
+  /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, `first` and above, in which
+  /// paths can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass besides.
+  /// fill() gives the route its runs: most are ruled out without them.
   template <class Found>
   void turns(const Route& once, const Scalar& M0, std::size_t node, const Scalar& from, std::size_t first,
-             const Scalar& rate, bool skip_first, const Found& found) {
+             const Scalar& rate, bool skip_first, const Range& range, const Found& found) {
     Route& way = scratch_;
-    way.runs.assign(once.runs.begin(), once.runs.end());
+    way.stretches = once.stretches;
     way.least = once.least;
-    way.turn_slope = Scalar(0);
+    way.turn_bend = Scalar(0);
+    bool is_filled = false;
+    std::size_t filled = first;
+    const auto entry_of = [&](std::size_t j) -> const Scalar& { return j == first ? rate : view_.low[j]; };
+    const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from : view_.x[j]; };
     for (std::size_t j = first; j < n_; ++j) {
-      const Scalar &entry = j == first ? rate : view_.low[j], &height = j == first ? from : view_.x[j];
+      const Scalar &entry = entry_of(j), &height = height_of(j);
       // Out of reach, or dearer than what there is: the height is gained, on one of both ways.
       if (j > first && Scalar(2) * view_.pure[j] - view_.pure[node] - pure_z_ > late_) return;
       if (M0 + gained(view_.x[node], height) > limit()) return;
       const Scalar least = std::min(way.least, entry);
-      if (view_.slope[j] < 0 && view_.high[j] < least && !(j == first && skip_first)) {
+      if (least < range.least) return;
+      if (view_.bend[j] < 0 && view_.high[j] < least && !(view_.high[j] > range.most) &&
+          !(j == first && skip_first)) {
         const Scalar kept = way.least;
         way.least = least;
-        way.turn_slope = -view_.slope[j];
+        way.turn_form = view_.form[j];
+        way.turn_bend = -view_.bend[j];
         way.turn_rate = entry;
-        found(way, j, view_.high[j], least, height);
+        const auto fill = [&] {
+          if (!is_filled) way.runs.assign(once.runs.begin(), once.runs.end());
+          is_filled = true;
+          for (; filled < j; ++filled) {
+            const Scalar d = view_.x[filled + 1] - height_of(filled);
+            if (d > 0)
+              way.runs.push_back({d, entry_of(filled), view_.high[filled], view_.form[filled], true});
+          }
+        };
+        found(way, j, view_.high[j], least, height, fill);
         way.least = kept;
-        way.turn_slope = Scalar(0);
+        way.turn_bend = Scalar(0);
       }
-      way.add(view_.x[j + 1] - height, entry, view_.high[j], true);
-      way.least = std::min({way.least, entry, view_.high[j]});
+      way.stretches.add(view_.bends[j], Scalar(view_.x[j + 1] - height), entry, view_.high[j], true);
+      way.least = std::min(least, view_.high[j]);
     }
   }
 
@@ -164,12 +215,17 @@ class LinearSearch : private LinearCandidates<Scalar> {
     if (view_.missing[k] == 0) return pure_state(k);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
+    const Range h = h_of_cell(k);
+    if (h.least > route.least) return;
+    auto times = route.stretches.times(h.least, std::min(h.most, route.least));
+    times.most += most_from_state(k, h.least, std::min(h.most, route.least));
+    if (!times.may_be(t_)) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
-    if (view_.slope[k] == 0)
+    if (view_.bend[k] == 0)
       flat_state(route, k, z_, false, 0, Scalar(0));
     else
-      search_state(route, range_of(route, k, Leaves::upwards, Scalar(0)), view_.slope[k] > 0 ? -1 : 1, z_,
+      search_state(route, range_of(route, k, Leaves::upwards, Scalar(0)), view_.bend[k] > 0 ? -1 : 1, z_,
                    false, 0);
     route.least = kept;
   }
@@ -183,16 +239,16 @@ class LinearSearch : private LinearCandidates<Scalar> {
       return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
-    if (view_.slope[k] == 0)
+    if (view_.bend[k] == 0)
       flat_state(route, k, top, true, j, lo);
     else
-      search_state(route, range_of(route, k, Leaves::upwards, lo), view_.slope[k] > 0 ? 1 : -1, top, true, j);
+      search_state(route, range_of(route, k, Leaves::upwards, lo), view_.bend[k] > 0 ? 1 : -1, top, true, j);
     route.least = kept;
   }
 
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
-    if (!has_moving_state(k) || !(view_.slope[k] < 0)) return;
+    if (!has_moving_state(k) || !(view_.bend[k] < 0)) return;
     const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
     if (four_g * view_.low[k] < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
@@ -205,19 +261,26 @@ class LinearSearch : private LinearCandidates<Scalar> {
   /// H = 0: the time from the start is int dz / r.
   void pure_state(std::size_t k) {
     using std::expm1;
+    using std::log1p;
     if (moving_only_) return;
     const Scalar left = t_ - (pure_z_ - view_.pure[k + 1]);
-    const Scalar &b = view_.slope[k], x = -b * left;
     // By time, as the cells beside this one: in a thin cell heights within rounding may be far away in time.
     if (left < t_ - late_ || t_ - (pure_z_ - view_.pure[k]) > late_ - t_) return;
-    const Scalar d = x == 0 ? Scalar(view_.high[k] * left) : Scalar(view_.high[k] * left * (expm1(x) / x));
+    const Scalar &b = view_.bend[k], x = -b * left, way = view_.high[k] * left;
+    Scalar d = way;
+    if (view_.form[k] == RateForm::exponential) {
+      const Scalar lost = b * way;
+      d = lost > Scalar(-1) ? Scalar(log1p(lost) / b) : infinity<Scalar>();
+    } else if (x != 0) {
+      d = way * (expm1(x) / x);
+    }
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar y = view_.x[k + 1] - std::clamp(d, Scalar(0), width);
     offer(view_.amount(k, y) + gained(y, z_), Scalar(0), PathKind::constant, true, false, k, y, 0,
           view_.high[k], Scalar(1));
   }
 
-  Route scratch_;
+  Route scratch_{n_};
 };
 
 }  // namespace shearfront::exact

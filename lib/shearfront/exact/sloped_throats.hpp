@@ -5,34 +5,35 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/exact/linear_bed.hpp"
-#include "shearfront/exact/linear_route.hpp"
 #include "shearfront/exact/path.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
 
 /// Time and gain of a run at a fixed h between two heights of a view, over cells whose rate is h at least: int p dz = the
 /// height gained on ways up + gain, gain <= 0. The time is infinite where it cannot go.
 template <Real Scalar>
-struct LinearWay {
+struct SlopedWay {
   Scalar T{0}, gain{0};
 
-  void add(const Scalar& d, const Scalar& r1, const Scalar& r2, const Scalar& h) {
+  void add(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& r2, const Scalar& h) {
     if (!(d > 0)) return;
-    add(d, r1, q_at(r1, h, Scalar(0)), r2, q_at(r2, h, Scalar(0)), h);
+    add(form, d, r1, q_at(r1, h, Scalar(0)), r2, q_at(r2, h, Scalar(0)), h);
   }
   /// To the end of a query: r rises by `rise`, which next to r1 = h knows more than r2 - r1.
-  void add_last(const Scalar& d, const Scalar& r1, const Scalar& rise, const Scalar& r2, const Scalar& h) {
+  void add_last(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& rise, const Scalar& r2,
+                const Scalar& h) {
     using std::sqrt;
     if (!(d > 0)) return;
     const Scalar q2 = ((r1 - h) + rise) / r2;
-    add(d, r1, q_at(r1, h, Scalar(0)), r2, q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0), h);
+    add(form, d, r1, q_at(r1, h, Scalar(0)), r2, q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0), h);
   }
 
  private:
-  void add(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-           const Scalar& h) {
-    const Crossing<Scalar> c(d, r1, q1, r2, q2, h);
+  void add(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
+           const Scalar& q2, const Scalar& h) {
+    const Crossing<Scalar> c(form, d, r1, q1, r2, q2, h);
     T += c.T;
     if (is_finite(c.T)) gain += c.X - h / Scalar(4) * c.T;
   }
@@ -40,7 +41,7 @@ struct LinearWay {
 
 /// Paths that rest at a throat: which starts reach it, when and at which cost. A later start counts only if it costs less.
 template <Real Scalar>
-class LinearThroats {
+class SlopedThroats {
  public:
   struct Start {
     Scalar T;            ///< it arrives
@@ -56,7 +57,7 @@ class LinearThroats {
     std::size_t lowest, highest;  ///< nodes that a path at h can reach from it
   };
 
-  LinearThroats(const LinearView<Scalar>& up, const LinearView<Scalar>& down) {
+  SlopedThroats(const SlopedView<Scalar>& up, const SlopedView<Scalar>& down) {
     for (std::size_t i = 1; i < up.n_cells(); ++i) {
       if (!up.is_throat(i)) continue;
       Throat throat{i, up.throat_h(i), {}, i, i};
@@ -69,7 +70,7 @@ class LinearThroats {
   }
 
   /// The best path to z that rests. `cell_below` is the cell that ends at or above z from below, `cell_above` likewise.
-  void search(const LinearView<Scalar>& up, const Scalar& z, std::size_t cell_below, std::size_t cell_above,
+  void search(const SlopedView<Scalar>& up, const Scalar& z, std::size_t cell_below, std::size_t cell_above,
               const Scalar& rate_below, const Scalar& rate_above, const Scalar& t, const Scalar& upper,
               Path<Scalar>& best) const {
     for (const Throat& throat : all_) {
@@ -82,17 +83,21 @@ class LinearThroats {
       const Scalar limit = std::min(upper, best.value);
       const Scalar shift = (z - z_i) / Scalar(2) + H * t;  // q = 0 all the way
       if (throat.starts.back().A + shift > limit) continue;
-      LinearWay<Scalar> way;
+      SlopedWay<Scalar> way;
       if (is_above) {
         for (std::size_t k = throat.node; k < cell_below && way.T <= t; ++k)
-          way.add(up.x[k + 1] - up.x[k], up.low[k], up.high[k], throat.h);
+          way.add(up.form[k], up.x[k + 1] - up.x[k], up.low[k], up.high[k], throat.h);
         const Scalar d = z - up.x[cell_below];
-        way.add_last(d, up.low[cell_below], Scalar(up.slope[cell_below] * d), rate_below, throat.h);
+        way.add_last(up.form[cell_below], d, up.low[cell_below],
+                     rise_of(up.form[cell_below], up.bend[cell_below], up.low[cell_below], d), rate_below,
+                     throat.h);
       } else if (z < z_i) {
         for (std::size_t k = throat.node - 1; k > cell_above && way.T <= t; --k)
-          way.add(up.x[k + 1] - up.x[k], up.high[k], up.low[k], throat.h);
+          way.add(up.form[k], up.x[k + 1] - up.x[k], up.high[k], up.low[k], throat.h);
         const Scalar d = up.x[cell_above + 1] - z;
-        way.add_last(d, up.high[cell_above], Scalar(-up.slope[cell_above] * d), rate_above, throat.h);
+        way.add_last(up.form[cell_above], d, up.high[cell_above],
+                     rise_of(up.form[cell_above], up.bend[cell_above], up.high[cell_above], Scalar(-d)),
+                     rate_above, throat.h);
       }
       if (!(way.T <= t)) continue;
       const Scalar left = t - way.T;
@@ -120,13 +125,13 @@ class LinearThroats {
 
  private:
   /// Starts below the node in this view.
-  void collect(const LinearView<Scalar>& view, std::size_t node, Throat& throat) {
+  void collect(const SlopedView<Scalar>& view, std::size_t node, Throat& throat) {
     const Scalar& h = throat.h;
     const std::size_t n = view.n_cells();
-    LinearWay<Scalar> way;
+    SlopedWay<Scalar> way;
     for (std::size_t k = node; k-- > 0;) {
       if (view.high[k] < h) return;
-      const auto add = [&](const Scalar& y, const LinearWay<Scalar>& to, bool is_state) {
+      const auto add = [&](const Scalar& y, const SlopedWay<Scalar>& to, bool is_state) {
         if (!is_finite(to.T)) return;
         Start start{to.T, view.amount(k, y) + to.gain, view.is_mirror ? Scalar(-y) : y, 0, is_state};
         if (!view.is_mirror) start.A += view.x[node] - y;
@@ -135,18 +140,20 @@ class LinearThroats {
         throat.starts.push_back(start);
       };
       const Scalar four_g = Scalar(4) * view.p[k] * view.missing[k];
-      if (view.q0[k] > 0 && four_g > 0 && view.slope[k] != 0) {
+      if (view.q0[k] > 0 && four_g > 0 && view.bend[k] != 0) {
         const Scalar r = h / four_g;
-        const Scalar y = view.slope[k] > 0 ? Scalar(view.x[k] + (r - view.low[k]) / view.slope[k])
-                                           : Scalar(view.x[k + 1] - (r - view.high[k]) / -view.slope[k]);
+        const bool is_rising = view.bend[k] > 0;
+        const Scalar& near = is_rising ? view.low[k] : view.high[k];
+        const Scalar y = (is_rising ? view.x[k] : view.x[k + 1]) +
+                         distance_of(view.form[k], view.bend[k], near, Scalar(r - near));
         if (y >= view.x[k] && y <= view.x[k + 1]) {
-          LinearWay<Scalar> to = way;
-          to.add(view.x[k + 1] - y, r, view.high[k], h);
+          SlopedWay<Scalar> to = way;
+          to.add(view.form[k], view.x[k + 1] - y, r, view.high[k], h);
           add(y, to, true);
         }
       }
       if (view.low[k] < h) return;
-      way.add(view.x[k + 1] - view.x[k], view.high[k], view.low[k], h);
+      way.add(view.form[k], view.x[k + 1] - view.x[k], view.high[k], view.low[k], h);
       if (!is_finite(way.T)) return;
       const std::size_t reached = view.is_mirror ? n - k : k;
       throat.lowest = std::min(throat.lowest, reached);

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <optional>
 
-#include "shearfront/exact/linear_medium.hpp"
+#include "shearfront/exact/sloped_medium.hpp"
 
 namespace shearfront::exact {
 
-/// First time at which phi next to boundary i of linear pieces (1 <= i < pieces) leaves its initial states phi_b | phi_a.
+/// First time at which phi next to boundary i of sloped pieces (1 <= i < pieces) leaves its initial states phi_b | phi_a.
 ///
-///   * 0 if the boundary sends out a wave, or if a state next to it is neither 0 nor 1 and its piece is not flat: there logit
-///     phi = logit phi_0 + b t.
+///   * 0 if the boundary sends out a wave, or if a state next to it is neither 0 nor 1 and its piece is not flat: there it
+///     changes at once.
 ///   * Between pure states at rest nothing is faster than H = 0: the travel time of the nearest other state on the side that a
 ///     state comes from.
 ///   * Between flat pieces M(z_i, t) = M0 + H0 t until the edge of a fan comes, the characteristic of a state followed back to
@@ -19,9 +19,9 @@ namespace shearfront::exact {
 ///
 /// Empty if nothing ever comes. Error: a few u; of a shock u (top - bottom) over the change of H.
 template <Real Scalar>
-class LinearArrival {
+class SlopedArrival {
  public:
-  LinearArrival(const LinearMedium<Scalar>& medium, std::size_t i)
+  SlopedArrival(const SlopedMedium<Scalar>& medium, std::size_t i)
       : medium_(medium), cells_(medium.cells()), at_(cells_.first[i]), z_(cells_.x[at_]) {}
 
   [[nodiscard]] std::optional<Scalar> find() const {
@@ -111,7 +111,7 @@ class LinearArrival {
     }
   }
 
-  const LinearMedium<Scalar>& medium_;
+  const SlopedMedium<Scalar>& medium_;
   const Cells<Scalar>& cells_;
   std::size_t at_;
   Scalar z_;

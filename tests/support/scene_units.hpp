@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "shearfront/scene/entries.hpp"
+
+/// Scenes in other units: heights times L, times times T. Shear rates keep their numbers, their scale s takes the unit.
+namespace shearfront::support {
+
+/// Of the number of a scene with this name: what it is multiplied by.
+inline double unit_factor(const Entry& entry, double L, double T) {
+  const std::string_view name = entry.field;
+  // Positive lengths are found by their logarithm in fits and do not say that they are heights.
+  if (entry.measure == Measure::height || name.ends_with(".decay") || name.ends_with(".width") ||
+      name.ends_with(".wavelength"))
+    return L;
+  if (name == "shear_rate.scale") return L / T;
+  if (name == "diffusion.D") return L * L / T;
+  if (name.starts_with("boundary.") && name.ends_with(".breaks")) return T;
+  return 1;
+}
+
+inline SceneSpec<> in_units(SceneSpec<> spec, double L, double T) {
+  const std::vector<Entry> all = entries(spec);
+  const std::vector<double*> places = entry_places(spec);
+  for (std::size_t i = 0; i < all.size(); ++i) *places[i] *= unit_factor(all[i], L, T);
+  return spec;
+}
+
+}  // namespace shearfront::support
