@@ -29,6 +29,16 @@ template <Real Scalar>
   return form == RateForm::linear ? Scalar(bend * d) : Scalar(rate * expm1(Scalar(bend * d)));
 }
 
+/// r at a place `d` higher than where it is `rate`: to a few u of itself, however little is left of it there.
+template <Real Scalar>
+[[nodiscard]] Scalar rate_beyond(RateForm form, const Scalar& bend, const Scalar& rate, const Scalar& d) {
+  using std::exp;
+  const Scalar x = bend * d;
+  // Where most of it is lost, rate + rise is all rounding.
+  if (form == RateForm::exponential && x < Scalar(-0.5)) return rate * exp(x);
+  return rate + rise_of(form, bend, rate, d);
+}
+
 /// The distance over which r gains `rise` from where it is `rate`: the inverse.
 template <Real Scalar>
 [[nodiscard]] Scalar distance_of(RateForm form, const Scalar& bend, const Scalar& rate, const Scalar& rise) {

@@ -44,8 +44,8 @@ struct SlopedPieces {
   /// r at a height of piece k, from the nearer end.
   [[nodiscard]] Scalar rate(std::size_t k, const Scalar& z) const {
     const Scalar below = z - boundaries[k], above = boundaries[k + 1] - z;
-    return below < above ? Scalar(low[k] + rise_of(form[k], bend[k], low[k], below))
-                         : Scalar(high[k] + rise_of(form[k], bend[k], high[k], Scalar(-above)));
+    return below < above ? rate_beyond(form[k], bend[k], low[k], below)
+                         : rate_beyond(form[k], bend[k], high[k], Scalar(-above));
   }
 };
 
@@ -106,9 +106,8 @@ struct SlopedView {
   /// r at a height of a cell, from the nearer end.
   [[nodiscard]] Scalar rate(std::size_t cell, const Scalar& z) const {
     const Scalar below = z - x[cell], above = x[cell + 1] - z;
-    const Scalar r = below < above
-                         ? Scalar(low[cell] + rise_of(form[cell], bend[cell], low[cell], below))
-                         : Scalar(high[cell] + rise_of(form[cell], bend[cell], high[cell], Scalar(-above)));
+    const Scalar r = below < above ? rate_beyond(form[cell], bend[cell], low[cell], below)
+                                   : rate_beyond(form[cell], bend[cell], high[cell], Scalar(-above));
     return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
   }
   /// Time of a pure state from a height in a cell to its upper end.

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "shearfront/exact/arc.hpp"
+#include "shearfront/exact/arc_derivatives.hpp"
 #include "shearfront/exact/medium.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
 #include "shearfront/exact/sloped_route.hpp"
@@ -114,6 +115,7 @@ class SlopedGradient {
     if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
     if (h_ == 0 && is_state) return pure();
     if (!is_state && path_.foot == z_ && !path_.turned) return at_its_source();
+    if (is_in_one_piece() && pieces_.form[end_] == RateForm::exponential) return in_exponential_piece();
     passes();
     if (is_state)
       phi_of_state();
@@ -284,8 +286,7 @@ class SlopedGradient {
   /// h = 4 g r(y) and T(y, h) = t with y free.
   void phi_of_state() {
     const Scalar p0 = cells_.phi[path_.source], one(1), four(4), g = p0 * (one - p0);
-    if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_))
-      return phi_in_one_piece(p0);
+    if (is_in_one_piece()) return phi_in_linear_piece(p0);
     const Scalar r = at(start_, path_.foot);
     const Scalar q0 = std::max(q(r), Scalar(unit_roundoff<Scalar>() * unit_roundoff<Scalar>()));
     const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
@@ -300,41 +301,79 @@ class SlopedGradient {
     add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
-  /// Linear: logit phi = logit p0 + b t. Exponential: phi depends on p0 and b = r(z) t / decay.
-  void phi_in_one_piece(const Scalar& p0) {
+  [[nodiscard]] bool is_in_one_piece() const {
+    return start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_);
+  }
+
+  /// Logit phi = logit p0 + b t where r is linear.
+  void phi_in_linear_piece(const Scalar& p0) {
     for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
     for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
     const Scalar &bend = pieces_.bend[end_], one(1), width = pieces_.width(end_);
-    if (pieces_.form[end_] == RateForm::linear) {
-      const LinearDrift<Scalar> drift(bend, t_);
-      const Scalar D = p0 * drift.u + (one - p0) * drift.v, by = drift.u * drift.v / (D * D);
-      out_.phi_state = by;
-      const Scalar by_bend = by * p0 * (one - p0) * t_;
-      number(end_, true).phi += by_bend / width;
-      number(end_, false).phi -= by_bend / width;
-      out_.phi_log_scale = by_bend * bend;
-      return;
+    const LinearDrift<Scalar> drift(bend, t_);
+    const Scalar D = p0 * drift.u + (one - p0) * drift.v, by = drift.u * drift.v / (D * D);
+    out_.phi_state = by;
+    const Scalar by_bend = by * p0 * (one - p0) * t_;
+    number(end_, true).phi += by_bend / width;
+    number(end_, false).phi -= by_bend / width;
+    out_.phi_log_scale = by_bend * bend;
+  }
+
+  /// A path that does not leave an exponential piece: by log r at its start or end and by kappa = |r'/r|, which are
+  ///   log r(z) = w_low log r_low + w_high log r_high,   kappa = log(near / far) / width,
+  /// near the end with the larger rate. Where r rises all is turned upside down.
+  PathGradient<Scalar> in_exponential_piece() {
+    using std::expm1;
+    const Scalar one(1), &bend = pieces_.bend[end_];
+    const bool is_rising = bend > 0;
+    const Scalar kappa = is_rising ? bend : Scalar(-bend), sign(is_rising ? -1 : 1);
+    const Scalar r0 = at(start_, path_.foot), d = sign * (z_ - path_.foot);
+    ArcMomentumDerivatives<Scalar> phi;
+    StartMomentum<Scalar> start;  // in the orientation in which r falls
+    if (path_.kind == PathKind::constant) {
+      const Scalar& p0 = cells_.phi[path_.source];
+      start = is_rising ? StartMomentum<Scalar>{one - p0, p0} : StartMomentum<Scalar>{p0, one - p0};
+      const Scalar b = at(end_, z_) * t_ * kappa;
+      const FootRoot<Scalar> root(b, start.p);
+      out_.phi_state = root.phi_by_state(b, start.p);
+      phi.by_log_rate = root.phi_by_log_b(b, start.p);
+      phi.by_kappa = phi.by_log_rate / kappa;
+    } else {
+      const Scalar log_E = kappa * d, e = expm1(log_E), way = r0 * t_;
+      const FanMomenta<Scalar> fan(Scalar(way * kappa), log_E, e);
+      start = {fan.p0, fan.one_minus_p0};
+      out_.start = is_rising ? StartMomentum<Scalar>{fan.one_minus_p0, fan.p0} : start;
+      phi = fan_momentum_derivatives<Scalar>(fan, kappa, way, d, e);
+      out_.phi_start = phi.by_start;
     }
-    const bool is_rising = bend > 0;  // then turned upside down
-    const Scalar p = is_rising ? Scalar(one - p0) : p0, sign(is_rising ? -1 : 1);
-    const Scalar decay = (is_rising ? one : Scalar(-one)) / bend, r = at(end_, z_), b = r * (t_ / decay);
-    const FootRoot<Scalar> root(b, p);
-    out_.phi_state = root.phi_by_state(b, p);
-    const Scalar by_log_b = sign * root.phi_by_log_b(b, p);
-    add_at(end_, z_, Scalar(0), by_log_b / r);
-    const Scalar fall = width / decay;  // log b changes with log(near / far) over this
-    number(end_, is_rising).phi += by_log_b / (fall * (is_rising ? pieces_.high[end_] : pieces_.low[end_]));
-    number(end_, !is_rising).phi -= by_log_b / (fall * (is_rising ? pieces_.low[end_] : pieces_.high[end_]));
-    out_.phi_log_scale = by_log_b;
+    out_.phi_log_scale = sign * phi.by_log_rate;
+    const Scalar& from = path_.kind == PathKind::constant ? z_ : path_.foot;
+    add_at(end_, from, Scalar(0), out_.phi_log_scale / at(end_, from));
+    const Scalar gain = path_.H * t_;
+    add_at(end_, path_.foot, gain / r0, Scalar(0));
+    // log r falls by kappa times the way from the start.
+    const Scalar by_kappa =
+        -gain * mean_height_of_arc<Scalar>(Scalar(r0 * t_), kappa, start.p, start.missing);
+    const Scalar width = pieces_.width(end_);
+    for (const bool is_high : {false, true}) {
+      const Scalar& r = is_high ? pieces_.high[end_] : pieces_.low[end_];
+      const Scalar by_number = Scalar(is_high == is_rising ? 1 : -1) / (width * r);
+      number(end_, is_high).M += by_kappa * by_number;
+      number(end_, is_high).phi += sign * phi.by_kappa * by_number;
+    }
+    move_boundaries();
+    return std::move(out_);
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
   PathGradient<Scalar> pure() {
     const Scalar& p0 = cells_.phi[path_.source];
-    if (start_ == end_)
-      phi_in_one_piece(p0);
-    else
+    if (start_ == end_) {
+      if (pieces_.form[end_] == RateForm::exponential) return in_exponential_piece();
+      phi_in_linear_piece(p0);
+    } else {
       out_.phi_state = at(start_, path_.foot) / at(end_, z_);  // H = r(y) g is conserved
+    }
     return std::move(out_);
   }
 
