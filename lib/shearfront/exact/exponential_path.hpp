@@ -59,17 +59,13 @@ struct FootRoot {
     e = Scalar(4) * bs * (twist * unit - bs * h) / (sum * (Scalar(2) * unit + rest));
   }
 
-  /// d p / d p0 and d p / d log b of p = p0 - b E p0 (1 - p0), E by the quadratic.
+  /// d p / d p0 and d p / d log b of p = p0 - B h with B = b E, h = p0 (1 - p0): h B^2 + (1 / b - 2 p0 + 1) B - 1 = 0
+  /// differentiated, and used once more so that nothing cancels.
   [[nodiscard]] Scalar phi_by_state(const Scalar& b, const Scalar& p0) const {
-    const Scalar one(1), two(2), h = p0 * (one - p0), twist = p0 + (p0 - one);
-    const Scalar by_p = -b * b * twist * E * E - two * b * E;
-    // 1 + b E twist, by the equation of E without cancellation, and the change of E.
-    return E + h * (b * E) * (b * E) + h * b * by_p / by_E(b, p0);
+    return E / (Scalar(1) + p0 * (Scalar(1) - p0) * (b * E) * (b * E));
   }
   [[nodiscard]] Scalar phi_by_log_b(const Scalar& b, const Scalar& p0) const {
-    const Scalar one(1), two(2), h = p0 * (one - p0), twist = p0 + (p0 - one);
-    const Scalar by_b = two * b * h * E * E - twist * E;
-    return -h * b * (E - b * by_b / by_E(b, p0));
+    return -p0 * (Scalar(1) - p0) * (b * E) * phi_by_state(b, p0);
   }
 
   /// log E, to a few units in the last place both near E = 1 and near E = 0.
@@ -77,13 +73,6 @@ struct FootRoot {
     using std::log;
     using std::log1p;
     return E < Scalar(0.5) ? Scalar(log(E)) : Scalar(log1p(e));
-  }
-
- private:
-  /// The quadratic differentiated by E.
-  [[nodiscard]] Scalar by_E(const Scalar& b, const Scalar& p0) const {
-    const Scalar one(1), two(2), h = p0 * (one - p0), twist = p0 + (p0 - one);
-    return two * b * b * h * E + (one - b * twist);
   }
 };
 

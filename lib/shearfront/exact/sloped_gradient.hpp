@@ -113,9 +113,13 @@ class SlopedGradient {
     start_ =
         is_state ? cells_.layer[path_.source] : cells_.layer[is_set_up_ ? path_.source : path_.source - 1];
     if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
+    if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
+      pieces_.form[end_] == RateForm::linear ? in_linear_piece() : in_exponential_piece();
+      move_boundaries();
+      return std::move(out_);
+    }
     if (h_ == 0 && is_state) return pure();
     if (!is_state && path_.foot == z_ && !path_.turned) return at_its_source();
-    if (is_in_one_piece() && pieces_.form[end_] == RateForm::exponential) return in_exponential_piece();
     passes();
     if (is_state)
       phi_of_state();
@@ -286,7 +290,6 @@ class SlopedGradient {
   /// h = 4 g r(y) and T(y, h) = t with y free.
   void phi_of_state() {
     const Scalar p0 = cells_.phi[path_.source], one(1), four(4), g = p0 * (one - p0);
-    if (is_in_one_piece()) return phi_in_linear_piece(p0);
     const Scalar r = at(start_, path_.foot);
     const Scalar q0 = std::max(q(r), Scalar(unit_roundoff<Scalar>() * unit_roundoff<Scalar>()));
     const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
@@ -301,34 +304,49 @@ class SlopedGradient {
     add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
-  [[nodiscard]] bool is_in_one_piece() const {
-    return start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_);
-  }
-
-  /// Logit phi = logit p0 + b t where r is linear.
-  void phi_in_linear_piece(const Scalar& p0) {
-    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
-    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
-    const Scalar &bend = pieces_.bend[end_], one(1), width = pieces_.width(end_);
-    const LinearDrift<Scalar> drift(bend, t_);
-    const Scalar D = p0 * drift.u + (one - p0) * drift.v, by = drift.u * drift.v / (D * D);
-    out_.phi_state = by;
-    const Scalar by_bend = by * p0 * (one - p0) * t_;
-    number(end_, true).phi += by_bend / width;
-    number(end_, false).phi -= by_bend / width;
-    out_.phi_log_scale = by_bend * bend;
+  /// A path that does not leave a linear piece: by r at its start or end and by the slope. Of a state logit phi = logit p0 + b t.
+  void in_linear_piece() {
+    const Scalar one(1), &slope = pieces_.bend[end_], width = pieces_.width(end_);
+    const LinearDrift<Scalar> drift(slope, t_);
+    StartMomentum<Scalar> start;
+    Scalar by_slope;
+    if (path_.kind == PathKind::constant) {
+      start = {cells_.phi[path_.source], one - cells_.phi[path_.source]};
+      const Scalar D = start.p * drift.u + start.missing * drift.v;
+      out_.phi_state = drift.u / D * (drift.v / D);
+      by_slope = out_.phi_state * start.p * start.missing * t_;
+      out_.phi_log_scale = by_slope * slope;
+    } else {
+      const Scalar r = at(end_, z_), d = z_ - path_.foot;
+      const auto arc = arc_from_point(RateForm::linear, slope, t_, d, at(start_, path_.foot), r);
+      const auto by = linear_fan_derivatives(arc, drift, slope, t_, d, r);
+      const Scalar p = arc.p * drift.v, missing = arc.missing * drift.u;
+      start = {p / (p + missing), missing / (p + missing)};
+      out_.start = start;
+      out_.phi_start = by.by_start;
+      out_.phi_log_scale = by.by_log_scale;
+      by_slope = by.by_slope;
+      add_at(end_, z_, Scalar(0), by.by_rate);
+    }
+    number(end_, true).phi += by_slope / width;
+    number(end_, false).phi -= by_slope / width;
+    if (!(h_ > 0)) return;
+    const LinearArcIntegrals<Scalar> integrals(path_.H, drift, slope, t_, start.p, start.missing);
+    add_at(end_, path_.foot, integrals.level, Scalar(0));
+    number(end_, true).M += integrals.height / width;
+    number(end_, false).M -= integrals.height / width;
   }
 
   /// A path that does not leave an exponential piece: by log r at its start or end and by kappa = |r'/r|, which are
   ///   log r(z) = w_low log r_low + w_high log r_high,   kappa = log(near / far) / width,
   /// near the end with the larger rate. Where r rises all is turned upside down.
-  PathGradient<Scalar> in_exponential_piece() {
+  void in_exponential_piece() {
     using std::expm1;
     const Scalar one(1), &bend = pieces_.bend[end_];
     const bool is_rising = bend > 0;
     const Scalar kappa = is_rising ? bend : Scalar(-bend), sign(is_rising ? -1 : 1);
     const Scalar r0 = at(start_, path_.foot), d = sign * (z_ - path_.foot);
-    ArcMomentumDerivatives<Scalar> phi;
+    ExponentialFanDerivatives<Scalar> phi;
     StartMomentum<Scalar> start;  // in the orientation in which r falls
     if (path_.kind == PathKind::constant) {
       const Scalar& p0 = cells_.phi[path_.source];
@@ -343,7 +361,7 @@ class SlopedGradient {
       const FanMomenta<Scalar> fan(Scalar(way * kappa), log_E, e);
       start = {fan.p0, fan.one_minus_p0};
       out_.start = is_rising ? StartMomentum<Scalar>{fan.one_minus_p0, fan.p0} : start;
-      phi = fan_momentum_derivatives<Scalar>(fan, kappa, way, d, e);
+      phi = exponential_fan_derivatives<Scalar>(fan, kappa, way, d, e);
       out_.phi_start = phi.by_start;
     }
     out_.phi_log_scale = sign * phi.by_log_rate;
@@ -353,7 +371,7 @@ class SlopedGradient {
     add_at(end_, path_.foot, gain / r0, Scalar(0));
     // log r falls by kappa times the way from the start.
     const Scalar by_kappa =
-        -gain * mean_height_of_arc<Scalar>(Scalar(r0 * t_), kappa, start.p, start.missing);
+        -gain * mean_height_in_exponential<Scalar>(Scalar(r0 * t_), kappa, start.p, start.missing);
     const Scalar width = pieces_.width(end_);
     for (const bool is_high : {false, true}) {
       const Scalar& r = is_high ? pieces_.high[end_] : pieces_.low[end_];
@@ -361,19 +379,11 @@ class SlopedGradient {
       number(end_, is_high).M += by_kappa * by_number;
       number(end_, is_high).phi += sign * phi.by_kappa * by_number;
     }
-    move_boundaries();
-    return std::move(out_);
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
   PathGradient<Scalar> pure() {
-    const Scalar& p0 = cells_.phi[path_.source];
-    if (start_ == end_) {
-      if (pieces_.form[end_] == RateForm::exponential) return in_exponential_piece();
-      phi_in_linear_piece(p0);
-    } else {
-      out_.phi_state = at(start_, path_.foot) / at(end_, z_);  // H = r(y) g is conserved
-    }
+    out_.phi_state = at(start_, path_.foot) / at(end_, z_);  // H = r(y) g is conserved
     return std::move(out_);
   }
 
