@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cmath>
-#include <utility>
+#include <cstdint>
 
 #include "shearfront/exact/exponential_path.hpp"
 #include "shearfront/exact/rate_form.hpp"
@@ -18,15 +18,22 @@
 /// Where r rises the same is turned upside down.
 namespace shearfront::exact {
 
-/// A path inside one piece: p and 1 - p at its end, and what it gains on its ways up and down, H t included; it starts
-/// up - down below its end.
+/// Which ways of a path count: what M gains is p dz upwards, and in the bed turned upside down that is downwards.
+enum class Ways : std::uint8_t { up, down };
+
+/// A path inside one piece: p and 1 - p at its end, what it gains on the ways asked for, H t included, how far its end is above
+/// its start, and p0 / (1 - p0) there.
 template <Real Scalar>
 struct Arc {
-  Scalar p{0}, missing{0}, up{0}, down{0}, start_odds{0};  ///< start_odds = p0 / (1 - p0) at its start
+  Scalar p{0}, missing{0}, gain{0}, rise{0}, start_odds{0};
   bool exists = false;
 
-  [[nodiscard]] Arc turned_over() const { return {missing, p, down, up, Scalar(1) / start_odds, exists}; }
+  [[nodiscard]] Arc turned_over() const {
+    return {missing, p, gain, Scalar(-rise), Scalar(1) / start_odds, exists};
+  }
 };
+
+[[nodiscard]] constexpr Ways turned_over(Ways ways) { return ways == Ways::up ? Ways::down : Ways::up; }
 
 /// What the linear law does to momenta in the time t.
 template <Real Scalar>
@@ -50,22 +57,23 @@ namespace arc_detail {
 
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> linear_from_state(const Scalar& slope, const Scalar& t, const Scalar& p0,
-                                            const Scalar& missing0, const Scalar& r) {
+                                            const Scalar& missing0, const Scalar& r, Ways ways) {
   const LinearDrift<Scalar> drift(slope, t);
   const Scalar D = p0 * drift.u + missing0 * drift.v;
   Arc<Scalar> arc;
   arc.exists = drift.B > 0;
   arc.p = p0 * drift.u / D;
   arc.missing = missing0 * drift.v / D;
-  arc.up = r * drift.B * (p0 / D) * arc.p;
-  arc.down = r * drift.B * (missing0 / D) * arc.missing;
+  const Scalar up = r * drift.B * (p0 / D) * arc.p, down = r * drift.B * (missing0 / D) * arc.missing;
+  arc.gain = ways == Ways::up ? up : down;
+  arc.rise = up - down;
   arc.start_odds = p0 / missing0;
   return arc;
 }
 
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> linear_from_point(const Scalar& slope, const Scalar& t, const Scalar& d,
-                                            const Scalar& r0, const Scalar& r) {
+                                            const Scalar& r0, const Scalar& r, Ways ways) {
   using std::sqrt;
   const LinearDrift<Scalar> drift(slope, t);
   const Scalar k = d / (r * drift.B);
@@ -73,8 +81,9 @@ template <Real Scalar>
   Arc<Scalar> arc;
   arc.p = (drift.u + k * drift.u * drift.v) / (drift.u + g);
   arc.missing = (drift.v - k * drift.u * drift.v) / (drift.v + g);
-  arc.up = r * drift.B * arc.p * arc.p / drift.u;
-  arc.down = r * drift.B * arc.missing * arc.missing / drift.v;
+  arc.gain = ways == Ways::up ? Scalar(r * drift.B * arc.p * arc.p / drift.u)
+                              : Scalar(r * drift.B * arc.missing * arc.missing / drift.v);
+  arc.rise = d;
   arc.start_odds = arc.p * drift.v / (arc.missing * drift.u);
   arc.exists = drift.B > 0 && arc.p >= 0 && arc.missing >= 0;
   return arc;
@@ -100,16 +109,21 @@ template <Real Scalar>
 /// From p0 with missing0 = 1 - p0, B and log E, where r falls.
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> falling_exponential(const Scalar& decay, const Scalar& B, const Scalar& log_E,
-                                              const Scalar& p0, const Scalar& missing0, const Scalar& p) {
+                                              const Scalar& p0, const Scalar& missing0, const Scalar& p,
+                                              Ways ways) {
   using std::log1p;
   const Scalar one(1), half(0.5), x = B * p0, y = B * missing0;
   Arc<Scalar> arc;
   arc.p = p;
   arc.missing = missing0 * (one + x);
   // By parts of one sign where the logarithm is nearly what is taken from it.
-  arc.up = decay * (x < half ? Scalar(x * p0 * (one - B * log_excess(x))) : Scalar(log1p(x) - x * missing0));
-  arc.down = decay * (y < half ? Scalar(y * missing0 * (one + B * log_excess(Scalar(-y))))
-                               : Scalar((log1p(x) - log_E) - y * p0));
+  if (ways == Ways::up)
+    arc.gain =
+        decay * (x < half ? Scalar(x * p0 * (one - B * log_excess(x))) : Scalar(log1p(x) - x * missing0));
+  else
+    arc.gain = decay * (y < half ? Scalar(y * missing0 * (one + B * log_excess(Scalar(-y))))
+                                 : Scalar((log1p(x) - log_E) - y * p0));
+  arc.rise = decay * log_E;
   arc.start_odds = p0 / missing0;
   arc.exists = true;
   return arc;
@@ -117,23 +131,23 @@ template <Real Scalar>
 
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> exponential_from_state(const Scalar& decay, const Scalar& t, const Scalar& p0,
-                                                 const Scalar& missing0, const Scalar& r) {
+                                                 const Scalar& missing0, const Scalar& r, Ways ways) {
   const Scalar b = r * (t / decay);
   const FootRoot<Scalar> root(b, p0);
   if (!root.exists || !(b > 0)) return {};
   const Scalar B = b * root.E;
   const Scalar p = missing0 == 0 ? Scalar(1) : Scalar(p0 * (root.E / (Scalar(1) + B * p0)));
-  return falling_exponential<Scalar>(decay, B, root.log_E(), p0, missing0, p);
+  return falling_exponential<Scalar>(decay, B, root.log_E(), p0, missing0, p, ways);
 }
 
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> exponential_from_point(const Scalar& decay, const Scalar& t, const Scalar& d,
-                                                 const Scalar& r0) {
+                                                 const Scalar& r0, Ways ways) {
   using std::expm1;
   const Scalar B = r0 * (t / decay), log_E = d / decay, e = expm1(log_E);
   if (!(B > 0) || e > B || B + e < 0) return {};
   const FanMomenta<Scalar> fan(B, log_E, e);
-  return falling_exponential<Scalar>(decay, B, log_E, fan.p0, fan.one_minus_p0, fan.p);
+  return falling_exponential<Scalar>(decay, B, log_E, fan.p0, fan.one_minus_p0, fan.p, ways);
 }
 
 }  // namespace arc_detail
@@ -141,19 +155,22 @@ template <Real Scalar>
 /// The path of a constant state to where the rate is r.
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> arc_from_state(RateForm form, const Scalar& bend, const Scalar& t, const Scalar& p0,
-                                         const Scalar& missing0, const Scalar& r) {
-  if (form == RateForm::linear) return arc_detail::linear_from_state(bend, t, p0, missing0, r);
-  if (bend < 0) return arc_detail::exponential_from_state<Scalar>(Scalar(-1) / bend, t, p0, missing0, r);
-  return arc_detail::exponential_from_state<Scalar>(Scalar(1) / bend, t, missing0, p0, r).turned_over();
+                                         const Scalar& missing0, const Scalar& r, Ways ways = Ways::up) {
+  using namespace arc_detail;
+  if (form == RateForm::linear) return linear_from_state(bend, t, p0, missing0, r, ways);
+  if (bend < 0) return exponential_from_state<Scalar>(Scalar(-1) / bend, t, p0, missing0, r, ways);
+  return exponential_from_state<Scalar>(Scalar(1) / bend, t, missing0, p0, r, turned_over(ways))
+      .turned_over();
 }
 
 /// The path from a height with the rate r0 to one with the rate r, d above.
 template <Real Scalar>
 [[nodiscard]] Arc<Scalar> arc_from_point(RateForm form, const Scalar& bend, const Scalar& t, const Scalar& d,
-                                         const Scalar& r0, const Scalar& r) {
-  if (form == RateForm::linear) return arc_detail::linear_from_point(bend, t, d, r0, r);
-  if (bend < 0) return arc_detail::exponential_from_point<Scalar>(Scalar(-1) / bend, t, d, r0);
-  return arc_detail::exponential_from_point<Scalar>(Scalar(1) / bend, t, Scalar(-d), r0).turned_over();
+                                         const Scalar& r0, const Scalar& r, Ways ways = Ways::up) {
+  using namespace arc_detail;
+  if (form == RateForm::linear) return linear_from_point(bend, t, d, r0, r, ways);
+  if (bend < 0) return exponential_from_point<Scalar>(Scalar(-1) / bend, t, d, r0, ways);
+  return exponential_from_point<Scalar>(Scalar(1) / bend, t, Scalar(-d), r0, turned_over(ways)).turned_over();
 }
 
 }  // namespace shearfront::exact

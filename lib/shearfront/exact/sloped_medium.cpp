@@ -7,6 +7,7 @@
 
 #include "shearfront/exact/arc.hpp"
 #include "shearfront/exact/initial_amount.hpp"
+#include "shearfront/exact/one_piece_search.hpp"
 #include "shearfront/exact/sloped_arrival.hpp"
 #include "shearfront/exact/sloped_gradient.hpp"
 #include "shearfront/exact/sloped_search.hpp"
@@ -36,6 +37,7 @@ template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                           bool moving_only) const {
   using std::sqrt;
+  if (pieces_.size() == 1) return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);
   const std::size_t above = place.above;

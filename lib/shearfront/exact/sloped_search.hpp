@@ -57,7 +57,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     const auto arc = arc_from_state(view_.form[cell], view_.bend[cell], t_, view_.p[k], view_.missing[k],
                                     rate_beside(cell));
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
-    const Scalar gain = arc.up - arc.down, width = view_.x[k + 1] - view_.x[k];
+    const Scalar &gain = arc.rise, width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
     if (!arc.exists || !(gain <= (z_ - view_.x[k]) + rounding) ||
         !(-gain <= (view_.x[k + 1] - z_) + rounding))
@@ -69,7 +69,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   /// From the lower node of cell k.
   void fan_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
     const auto arc = arc_from_point(view_.form[cell], view_.bend[cell], t_, Scalar(z_ - view_.x[k]),
-                                    view_.low[k], rate_beside(cell));
+                                    view_.low[k], rate_beside(cell), view_.is_mirror ? Ways::down : Ways::up);
     const Scalar one(1), edge = one / Scalar(1 << 20);
     if (arc.exists && arc.start_odds >= one - edge)
       accept(cell, arc, view_.x[k], PathKind::fan, k, view_.M[k], low, high);
@@ -88,7 +88,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (starts_down && ends_up && h < low) return;
     const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
     const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
-    offer(M0 + (view_.is_mirror ? arc.down : arc.up), h, kind, ends_up, turned, source, y, cell, r, q);
+    offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
   }
 
   /// Everything that starts below z and leaves its cell at the top.
