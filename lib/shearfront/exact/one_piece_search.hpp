@@ -47,12 +47,12 @@ class OnePieceSearch {
   }
 
   void state(std::size_t k) {
-    const Arc<Scalar> arc = arc_from_state(form_, bend_, t_, view_.p[k], view_.missing[k], rate_);
-    if (!arc.exists) return;
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar &lo = view_.x[k], &hi = view_.x[k + 1];
     const Scalar rounding = std::min(slack_, Scalar((hi - lo) / Scalar(1 << 20)));
-    if (!(arc.rise <= (z_ - lo) + rounding) || !(-arc.rise <= (hi - z_) + rounding)) return;
+    const Arc<Scalar> arc = arc_from_state(form_, bend_, t_, view_.p[k], view_.missing[k], rate_, Ways::up,
+                                           {(z_ - hi) - rounding, (z_ - lo) + rounding});
+    if (!arc.exists) return;
     const Scalar y = z_ - arc.rise;
     offer(arc, std::clamp(y, lo, hi), PathKind::constant, k, view_.M[k] + view_.p[k] * (y - lo));
   }

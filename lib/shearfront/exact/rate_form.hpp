@@ -52,4 +52,11 @@ template <Real Scalar>
   return form == RateForm::linear ? bend : Scalar(bend * rate);
 }
 
+/// int dz / r over the distance d > 0 up from where an exponential rate is `rate`; down from there with -bend.
+template <Real Scalar>
+[[nodiscard]] Scalar exponential_time(const Scalar& bend, const Scalar& rate, const Scalar& d) {
+  using std::expm1;
+  return -expm1(Scalar(-bend * d)) / (bend * rate);
+}
+
 }  // namespace shearfront::exact

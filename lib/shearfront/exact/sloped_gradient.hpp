@@ -112,12 +112,12 @@ class SlopedGradient {
     const bool is_state = path_.kind == PathKind::constant;
     start_ =
         is_state ? cells_.layer[path_.source] : cells_.layer[is_set_up_ ? path_.source : path_.source - 1];
-    if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
     if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
       pieces_.form[end_] == RateForm::linear ? in_linear_piece() : in_exponential_piece();
       move_boundaries();
       return std::move(out_);
     }
+    if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
     if (h_ == 0 && is_state) return pure();
     if (!is_state && path_.foot == z_ && !path_.turned) return at_its_source();
     passes();
@@ -365,19 +365,17 @@ class SlopedGradient {
       out_.phi_start = phi.by_start;
     }
     out_.phi_log_scale = sign * phi.by_log_rate;
+    const Scalar gain = path_.H * t_, width = pieces_.width(end_);
     const Scalar& from = path_.kind == PathKind::constant ? z_ : path_.foot;
-    add_at(end_, from, Scalar(0), out_.phi_log_scale / at(end_, from));
-    const Scalar gain = path_.H * t_;
-    add_at(end_, path_.foot, gain / r0, Scalar(0));
     // log r falls by kappa times the way from the start.
     const Scalar by_kappa =
         -gain * mean_height_in_exponential<Scalar>(Scalar(r0 * t_), kappa, start.p, start.missing);
-    const Scalar width = pieces_.width(end_);
     for (const bool is_high : {false, true}) {
-      const Scalar& r = is_high ? pieces_.high[end_] : pieces_.low[end_];
-      const Scalar by_number = Scalar(is_high == is_rising ? 1 : -1) / (width * r);
-      number(end_, is_high).M += by_kappa * by_number;
-      number(end_, is_high).phi += sign * phi.by_kappa * by_number;
+      const Scalar& beyond = pieces_.boundaries[is_high ? end_ : end_ + 1];
+      const Scalar unit =
+          Scalar(is_high ? 1 : -1) / (width * (is_high ? pieces_.high[end_] : pieces_.low[end_]));
+      number(end_, is_high).M += unit * (gain * (path_.foot - beyond) - sign * by_kappa);
+      number(end_, is_high).phi += unit * (out_.phi_log_scale * (from - beyond) - phi.by_kappa);
     }
   }
 

@@ -66,10 +66,18 @@ Scalar SlopedMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& 
   Scalar time(0);
   for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
     const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
-    if (b > a)
-      time += Crossing<Scalar>(pieces_.form[k], b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
+    if (!(b > a)) continue;
+    const Scalar& bend = pieces_.bend[k];
+    if (pieces_.form[k] == RateForm::linear)
+      time += Crossing<Scalar>(RateForm::linear, b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
                                Scalar(0))
                   .T;
+    else if (a == pieces_.boundaries[k])
+      time += exponential_time(bend, pieces_.low[k], Scalar(b - a));
+    else if (b == pieces_.boundaries[k + 1])
+      time += exponential_time(Scalar(-bend), pieces_.high[k], Scalar(b - a));
+    else
+      time += exponential_time(bend, pieces_.rate(k, a), Scalar(b - a));
   }
   return time;
 }

@@ -54,15 +54,14 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
   /// From cell k; `low` and `high` are the rates at the ends of the piece.
   void state_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
-    const auto arc = arc_from_state(view_.form[cell], view_.bend[cell], t_, view_.p[k], view_.missing[k],
-                                    rate_beside(cell));
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
-    const Scalar &gain = arc.rise, width = view_.x[k + 1] - view_.x[k];
+    const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
-    if (!arc.exists || !(gain <= (z_ - view_.x[k]) + rounding) ||
-        !(-gain <= (view_.x[k + 1] - z_) + rounding))
-      return;
-    const Scalar y = z_ - gain;
+    const auto arc = arc_from_state(view_.form[cell], view_.bend[cell], t_, view_.p[k], view_.missing[k],
+                                    rate_beside(cell), Ways::up,
+                                    {(z_ - view_.x[k + 1]) - rounding, (z_ - view_.x[k]) + rounding});
+    if (!arc.exists) return;
+    const Scalar y = z_ - arc.rise;
     accept(cell, arc, std::clamp(y, view_.x[k], view_.x[k + 1]), PathKind::constant, k, view_.amount(k, y),
            low, high);
   }
