@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/solution/observe.hpp"

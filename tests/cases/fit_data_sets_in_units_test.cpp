@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "support/scene_units.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "support/fit_scenes.hpp"
 
 namespace shearfront::fit {

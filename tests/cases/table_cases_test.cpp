@@ -9,7 +9,7 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "support/fit_scenes.hpp"
 

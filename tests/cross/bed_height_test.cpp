@@ -11,7 +11,7 @@
 
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/refusal.hpp"
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/lowest_bed.hpp"

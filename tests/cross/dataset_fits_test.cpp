@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/scene/entries.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "shearfront/diffusion/problem_tangents.hpp"
 #include "shearfront/diffusion/setup.hpp"
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/solution/observe.hpp"
 #include "shearfront/solver/all.hpp"

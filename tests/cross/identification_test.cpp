@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fv/engquist_osher_solver.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"

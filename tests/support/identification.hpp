@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 
 /// Identification problems: Examples 3 to 6 of Buerger, Martinez, Villada (2023), and exact data for them.
 namespace shearfront::support {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/io/method_text.hpp"
 
 namespace shearfront::fit {

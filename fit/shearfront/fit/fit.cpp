@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/search/search.hpp"
 
 namespace shearfront::fit {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "shearfront/fit/fit.hpp"
+#include "shearfront/fit.hpp"
 
 namespace shearfront::fit {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "shearfront/model/flux/course.hpp"
+#include "shearfront/riemann/flux_course.hpp"
 
 namespace shearfront::fv {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/flux_course.hpp"
 
 namespace shearfront {
 namespace {

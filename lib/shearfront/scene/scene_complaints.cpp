@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/flux_course.hpp"
 
 namespace shearfront {
 

@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/riemann/flux_course.hpp"
 #include "shearfront/riemann/overload.hpp"
 #include "shearfront/track/one_layer_grid.hpp"
 #include "shearfront/track/reconstruct.hpp"

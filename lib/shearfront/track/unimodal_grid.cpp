@@ -10,9 +10,9 @@
 #include <utility>
 #include <variant>
 
-#include "shearfront/model/flux/course.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/instantiated.hpp"
+#include "shearfront/riemann/flux_course.hpp"
 
 namespace shearfront {
 namespace {

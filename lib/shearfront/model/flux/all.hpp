@@ -2,7 +2,6 @@
 #pragma once
 #include "shearfront/model/flux/buckley_leverett.hpp"
 #include "shearfront/model/flux/burgers.hpp"
-#include "shearfront/model/flux/course.hpp"
 #include "shearfront/model/flux/cubic.hpp"
 #include "shearfront/model/flux/flux.hpp"
 #include "shearfront/model/flux/lwr.hpp"
