@@ -10,7 +10,7 @@
 
 namespace shearfront::exact {
 
-/// The best path to (z, t) in a bed that is one piece: a closed form for each initial jump and each state within reach, no
+/// The best path to (z, t) in a bed that is one exponential piece: a closed form for each initial jump and each state within reach, no
 /// routes, no bounds. Heights of the upright view. Finite speed: the starts within reach are those of pure states.
 template <Real Scalar>
 class OnePieceSearch {
@@ -33,16 +33,10 @@ class OnePieceSearch {
   }
 
  private:
-  /// How far a pure state comes in the time t from where r falls off as exp(-bend d), or by the slope bend, with the distance d.
+  /// How far a pure state comes in the time t from where r falls off as exp(-bend d) with the distance d.
   [[nodiscard]] Scalar reach(const Scalar& bend) const {
-    using std::expm1;
     using std::log1p;
-    const Scalar way = rate_ * t_;
-    if (form_ == RateForm::linear) {
-      const Scalar x = bend * t_;
-      return x == 0 ? way : Scalar(way * (-expm1(Scalar(-x)) / x));
-    }
-    const Scalar x = bend * way;
+    const Scalar x = bend * (rate_ * t_);
     return x > Scalar(-1) ? Scalar(log1p(x) / bend) : infinity<Scalar>();
   }
 
@@ -71,9 +65,7 @@ class OnePieceSearch {
     path.value = M0 + arc.gain;
     if (!(path.value <= best_.value)) return;
     path.H = rate_ * arc.p * arc.missing;
-    // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
-    const bool is_flat = bend_ == 0;
-    path.upward = arc.p > Scalar(0.5) || (is_flat && kind == PathKind::fan);
+    path.upward = arc.p > Scalar(0.5);
     const bool starts_up =
                    arc.start_odds > Scalar(1) || (kind == PathKind::fan && arc.start_odds == Scalar(1)),
                starts_down = arc.start_odds < Scalar(1);
@@ -81,7 +73,7 @@ class OnePieceSearch {
     // It would turn beyond the piece.
     if (starts_up && !path.upward && h < view_.high.back()) return;
     if (starts_down && path.upward && h < view_.low.front()) return;
-    path.turned = h > 0 && !is_flat && (path.upward ? starts_down : starts_up);
+    path.turned = h > 0 && (path.upward ? starts_down : starts_up);
     path.kind = kind;
     path.source = source;
     path.foot = y;
