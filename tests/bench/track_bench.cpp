@@ -13,26 +13,13 @@
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/unimodal_grid.hpp"
 #include "support/random_scene.hpp"
+#include "support/source_examples.hpp"
 
 namespace shearfront {
 namespace {
 
-Scene<double> example_1() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
-
-Scene<double> exponential() {
-  SceneSpec<double> spec;
-  spec.shear_rate = Exponential<double>{0.87 / 0.205, 0.205};
-  spec.scale = 13.60;
-  spec.initial_breaks = {0.5};
-  spec.initial_values = {0, 1};
-  return Scene<double>(spec);
-}
+using support::example_1;
+using support::example_2;
 
 Scene<double> random_jumps(std::size_t n) {
   support::SceneMaker maker(1);
@@ -87,7 +74,7 @@ BENCHMARK(random_data_to_steady)
     ->Unit(benchmark::kMillisecond);
 
 void exponential_to_0_9(benchmark::State& state) {
-  run(state, exponential(), 1 / static_cast<double>(state.range(0)), 0.9);
+  run(state, example_2(), 1 / static_cast<double>(state.range(0)), 0.9);
 }
 BENCHMARK(exponential_to_0_9)->Arg(30)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
 
@@ -112,13 +99,9 @@ SceneSpec<double> step_of(const Flux<double>& flux) {
   spec.fluxes = {flux};
   spec.shear_rate = Piecewise<double>{{0.29}, {2.4, 0.31}};
   spec.initial_breaks = {0.5};
-  std::visit(
-      [&](const auto& f) {
-        const auto [lowest, highest] = f.range();
-        const bool has_minimum = f.value(f.extrema().front()) < 0;
-        spec.initial_values = {has_minimum ? lowest : highest, has_minimum ? highest : lowest};
-      },
-      flux);
+  const auto [lowest, highest] = flux.range();
+  const bool has_minimum = flux.value(flux.extrema().front()) < 0;
+  spec.initial_values = {has_minimum ? lowest : highest, has_minimum ? highest : lowest};
   return spec;
 }
 
