@@ -294,9 +294,8 @@ void ObservationColumns::find_missing() {
           "[columns] or --columns";
     else if (const auto meant = misspelt(column))
       constraint += "; rename " + *meant + " if that is meant";
-    else
-      constraint +=
-          fmt::format("; it has {}: say which is {} in [columns] or --columns", names(), name_of(column));
+    else if (const std::string unused = unused_names(); !unused.empty())
+      constraint += fmt::format("; say in [columns] or --columns if it is {}", unused);
     refuse_header(std::move(constraint));
   }
 }
@@ -340,6 +339,7 @@ void ObservationColumns::check_units(const Target& target) {
 
 void ObservationColumns::convert(Column column, const std::string& to) {
   const bool is_place = layout_ != TableLayout::rows && (column == Column::t || column == Column::z);
+  if (!report_->is_empty()) return;
   if ((!has(column) && !is_place) || unit(column).empty()) return;
   if (const auto factor = unit_factor(unit(column), to))
     factors_[index(column)] = *factor;
@@ -383,6 +383,14 @@ std::string ObservationColumns::names() const {
   std::string all;
   for (const Heading& heading : headings_)
     all += (all.empty() ? "" : ", ") + printable(heading.name, kLongestName);
+  return all;
+}
+
+std::string ObservationColumns::unused_names() const {
+  std::string all;
+  for (std::size_t i = 0; i < headings_.size(); ++i)
+    if (std::find(at_.begin(), at_.end(), i) == at_.end() && !headings_[i].name.empty())
+      all += (all.empty() ? "" : " or ") + quoted_text(headings_[i].name, kLongestName);
   return all;
 }
 

@@ -363,7 +363,8 @@ class ObservationsReader {
       parts.push_back(fmt::format("{} line{} before the header", n_preamble_, n_preamble_ == 1 ? "" : "s"));
     if (dialect_.units) parts.emplace_back("a row of units");
     const bool is_plain = parts.empty() && columns_->is_plain() && averaged_.empty();
-    std::string text = fmt::format("{}: {} rows", printable(source_.name()), n_rows_);
+    std::string text =
+        fmt::format("{}: {} row{}", printable(source_.name()), n_rows_, n_rows_ == 1 ? "" : "s");
     for (const std::string& part : parts) text += ", " + part;
     text += "; " + columns_->understood();
     if (result_.n_missing > 0) text += fmt::format("; {} missing", result_.n_missing);
@@ -377,7 +378,6 @@ class ObservationsReader {
     const bool is_sum = result_.quantity == Quantity::cumulative;
     StateRange<double> possible = *phi_;
     if (result_.quantity == Quantity::bed_height) possible = {0, 1};
-    if (!is_sum && result_.quantity != Quantity::bed_height && target_.are_parts) return refuse_percent();
     const double height = result_.quantity == Quantity::bed_height || is_sum ? top_ - bottom_ : 1;
     const double width = height * (possible.highest - possible.lowest);
     const double lowest =
@@ -393,6 +393,8 @@ class ObservationsReader {
            fmt::format("must lie near what the scene allows, {} to {}",
                        number_text(height * possible.lowest, 6), number_text(height * possible.highest, 6))});
     }
+    if (!is_sum && result_.quantity != Quantity::bed_height && target_.are_parts && report_.is_empty())
+      refuse_percent();
   }
 
   void refuse_percent() {

@@ -92,6 +92,7 @@ class ObservationColumns {
   void check_units(const Target& target);
   void convert(Column column, const std::string& to);
   [[nodiscard]] const std::string& unit(Column column) const { return column_units_[index(column)]; }
+  [[nodiscard]] std::string unused_names() const;
   [[nodiscard]] std::optional<std::string> misspelt(Column column) const;
   void refuse(std::size_t i, std::string constraint);
   void refuse_header(std::string constraint);
