@@ -17,7 +17,8 @@ namespace shearfront::tools {
 namespace {
 
 struct ImportArguments {
-  std::string file, scene, columns, units, separator, decimal, missing, layout, replicates, output;
+  std::string file, scene, columns, units, separator, decimal, missing, layout, replicates, width, time_step,
+      output;
 };
 
 /// "t=time [s],phi=conc": what each column is given; `set` takes it.
@@ -48,6 +49,10 @@ ObservationFormat format_of(const ImportArguments& arguments) {
   if (!arguments.layout.empty())
     format.layout = static_cast<TableLayout>(
         choice_option("--layout", arguments.layout, {kTableLayoutNames.begin(), kTableLayoutNames.end()}));
+  if (!arguments.width.empty())
+    format.width = number_option("--width", arguments.width, {0, HUGE_VAL, true}, "> 0");
+  if (!arguments.time_step.empty())
+    format.time_step = number_option("--time-step", arguments.time_step, {0, HUGE_VAL, true}, "> 0");
   if (!arguments.replicates.empty())
     format.replicates = static_cast<Replicates>(choice_option(
         "--replicates", arguments.replicates, {kReplicatesNames.begin(), kReplicatesNames.end()}));
@@ -100,6 +105,10 @@ Command add_import(CLI::App& program) {
   app->add_option("--replicates", arguments->replicates,
                   "several values at one place; mean gives their spread as sigma; default refuse")
       ->type_name(fmt::format("{}", fmt::join(kReplicatesNames, "|")));
+  app->add_option("--width", arguments->width, "of the bins that phi is a mean over, in the unit of z")
+      ->type_name("W");
+  app->add_option("--time-step", arguments->time_step, "of a particle simulation whose file counts steps")
+      ->type_name("DT");
   app->add_option("-o", arguments->output, "observations, CSV; default standard output")->type_name("FILE");
   return {app, "FILE", [arguments] { return import_file(*arguments); }};
 }

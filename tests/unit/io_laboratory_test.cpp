@@ -160,6 +160,47 @@ TEST(LaboratoryFiles, AreReadAsTheSameNumbers) {
   EXPECT_GE(n, 23u);
 }
 
+/// Averages over chunks as the particle code LAMMPS documents them (fix ave/chunk).
+TEST(LaboratoryFiles, AveragesOverChunks) {
+  const std::string text =
+      "# Chunk-averaged data for fix profile and group grains\n# Timestep Number-of-chunks Total-count\n"
+      "# Chunk Coord1 Ncount v_small\n2000 3 300\n  1 1 100 0.045\n  2 3 100 0.068\n  3 5 100 -0.012\n"
+      "6000 3 300\n  1 1 100 0.342\n  2 3 100 0.71\n  3 5 100 1.042\n";
+  ObservationFormat format;
+  format[Column::phi].name = "v_small";
+  EXPECT_NE(complaint(text, format).find("needs time_step"), std::string::npos) << complaint(text, format);
+  format.time_step = 0.01;
+  const Observations data = read(text, format);
+  expect_measured(data, "chunks");
+  EXPECT_NE(data.understood.find(
+                "averages over chunks; t from \"Timestep\"; z from \"Coord1\"; phi from \"v_small\""),
+            std::string::npos)
+      << data.understood;
+  const std::string broken = text.substr(0, text.find("6000")) + "six 3\n";
+  EXPECT_NE(complaint(broken, format).find("t"), std::string::npos);
+  EXPECT_NE(
+      complaint(text + "  4 7 100 0.5\n", format).find("must be a step, a number of chunks and their count"),
+      std::string::npos)
+      << complaint(text + "  4 7 100 0.5\n", format);
+}
+
+TEST(LaboratoryFiles, MeansOverBinsThatNoColumnTells) {
+  ObservationFormat format;
+  format.width = 0.2;
+  for (const char* text : {"t,z [cm],phi\n20,0.1,0.5\n20,0.3,0.5\n", "t [s]\\z [cm],0.1,0.3\n20,0.5,0.5\n"}) {
+    const Observations data = read(text, format);
+    EXPECT_EQ(data.quantity, Quantity::bin) << text;
+    ASSERT_EQ(data.rows.size(), 2u) << text;
+    EXPECT_EQ(data.rows[1].width, 2) << text;
+    EXPECT_NE(data.understood.find("means over bins of width 2"), std::string::npos) << data.understood;
+  }
+  EXPECT_NE(complaint("t,z [cm],phi\n20,0.05,0.5\n", format)
+                .find("must leave its bin of width 2 inside the domain"),
+            std::string::npos);
+  EXPECT_NE(complaint("t,z,phi,width\n20,1,0.5,1\n", format).find("must not be given beside a column"),
+            std::string::npos);
+}
+
 TEST(LaboratoryFiles, AColumnPerTime) {
   const Observations data = read("z,t = 20 s,t = 60 s\n1,0.045,0.342\n3,0.068,0.71\n5,-0.012,1.042\n");
   ASSERT_EQ(data.rows.size(), 6u);

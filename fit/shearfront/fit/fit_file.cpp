@@ -144,6 +144,14 @@ class FitReader {
     if (const auto i = chosen("layout", kTableLayoutNames)) format_.layout = static_cast<TableLayout>(*i);
     if (const auto i = chosen("replicates", kReplicatesNames))
       format_.replicates = static_cast<Replicates>(*i);
+    const auto positive = [&](std::string_view key, std::optional<double>& value) {
+      if (!table.node(key)) return;
+      table.number(key, Need::optional, value.emplace());
+      if (table.is_good(key) && !(*value > 0 && std::isfinite(*value)))
+        add({table.path(key), "", "must be > 0"});
+    };
+    positive("width", format_.width);
+    positive("time_step", format_.time_step);
     if (auto units = table.table("units", Need::optional, "must be a table of units of columns")) {
       for (std::size_t c = 0; c < kColumnNames.size(); ++c)
         if (auto unit = units->text(kColumnNames[c], Need::optional, "must be the name of a unit"))

@@ -46,6 +46,18 @@ std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const
   return std::nullopt;
 }
 
+/// Offset of the line that names the columns of averages over chunks.
+std::optional<std::size_t> header_of_chunks(std::string_view text) {
+  std::size_t begin = 0;
+  for (int i = 0; i < 3 && begin < text.size(); ++i) {
+    const std::string_view line = line_at(text, begin), content = trimmed(line);
+    if (!content.starts_with('#')) return std::nullopt;
+    if (i == 2) return trimmed(content.substr(1)).starts_with("Chunk ") ? std::optional(begin) : std::nullopt;
+    begin += line.size() + 1;
+  }
+  return std::nullopt;
+}
+
 bool is_units_row(const std::vector<CsvField>& fields) {
   bool has_unit = false;
   for (const CsvField& field : fields) {
@@ -67,7 +79,7 @@ char decimal_below(std::string_view text, std::size_t from, char separator) {
     for (const CsvField& field : fields) {
       if (field.text.find('.') != std::string_view::npos && shearfront::parse_number(field.text)) return '.';
       has_comma =
-          has_comma || (field.text.find(',') != std::string_view::npos && parse_number(field.text, ','));
+          has_comma || (field.text.find(',') != std::string_view::npos && number_with_mark(field.text, ','));
     }
   }
   return has_comma ? ',' : '.';
@@ -79,7 +91,7 @@ std::string_view line_at(std::string_view text, std::size_t offset) {
   return text.substr(offset, std::min(text.find('\n', offset), text.size()) - offset);
 }
 
-std::optional<double> parse_number(std::string_view text, char decimal) {
+std::optional<double> number_with_mark(std::string_view text, char decimal) {
   if (decimal == '.') return shearfront::parse_number(text);
   if (text.find('.') != std::string_view::npos) return std::nullopt;
   std::string with_point(text);
@@ -87,7 +99,14 @@ std::optional<double> parse_number(std::string_view text, char decimal) {
   return shearfront::parse_number(with_point);
 }
 
+ObservationFormat format_of_chunks(ObservationFormat format) {
+  if (format[Column::t].name.empty()) format[Column::t].name = "Timestep";
+  if (format[Column::z].name.empty()) format[Column::z].name = "Coord1";
+  return format;
+}
+
 std::string Dialect::text() const {
+  if (are_chunks) return "averages over chunks";
   std::string text = separator == ';'    ? "separated by semicolons"
                      : separator == '\t' ? "separated by tabs"
                                          : "";
@@ -130,6 +149,12 @@ Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {
   };
   const bool is_asked_wide = format.layout && *format.layout != TableLayout::rows;
   const bool is_asked_rows = format.layout && !is_asked_wide;
+  if (const auto chunks = header_of_chunks(text)) {
+    found.are_chunks = true;
+    found.header = *chunks;
+    found.separator = ' ';
+    return found;
+  }
   if (is_asked_wide || !search(is_header_of_rows)) {
     if (!is_asked_rows) (void)search(is_wide);
   }

@@ -53,8 +53,8 @@ class ObservationsReader {
  public:
   ObservationsReader(const TextSource& source, double bottom, double top, const ObservationFormat& format)
       : source_(source),
-        format_(format),
         dialect_(dialect_of(source, format)),
+        format_(dialect_.are_chunks ? detail::format_of_chunks(format) : format),
         report_(source.name(), kMostComplaints),
         bottom_(bottom),
         top_(top) {}
@@ -98,14 +98,16 @@ class ObservationsReader {
   void read_line(std::size_t offset, std::string_view line) {
     const std::string_view content = detail::trimmed(line);
     if (content.empty() || offset == dialect_.units) return;
-    const bool is_comment = content[0] == '#';
+    const bool is_header_of_chunks = dialect_.are_chunks && offset == dialect_.header,
+               is_comment = content[0] == '#' && !is_header_of_chunks;
     if (is_comment || offset < dialect_.header) {
       const std::size_t mark = !is_comment ? 0 : content.starts_with("# ") ? 2 : 1;
       result_.comments.emplace_back(content.substr(mark));
       if (!is_comment) ++n_preamble_;
       return;
     }
-    const auto bad_quotes = detail::split_csv(line, fields_, dialect_.separator);
+    const auto bad_quotes = take_apart(line, fields_);
+    if (dialect_.are_chunks && !is_header_of_chunks && is_start_of_block(offset, line)) return;
     if (bad_quotes)
       report_.add(source_.position(offset + *bad_quotes),
                   {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
@@ -123,11 +125,52 @@ class ObservationsReader {
       if (dialect_.units)
         (void)detail::split_csv(detail::line_at(source_.text(), *dialect_.units), units, dialect_.separator);
       columns_.emplace(source_, offset, fields_, units, format_, dialect_.layout, target_, report_);
+      if (dialect_.are_chunks && !format_.time_step)
+        report_.add(source_.position(offset),
+                    {"Timestep", "", "needs time_step in [format] or --time-step, the time of one step"});
     }
     report_.throw_if_any();  // without a header nothing is known about the rows
     result_.quantity = columns_->quantity();
+    if (format_.width) {
+      if (result_.quantity != Quantity::point)
+        report_.add(
+            columns_->position(columns_->value()),
+            {"width", number_text(*format_.width), "must not be given beside a column that says it, M or H"});
+      result_.quantity = Quantity::bin;
+      width_ = *format_.width * columns_->factor(Column::z);
+    }
     result_.units = columns_->units();
     result_.notes = columns_->notes();
+  }
+
+  /// The fields of a line; those of chunks begin with the step, which stands above them.
+  std::optional<std::size_t> take_apart(std::string_view line, std::vector<CsvField>& fields) const {
+    const auto bad_quotes = detail::split_csv(line, fields, dialect_.separator);
+    if (!dialect_.are_chunks) return bad_quotes;
+    const bool is_header = !fields.empty() && fields[0].text.starts_with('#');
+    if (is_header && fields[0].text == "#")
+      fields[0].text = "Timestep";
+    else
+      fields.insert(fields.begin(), {is_header ? std::string_view("Timestep") : step_, 0});
+    return bad_quotes;
+  }
+  /// A line that begins the chunks of a time; then what they are is remembered.
+  bool is_start_of_block(std::size_t offset, std::string_view line) {
+    if (n_chunks_left_ > 0) {
+      --n_chunks_left_;
+      return false;
+    }
+    std::vector<CsvField> fields;
+    (void)detail::split_csv(line, fields, ' ');
+    const auto n = fields.size() >= 2 ? parse_count(fields[1].text) : std::nullopt;
+    if (!n || fields.size() > 3) {
+      report_.add(source_.position(offset),
+                  {"block", quoted_text(line), "must be a step, a number of chunks and their count"});
+      return true;
+    }
+    step_ = fields[0].text;
+    n_chunks_left_ = *n;
+    return true;
   }
 
   void read_row(std::size_t offset) {
@@ -148,6 +191,7 @@ class ObservationsReader {
     for (const auto& [field, place] : columns_->places()) {
       if (by_height) {
         o.z = place * columns_->factor(Column::z);
+        if (!set_width(offset, o)) continue;
         if (n_rows_ == 0 && !(o.z >= bottom_ && o.z <= top_))
           is_good = refuse_place(field, Column::z, place, "must be inside the domain " + domain());
       } else {
@@ -159,7 +203,9 @@ class ObservationsReader {
   }
 
   bool read_time(std::size_t offset, Observation& o) {
-    return read_number(offset, Column::t, o.t, "") && (o.t >= 0 || refuse(offset, Column::t, "must be >= 0"));
+    if (!read_number(offset, Column::t, o.t, "")) return false;
+    if (dialect_.are_chunks) o.t *= format_.time_step.value_or(1);
+    return o.t >= 0 || refuse(offset, Column::t, "must be >= 0");
   }
 
   /// The value of an observation whose place is read; `is_good`: and is right.
@@ -184,7 +230,7 @@ class ObservationsReader {
     bool is_good = read_number(offset, Column::z, o.z, "");
     if (is_good && !(o.z >= bottom_ && o.z <= top_))
       is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
-    if (!columns_->has(Column::width)) return is_good;
+    if (!columns_->has(Column::width)) return is_good && set_width(offset, o);
     if (!read_number(offset, Column::width, o.width, "")) return false;
     if (!(o.width > 0)) return refuse(offset, Column::width, "must be > 0");
     if (is_good && !is_bin_resolved(o.z, o.width))
@@ -194,6 +240,16 @@ class ObservationsReader {
     return refuse(offset, Column::width,
                   fmt::format("must leave the bin z -+ width/2 = [{}, {}] inside the domain {}",
                               number_text(o.z - o.width / 2), number_text(o.z + o.width / 2), domain()));
+  }
+
+  /// The width that the format gives to all bins.
+  bool set_width(std::size_t offset, Observation& o) {
+    o.width = width_;
+    if (width_ == 0 || (is_bin_resolved(o.z, width_) && is_bin_inside(o.z, width_, bottom_, top_)))
+      return true;
+    add(offset, "z", number_text(o.z),
+        fmt::format("must leave its bin of width {} inside the domain {}", number_text(width_), domain()));
+    return false;
   }
 
   bool read_sigma(std::size_t offset, Observation& o) {
@@ -209,7 +265,7 @@ class ObservationsReader {
   bool read_number(std::size_t offset, Column column, std::size_t field, double& x,
                    std::string_view alternative) {
     const std::string_view text = fields_[field].text;
-    if (const auto number = detail::parse_number(text, dialect_.decimal)) {
+    if (const auto number = detail::number_with_mark(text, dialect_.decimal)) {
       x = *number * columns_->factor(column);
       return true;
     }
@@ -267,7 +323,7 @@ class ObservationsReader {
   }
   [[nodiscard]] Position position_in(std::size_t line, std::size_t field) const {
     std::vector<CsvField> fields;
-    (void)detail::split_csv(detail::line_at(source_.text(), line), fields, dialect_.separator);
+    (void)take_apart(detail::line_at(source_.text(), line), fields);
     return source_.position(line + fields[field].offset);
   }
 
@@ -362,11 +418,12 @@ class ObservationsReader {
     if (n_preamble_ > 0)
       parts.push_back(fmt::format("{} line{} before the header", n_preamble_, n_preamble_ == 1 ? "" : "s"));
     if (dialect_.units) parts.emplace_back("a row of units");
-    const bool is_plain = parts.empty() && columns_->is_plain() && averaged_.empty();
+    const bool is_plain = parts.empty() && columns_->is_plain() && averaged_.empty() && width_ == 0;
     std::string text =
         fmt::format("{}: {} row{}", printable(source_.name()), n_rows_, n_rows_ == 1 ? "" : "s");
     for (const std::string& part : parts) text += ", " + part;
     text += "; " + columns_->understood();
+    if (width_ > 0) text += fmt::format("; means over bins of width {}", number_text(width_));
     if (result_.n_missing > 0) text += fmt::format("; {} missing", result_.n_missing);
     if (!averaged_.empty()) text += "; " + averaged_;
     if (!is_plain) result_.notes.insert(result_.notes.begin(), text);
@@ -452,8 +509,8 @@ class ObservationsReader {
   static constexpr std::size_t kLongestShown = 40;
 
   const TextSource& source_;
-  const ObservationFormat& format_;
   Dialect dialect_;
+  ObservationFormat format_;
   ComplaintReport report_;
   double bottom_, top_;
   ObservationColumns::Target target_;
@@ -461,8 +518,11 @@ class ObservationsReader {
   std::optional<ObservationColumns> columns_;
   std::vector<CsvField> fields_;  ///< of the line that is being read
   std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
-  std::size_t n_preamble_ = 0;    ///< lines before the header that are no comments
-  std::string averaged_;          ///< what was averaged, in words
+  double width_ = 0;              ///< of every bin, from the format; 0: from a column or none
+  std::string_view step_;         ///< of the chunks that are being read
+  unsigned long long n_chunks_left_ = 0;
+  std::size_t n_preamble_ = 0;  ///< lines before the header that are no comments
+  std::string averaged_;        ///< what was averaged, in words
   Observations result_;
   std::vector<Origin> origins_;  ///< of result_.rows
 };

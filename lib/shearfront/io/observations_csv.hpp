@@ -54,6 +54,8 @@ struct ObservationFormat {
   std::vector<std::string> missing;  ///< words for a value that is missing, beside the usual ones
   std::optional<TableLayout> layout;
   Replicates replicates = Replicates::refused;
+  std::optional<double> width;  ///< of the bins phi is a mean over, in the unit of z, where no column says it
+  std::optional<double> time_step;  ///< of a particle simulation, whose files count steps
 
   [[nodiscard]] ColumnFormat& operator[](Column column) { return columns[static_cast<std::size_t>(column)]; }
   [[nodiscard]] const ColumnFormat& operator[](Column column) const {
@@ -67,6 +69,7 @@ struct ObservationFormat {
 ///     before the header, a row of units below it; rows, or a table with a column per height or per time;
 ///   * missing values are empty, NA, N/A, n/a, NaN, nan, #N/A, NULL, - or a word of the format;
 ///   * columns "time", "height", and for sigma "std", "sd", "stderr" are found; other names the format gives;
+///   * averages over chunks of the particle code LAMMPS (fix ave/chunk): t from the step, z from Coord1;
 ///   * percent become parts of 1, lengths and times those of the scene, if both units are known.
 /// z and the bins must lie in [bottom, top], which may be infinite.
 ///
