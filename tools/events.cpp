@@ -57,8 +57,10 @@ struct EventTable {
   std::optional<Timeline<double>> exact;
   int digits = 0;  ///< of times by another road; 0: the shortest text that reads back
   const fit::PredictedEvents* bands = nullptr;  ///< of a fitted scene
-  TextTable table{{"event", "meaning", "time", bands ? "95 %" : "", exact ? "exact" : "",
-                   exact ? "relative difference" : "", "closed form"}};
+  SceneUnits units;
+  TextTable table{{"event", "meaning", units.t.empty() ? "time" : "time [" + printable(units.t, 20) + "]",
+                   bands ? "95 %" : "", exact ? "exact" : "", exact ? "relative difference" : "",
+                   "closed form"}};
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
@@ -79,13 +81,14 @@ struct EventTable {
                       const std::optional<ClosedForm>& form,
                       std::optional<fit::Interval> fit::PredictedEvents::InterfaceBands::*band) {
     const std::size_t n = timeline.interfaces.size();
+    const std::string in_unit = units.z.empty() ? "" : " " + printable(units.z, 20);
     for (std::size_t i = 0; i < n; ++i) {
       const auto& at = timeline.interfaces[i];
       std::optional<double> other;
       for (const auto& same : exact.value_or(Timeline<double>{}).interfaces)
         if (same.z == at.z) other = same.*member;
-      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z), at.*member,
-          text.interfaces[i].*text_member, form, other,
+      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z) + in_unit,
+          at.*member, text.interfaces[i].*text_member, form, other,
           bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : std::nullopt);
     }
   }
@@ -136,7 +139,7 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
   OutputFile out("-");
   if (arguments.json) {
     write_events_json(out, scene.name(), method.name(), text, summary,
-                      bands ? bands_of(*bands) : EventBands{});
+                      bands ? bands_of(*bands) : EventBands{}, scene.spec().units);
   } else {
     const bool compare = !method.guarantees().exact;
     EventTable table{

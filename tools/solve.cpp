@@ -111,9 +111,9 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
   if (arguments.json)
     write_time_table_json(output, task.scene.name(), task.method.name(), course.table, lowest_numbers,
-                          course.summary);
+                          course.summary, task.scene.spec().units);
   else
-    write_time_table_csv(output, course.table);
+    write_time_table_csv(output, course.table, task.scene.spec().units);
   output.commit();
   if (lowest && !arguments.json)
     note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(lowest->t, 7),
@@ -144,10 +144,10 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
     write_prediction_csv(output, times, request.heights, samples);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
-                       result.summary);
+                       result.summary, task.scene.spec().units);
   else
-    write_samples_csv(output, times, request.heights, result.samples);
-  if (fronts) write_fronts_csv(*fronts, result.fronts);
+    write_samples_csv(output, times, request.heights, result.samples, task.scene.spec().units);
+  if (fronts) write_fronts_csv(*fronts, result.fronts, task.scene.spec().units);
   if (fronts) fronts->commit();
   output.commit();
   int code = kDone;
