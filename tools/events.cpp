@@ -24,6 +24,8 @@ namespace shearfront::tools {
 namespace {
 
 constexpr int kDoubleDigits = 17;
+/// Layers whose exact event times are computed only to stand beside others: some seconds.
+constexpr std::size_t kMostCompared = 5000;
 // Few enough fronts to be told apart.
 constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
@@ -92,11 +94,20 @@ std::string summary_line(const Summary& s) {
   return line + fmt::format("{:.3g} s\n", s.wall_s);
 }
 
-/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene.
+/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene, or would take much longer.
 Timeline<double> exact_times(const Scene<double>& scene) {
+  if (scene.knots().size() > kMostCompared) {
+    note(
+        fmt::format("no exact times beside these, of more than {} layers: --method {} takes a time that "
+                    "grows like the square of "
+                    "their number",
+                    kMostCompared, Method().name()));
+    return {};
+  }
   SolverRequest request;
   request.timeline = true;
-  return solve(scene, Method(), request).timeline.value_or(Timeline<double>{});
+  return with_progress([&](const Progress& progress) { return solve(scene, Method(), request, progress); })
+      .timeline.value_or(Timeline<double>{});
 }
 
 /// `text` are the times as they are printed, `digits` those of times by another road.
@@ -124,14 +135,15 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
 
 /// Fronts for the picture, by the first solver that has fronts.
 int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
-                const Timeline<double>& timeline, const Progress& progress) {
+                const Timeline<double>& timeline) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
   if (!arguments.method.has("resolution")) method.set("resolution", kPictureResolution);
   if (!arguments.method.has("layers")) method.set("layers", kPictureLayers);
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.fronts = true;
-  const SolverResult result = solve(scene, method, request, progress);
+  const SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) return report_unusable(result.summary);
   return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
 }
@@ -168,10 +180,10 @@ int events(const EventsArguments& arguments) {
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
-  ProgressLine progress;
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve(scene, method, request, progress.callback());
+  SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) {
     Timeline<double> unknown;
     unknown.mass = scene.mass();
@@ -191,8 +203,7 @@ int events(const EventsArguments& arguments) {
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits);
   if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
     note(result.summary.message);
-  return arguments.plot.empty() ? kDone
-                                : draw_events(arguments, scene, *result.timeline, progress.callback());
+  return arguments.plot.empty() ? kDone : draw_events(arguments, scene, *result.timeline);
 }
 
 }  // namespace

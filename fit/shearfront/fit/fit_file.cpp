@@ -141,9 +141,9 @@ class FitReader {
 
   void forward(TableReader& table) {
     if (auto name = table.choice("method", Need::optional, Method::names())) forward_.method = Method(*name);
-    if (scene_) forward_.method.prefer_smooth(*scene_);
     std::vector<std::string> known;
     read_options(table, forward_.method, known);
+    if (scene_) prefer_smooth(table, *scene_);
     // Those of other solvers are checked and change nothing, as on the command line.
     for (const std::string& name : Method::names()) {
       Method other(name);
@@ -152,12 +152,26 @@ class FitReader {
     table.finish();
   }
 
+  /// What the file does not say is chosen beside what it says.
+  void prefer_smooth(const TableReader& table, const Scene<double>& scene) {
+    Method smooth = forward_.method;
+    smooth.prefer_smooth(scene);
+    for (const Option& option : forward_.method.options())
+      if (table.node(key_of(option.info)) != nullptr) smooth.set(option.info.name, option.value);
+    forward_.method = smooth;
+  }
+
+  [[nodiscard]] static std::string key_of(const OptionInfo& info) {
+    std::string key(info.name);
+    std::replace(key.begin(), key.end(), '-', '_');
+    return key;
+  }
+
   /// The options of a method that are not `known` yet.
   void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
     for (const Option& option : method.options()) {
       const OptionInfo& info = option.info;
-      std::string key(info.name);
-      std::replace(key.begin(), key.end(), '-', '_');
+      const std::string key = key_of(info);
       if (std::find(known.begin(), known.end(), key) != known.end()) continue;
       known.push_back(key);
       method.set(
