@@ -26,9 +26,10 @@ void expect_near_count(const std::string& shown, std::size_t now, const std::str
 }
 
 TEST(ShownSearch, IsAsLongAsTheSearchIs) {
-  const auto estimate = fit::fit(
-      fit::read_fit(std::string(SHEARFRONT_SOURCE_DIR) + "/datasets/paper-example-4/fit-bin-noise-0.01.toml"));
-  const std::regex line(std::to_string(estimate.observations) + R"( observations, (\d+) evaluations, (\d+) iterations)");
+  const auto estimate = fit::fit(fit::read_fit(std::string(SHEARFRONT_SOURCE_DIR) +
+                                               "/datasets/paper-example-4/fit-bin-noise-0.01.toml"));
+  const std::regex line(std::to_string(estimate.observations) +
+                        R"( observations, (\d+) evaluations, (\d+) iterations)");
   for (const std::string page : {"README.md", "docs/identification.md"}) {
     std::smatch found;
     const std::string text = text_of(page);
