@@ -195,14 +195,16 @@ int compare(CompareArguments& arguments) {
   const InterruptGuard guard;
   const ExactSolution<double> exact(scene);
   note_pieces(scene, exact, times);
-  ProgressLine line;
-  limits.progress = line.callback();
-  std::vector<Course> courses;
-  for (const double t : times)
-    for (const ComparedMethod& method : methods) {
-      const bool has_cells = method.method.has_option("cells");
-      courses.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
-    }
+  const std::vector<Course> courses = with_progress([&](const Progress& progress) {
+    limits.progress = progress;
+    std::vector<Course> all;
+    for (const double t : times)
+      for (const ComparedMethod& method : methods) {
+        const bool has_cells = method.method.has_option("cells");
+        all.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
+      }
+    return all;
+  });
   if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
     output->write(csv_of(courses));

@@ -27,6 +27,8 @@ namespace shearfront::tools {
 namespace {
 
 constexpr int kDoubleDigits = 17;
+/// Layers whose exact event times are computed only to stand beside others: some seconds.
+constexpr std::size_t kMostCompared = 5000;
 // Few enough fronts to be told apart.
 constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
@@ -125,11 +127,20 @@ EventBands bands_of(const fit::PredictedEvents& events) {
   return all;
 }
 
-/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene.
+/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene, or would take much longer.
 Timeline<double> exact_times(const Scene<double>& scene) {
+  if (scene.knots().size() > kMostCompared) {
+    note(
+        fmt::format("no exact times beside these, of more than {} layers: --method {} takes a time that "
+                    "grows like the square of "
+                    "their number",
+                    kMostCompared, Method().name()));
+    return {};
+  }
   SolverRequest request;
   request.timeline = true;
-  return solve(scene, Method(), request).timeline.value_or(Timeline<double>{});
+  return with_progress([&](const Progress& progress) { return solve(scene, Method(), request, progress); })
+      .timeline.value_or(Timeline<double>{});
 }
 
 /// `text` are the times as they are printed, `digits` those of times by another road, `bands` those of a fitted scene.
@@ -143,8 +154,8 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
   } else {
     const bool compare = !method.guarantees().exact;
     EventTable table{
-        timeline, text, closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
-        digits,   bands};
+        timeline, text,  closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
+        digits,   bands, scene.spec().units};
     out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
     if (table.forms.t0)
       out.write(
@@ -159,14 +170,15 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
 
 /// Fronts for the picture, by the first solver that has fronts.
 int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
-                const Timeline<double>& timeline, const Progress& progress) {
+                const Timeline<double>& timeline) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
   if (!arguments.method.has("resolution")) method.set("resolution", kPictureResolution);
   if (!arguments.method.has("layers")) method.set("layers", kPictureLayers);
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.fronts = true;
-  const SolverResult result = solve(scene, method, request, progress);
+  const SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) return report_unusable(result.summary);
   return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
 }
@@ -203,10 +215,10 @@ int events(EventsArguments& arguments) {
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
-  ProgressLine progress;
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve(scene, method, request, progress.callback());
+  SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) {
     Timeline<double> unknown;
     unknown.mass = scene.mass();
@@ -232,8 +244,7 @@ int events(EventsArguments& arguments) {
                bands ? &*bands : nullptr);
   if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
     note(result.summary.message);
-  return arguments.plot.empty() ? kDone
-                                : draw_events(arguments, scene, *result.timeline, progress.callback());
+  return arguments.plot.empty() ? kDone : draw_events(arguments, scene, *result.timeline);
 }
 
 }  // namespace

@@ -101,9 +101,9 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, task.scene);
-  ProgressLine progress;
-  const BedCourse course =
-      bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress.callback());
+  const BedCourse course = with_progress([&](const Progress& progress) {
+    return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
+  });
   if (!course.summary.usable()) return report_unusable(course.summary);
   note_remark(course.summary);
   const auto& lowest = course.lowest;
@@ -129,8 +129,9 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   check_picture_target(arguments.plot);
   check_picture_target(arguments.map);
   note_unused_layers(arguments.method, task.scene);
-  ProgressLine progress;
-  const SolverResult result = shearfront::solve(task.scene, task.method, request, progress.callback());
+  const SolverResult result = with_progress([&](const Progress& progress) {
+    return shearfront::solve(task.scene, task.method, request, progress);
+  });
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
 

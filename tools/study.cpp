@@ -180,7 +180,7 @@ int run_study(const StudyArguments& arguments) {
     if (!arguments.indices.empty()) outputs.push_back(row.outputs);
     ++n;
     if (to_file && n % 64 == 0) file->flush();
-    progress.show_part(static_cast<double>(n) / static_cast<double>(n_all));
+    progress.show_part(n, n_all);
     return !InterruptGuard::is_interrupted();
   });
   if (to_file)

@@ -15,6 +15,21 @@ namespace {
 using detail::TableReader;
 using Need = TableReader::Need;
 
+std::string key_of(const OptionInfo& info) {
+  std::string key(info.name);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+/// What the file does not say is chosen beside what it says.
+void prefer_smooth(const TableReader& table, Method& method, const Scene<double>& scene) {
+  Method smooth = method;
+  smooth.prefer_smooth(scene);
+  for (const Option& option : method.options())
+    if (table.node(key_of(option.info)) != nullptr) smooth.set(option.info.name, option.value);
+  method = smooth;
+}
+
 template <class Value>
 OptionValue read_option(TableReader& table, const std::string& key, const OptionInfo& info, Value value) {
   if constexpr (std::same_as<Value, bool>) {
@@ -40,8 +55,7 @@ OptionValue read_option(TableReader& table, const std::string& key, const Option
 void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
   for (const Option& option : method.options()) {
     const OptionInfo& info = option.info;
-    std::string key(info.name);
-    std::replace(key.begin(), key.end(), '-', '_');
+    const std::string key = key_of(info);
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     known.push_back(key);
     method.set(info.name, std::visit([&](const auto& value) { return read_option(table, key, info, value); },
@@ -53,9 +67,9 @@ void read_options(TableReader& table, Method& method, std::vector<std::string>& 
 
 void read_method(TableReader& table, Method& method, const Scene<double>* scene) {
   if (auto name = table.choice("method", Need::optional, Method::names())) method = Method(*name);
-  if (scene) method.prefer_smooth(*scene);
   std::vector<std::string> known;
   read_options(table, method, known);
+  if (scene) prefer_smooth(table, method, *scene);
   for (const std::string& name : Method::names()) {
     Method other(name);
     read_options(table, other, known);

@@ -82,9 +82,10 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     const bool ends_up = arc.p > Scalar(0.5) || (is_fan && is_flat);
     const bool starts_up = is_fan || arc.start_odds > Scalar(1),
                starts_down = !is_fan && arc.start_odds < Scalar(1);
-    // It would turn beyond the piece.
-    if (starts_up && !ends_up && h < high) return;
-    if (starts_down && ends_up && h < low) return;
+    // It would turn beyond the piece. Where it turns right at the end, another kind of path begins: rounding must not drop both.
+    const Scalar room = Scalar(1) - Scalar(256) * unit_roundoff<Scalar>();
+    if (starts_up && !ends_up && h < high * room) return;
+    if (starts_down && ends_up && h < low * room) return;
     const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
     const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
     offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
