@@ -16,14 +16,12 @@
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/mixing.hpp"
-#include "shearfront/solver/solve.hpp"
 
 namespace shearfront::fit {
 namespace {
 
 using Kind = StudyOutput::Kind;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBlock = 64;  // runs a thread takes at once
 

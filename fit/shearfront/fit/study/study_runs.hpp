@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shearfront/fit/study/study_spec.hpp"
+#include "shearfront/solver/solve.hpp"
 
 namespace shearfront::fit {
 
