@@ -105,7 +105,8 @@ class SlopedCandidates {
     if (base > limit()) return;  // L >= max(0, v)
     const Sample top = fan_sample(route, Scalar(1));
     if (is_finite(top.T)) {
-      if (top.T < t_) return;
+      // Later it rests at the least rate on its way. Right then both are the path, and rounding must not drop both.
+      if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
       if (base + top.X + top.h / Scalar(4) * (t_ - top.T) > limit()) return;
     }
     Sample zero;
