@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/track/front_list.hpp"
+#include "shearfront/track/level_curves.hpp"
+
+namespace shearfront {
+
+/// A front between two levels, or a boundary (wall, jump or kink of the rate), which rests.
+///
+/// By Rankine and Hugoniot a front between the states l, r of levels i != j moves such that
+///
+///     dt/dz = 2 (s_r q_j(z) - s_l q_i(z)) / (h_i - h_j),   s = -1 or 1 for low and high states,
+///
+/// so its time is a closed form of its height. Since q_i - q_j over h_j - h_i is a mean of the 1 / (r q) / 2 of the levels
+/// between, a front between neighbouring levels is the mean of the characteristics of these fluxes.
+struct CurvedNode {
+  double z = 0, t = 0;                  ///< passes z at t
+  double rate = 0;                      ///< r(z)
+  double q_below = 0, q_above = 0;      ///< of its levels at z
+  double end = 0;                       ///< height at which it ends or turns
+  double meets = 0, meeting_z = 0;      ///< next event: when, and where
+  double turned = kNever;               ///< when a mean characteristic of its levels turned there
+  State below = 0, above = 0;
+  FrontIndex prev = kNoFront, next = kNoFront;
+  std::uint32_t layer = 0;              ///< piece of a front; of a boundary the piece above it
+  std::uint32_t stamp = 0;
+  std::int8_t direction = 0;            ///< 1 up, -1 down, 0 it stands
+  bool turns = false;                   ///< it turns at its end
+  bool turns_next = false;              ///< its next event is that
+  bool is_edge = false;                 ///< the edge of a fan next to a state that was there before
+  double edge_t = 0;                    ///< of an edge: when the characteristic of that state was at z
+
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  /// At its next event.
+  [[nodiscard]] double position(double /*time*/) const { return meeting_z; }
+};
+
+/// When a front is at a height, and dt/dz there.
+struct Passage {
+  double t, slope;
+};
+
+[[nodiscard]] inline Passage passage(const LevelCurves& grid, const CurvedNode& f, double z) {
+  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const double rate = grid.piece(p).rate(z);
+  const double q_i = grid.q(p, i, z, rate), q_j = grid.q(p, j, z, rate);
+  const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
+  const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  const double D_i = grid.area(p, i, {f.z, f.rate, f.q_below}, {z, rate, q_i});
+  const double D_j = grid.area(p, j, {f.z, f.rate, f.q_above}, {z, rate, q_j});
+  return {f.t + factor * (s_j * D_j - s_i * D_i), factor * (s_j * q_j - s_i * q_i)};
+}
+[[nodiscard]] inline double slope_of(const LevelCurves& grid, const CurvedNode& f, double z) {
+  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const double rate = grid.piece(p).rate(z);
+  return 2 / (grid.capacity(i) - grid.capacity(j)) *
+         (grid.sign(f.above) * grid.q(p, j, z, rate) - grid.sign(f.below) * grid.q(p, i, z, rate));
+}
+
+/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there.
+inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t) {
+  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const RatePiece& piece = grid.piece(p);
+  f.z = z;
+  f.t = t;
+  f.rate = piece.rate(z);
+  f.q_below = grid.q(p, i, z, f.rate);
+  f.q_above = grid.q(p, j, z, f.rate);
+  f.turns = false;
+  f.end = z;
+  f.direction = 0;
+  if (i == j) return;
+  f.direction = (i > j) == (f.above > f.below) ? 1 : -1;
+  f.end = f.direction > 0 ? piece.z_high : piece.z_low;
+  const std::size_t most = std::max(i, j);
+  const bool gets_smaller = f.direction > 0 ? piece.bend < 0 : piece.bend > 0;
+  if (most < 2 || !gets_smaller) return;
+  const double last = grid.turning_height(p, most - 1);
+  if (f.direction > 0 ? !(last < f.end) : !(last > f.end)) return;
+  f.end = f.direction > 0 ? std::max(last, z) : std::min(last, z);
+  f.turns = most == (f.direction > 0 ? i : j);  // else the front ahead does
+}
+
+/// Newton's method inside a bracket: where evaluate(z) = {value, slope} is 0, the value having the sign of `orientation`
+/// towards `hi` and the other one towards `lo`, lo and hi in any order.
+template <class Evaluate>
+[[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
+  constexpr int kMostSteps = 200, kPatience = 6;
+  double z = start;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Passage at = evaluate(z);
+    if (at.t == 0) return z;
+    (at.t < 0 ? lo : hi) = z;
+    const double middle = lo + (hi - lo) / 2;
+    double next = z - at.t / at.slope;
+    const bool is_inside = lo < hi ? next > lo && next < hi : next > hi && next < lo;
+    if (!is_inside || (n > kPatience && n % 3 == 0)) next = middle;
+    if (std::abs(next - z) <= 2e-16 * (1 + std::abs(z)) || next == lo || next == hi) return next;
+    z = next;
+  }
+  return z;
+}
+
+/// Where a front is at a time. Precondition: it has begun; after its end it is there.
+[[nodiscard]] inline double position_of(const LevelCurves& grid, const CurvedNode& f, double t) {
+  if (f.direction == 0 || !(t > f.t)) return f.z;
+  const double t_end = passage(grid, f, f.end).t;
+  if (!(t < t_end)) return f.end;
+  const double share = (t - f.t) / (t_end - f.t);
+  const double start = f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99);
+  return bracketed_root(f.z, f.end, start, [&](double z) {
+    Passage at = passage(grid, f, z);
+    at.t -= t;
+    return at;
+  });
+}
+
+}  // namespace shearfront

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/curved_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/track/curved_front.hpp"
+
+namespace shearfront {
+namespace {
+
+/// Capacities so near to each other are one level.
+constexpr double kSameLevel = 64 * 0x1p-53;
+
+double capacity_of(double rate, double u) { return rate * (4 * u * (1 - u)); }
+
+/// The flux, times 4, that the Riemann problem of l | r sends through a place of this rate.
+double sent(double rate, double l, double r) {
+  const double demand = l >= 0.5 ? capacity_of(rate, l) : rate, supply = r <= 0.5 ? capacity_of(rate, r) : rate;
+  return std::min(demand, supply);
+}
+
+/// Largest 4 H that the start excites: H falls with time.
+double largest_capacity(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start) {
+  double most = 0;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const StartSegment& s = start[i];
+    const RatePiece& piece = pieces[s.piece];
+    most = std::max({most, capacity_of(piece.rate(s.z_low), s.u), capacity_of(piece.rate(s.z_high), s.u)});
+    if (i + 1 == start.size()) break;
+    const double rate =
+        std::min(pieces[s.piece].rate(s.z_high), pieces[start[i + 1].piece].rate(start[i + 1].z_low));
+    most = std::max(most, sent(rate, s.u, start[i + 1].u));
+  }
+  return most;
+}
+
+struct Spacing {
+  double offset, ratio;  ///< dh = ratio (h + offset)
+};
+
+Spacing spacing_of(const std::vector<RatePiece>& pieces, double most, double resolution) {
+  double least_rate = INFINITY;
+  for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
+  const double offset = std::min(0.1 * most, least_rate);
+  // u changes by dh / (4 r q), q >= 1/2 where |u - 1/2| >= 1/4: there h <= 3 r / 4.
+  const double at_least_rate = 2 * least_rate / (0.75 * least_rate + offset), at_others = 8.0 / 3 / (1 + offset / most);
+  return {offset, resolution * std::min(at_least_rate, at_others)};
+}
+
+double count(const Spacing& spacing, double most) {
+  return std::ceil(std::log1p(most / spacing.offset) / spacing.ratio);
+}
+
+struct Special {
+  double capacity;
+  std::size_t piece;
+  double z;
+  bool turns;  ///< it turns there
+};
+
+std::vector<Special> specials_of(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
+                                 double most) {
+  std::vector<Special> all;
+  const auto add = [&](double capacity, std::size_t p, double z, bool turns) {
+    if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, z, turns});
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    add(pieces[p].low, p, pieces[p].z_low, true);
+    add(pieces[p].high, p, pieces[p].z_high, true);
+  }
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const StartSegment& s = start[i];
+    const RatePiece& piece = pieces[s.piece];
+    for (const double z : {s.z_low, s.z_high}) add(capacity_of(piece.rate(z), s.u), s.piece, z, s.u == 0.5);
+    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= 0.5 && start[i + 1].u >= 0.5)
+      add(piece.rate(s.z_high), s.piece, s.z_high, true);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
+  return all;
+}
+
+std::vector<double> ordinary_levels(const Spacing& spacing, double most) {
+  const double n = count(spacing, most);
+  std::vector<double> h;
+  for (double i = 1; i <= n; ++i)
+    h.push_back(spacing.offset * std::expm1(i / n * std::log1p(most / spacing.offset)));
+  h.back() = most;
+  return h;
+}
+
+/// Height at which int q_first from `a` to it and q_second from it to `b` is `wanted`; q_first <= q_second or the other way.
+double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, std::size_t second, double a,
+                   double b, double wanted) {
+  const LevelCurves::Place at_a = grid.place(p, first, a), at_b = grid.place(p, second, b);
+  const auto excess = [&](double z) -> Passage {
+    const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
+    return {grid.area(p, first, at_a, one) + grid.area(p, second, other, at_b) - wanted, one.q - other.q};
+  };
+  const bool rises = first < second;  // then q_first > q_second
+  if (!(b > a)) return a;
+  return std::clamp(
+      bracketed_root(rises ? a : b, rises ? b : a, a + (b - a) / 2, excess), a, b);
+}
+
+}  // namespace
+
+double count_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
+                    double resolution) {
+  const double most = largest_capacity(pieces, start);
+  return most > 0 ? count(spacing_of(pieces, most, resolution), most) : 0;
+}
+
+LevelPlan plan_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
+                      double resolution) {
+  LevelPlan plan{{0}, {true}, {}};
+  const double most = largest_capacity(pieces, start);
+  if (!(most > 0)) return plan;
+  const std::vector<Special> specials = specials_of(pieces, start, most);
+  const Spacing spacing = spacing_of(pieces, most, resolution);
+  const std::vector<double> ordinary = ordinary_levels(spacing, most);
+  constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
+  const auto room_at = [&](double h) { return kRoom * std::min(spacing.ratio, 0.5) * (h + spacing.offset); };
+  auto next = ordinary.begin();
+  const auto add_up_to = [&](double end) {
+    for (; next != ordinary.end() && *next < end; ++next)
+      if (*next > plan.capacities.back() + (plan.is_plateau.back() ? room_at(*next) : 0)) {
+        plan.capacities.push_back(*next);
+        plan.is_plateau.push_back(false);
+      }
+  };
+  for (const Special& special : specials) {
+    const double h = special.capacity;
+    const bool is_known = plan.is_plateau.back() && plan.capacities.size() > 1 &&
+                          h <= plan.capacities.back() * (1 + kSameLevel);
+    if (!is_known) {
+      add_up_to(h - room_at(h));
+      plan.capacities.push_back(h);
+      plan.is_plateau.push_back(true);
+    }
+    if (special.turns) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.z});
+  }
+  if (plan.capacities.back() < most * (1 - kSameLevel)) {
+    add_up_to(most * (1 - room_at(most) / most));
+    plan.capacities.push_back(most);
+    plan.is_plateau.push_back(true);
+  }
+  return plan;
+}
+
+StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment) {
+  const std::size_t p = segment.piece;
+  const RatePiece& piece = grid.piece(p);
+  const bool is_high = segment.u > 0.5 || (segment.u == 0.5 && !piece.is_constant() && !piece.falls());
+  const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
+  if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
+  const auto level_at = [&](double z) { return grid.cap(capacity_of(piece.rate(z), segment.u)); };
+  const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
+  if (from == to) return {state(from), state(to), {}};
+  StartSegmentLevels levels{state(from), state(to), {}};
+  const int s = from < to ? 1 : -1;
+  const auto next = [s](std::size_t k) { return s > 0 ? k + 1 : k - 1; };
+  if (segment.u == 0.5) {
+    // Between the turning heights of two levels the higher one, beyond its own: u = 1/2 there.
+    if (s > 0) levels.at_low = state(from + 1);
+    if (s < 0) levels.at_high = state(to + 1);
+    for (std::size_t k = next(from); k != to; k = next(k))
+      levels.steps.push_back(
+          {grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
+    return levels;
+  }
+  const double spread = 4 * segment.u * (1 - segment.u), excess = std::abs(2 * segment.u - 1);
+  double low_end = segment.z_low;
+  for (std::size_t k = from; k != to; k = next(k)) {
+    const std::size_t above = next(k);
+    double high_end = above == to ? segment.z_high : piece.height_of(grid.capacity(above) / spread);
+    high_end = std::clamp(high_end, low_end, segment.z_high);
+    levels.steps.push_back({step_height(grid, p, k, above, low_end, high_end, excess * (high_end - low_end)),
+                            state(k), state(above)});
+    low_end = high_end;
+  }
+  return levels;
+}
+
+}  // namespace shearfront

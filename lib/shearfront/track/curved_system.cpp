@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/curved_system.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "shearfront/track/curved_meeting.hpp"
+
+namespace shearfront {
+
+template <class Observer>
+CurvedSystem<Observer>::CurvedSystem(const LevelCurves& grid, const std::vector<StartSegment>& segments,
+                                     Observer observer, std::size_t max_fronts)
+    : grid_(&grid),
+      max_fronts_(max_fronts),
+      observer_(std::move(observer)),
+      fronts_(grid, std::min(4 * grid.n_levels(), max_fronts)),
+      waves_(grid.n_layers() + 1) {
+  start(segments);
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::start(const std::vector<StartSegment>& segments) {
+  State last = grid_->high(0);
+  for (std::size_t i = 0; i <= segments.size(); ++i) {
+    const bool is_end = i == segments.size();
+    StartSegmentLevels levels =
+        is_end ? StartSegmentLevels{grid_->low(0), grid_->low(0), {}} : in_levels(*grid_, segments[i]);
+    const std::size_t piece = is_end ? grid_->n_layers() : segments[i].piece;
+    State at_low = levels.at_low;
+    if (i > 0 && !is_end && segments[i - 1].piece == piece) {
+      emit_inside(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, last, at_low,
+                  segments[i].z_low);
+    } else {
+      const std::size_t before = n_fronts();
+      emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low);
+      if (n_fronts() > before) waves_[piece] = {now_, now_, now_};
+    }
+    (levels.steps.empty() ? levels.at_high : levels.steps.front().below) = at_low;
+    for (const StartSegmentLevels::Step& step : levels.steps)
+      emit(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, step.below, step.above, step.z);
+    last = levels.at_high;
+    n_fronts_max_ = n_fronts();
+    if (has_too_many_fronts()) return;
+  }
+  for (FrontIndex i = 0; i != kNoFront; i = fronts_[i].next) schedule(i);
+}
+
+/// Predicts the next event of node i: that with its upper neighbour, or its turn.
+template <class Observer>
+void CurvedSystem<Observer>::schedule(FrontIndex i) {
+  Node& f = fronts_[i];
+  agenda_.unschedule(f);
+  std::optional<CurvedMeeting> next;
+  if (f.next != kNoFront) next = CurvedMeetings(*grid_, f, fronts_[f.next]).find();
+  f.turns_next = false;
+  if (f.turns) {
+    const double t = f.end == f.z ? f.t : passage(*grid_, f, f.end).t;
+    if (!next || t < next->t) {
+      next = CurvedMeeting{t, f.end};
+      f.turns_next = true;
+    }
+  }
+  if (!next) return;
+  f.meeting_z = next->z;
+  agenda_.enter(fronts_, i, next->t, now_);
+}
+
+/// A new front from (z, now) on, above node `under`.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit(FrontIndex under, std::size_t piece, State l, State r, double z) {
+  const FrontIndex i = fronts_.insert_above(under);
+  Node& n = fronts_[i];
+  n.below = l;
+  n.above = r;
+  n.layer = static_cast<std::uint32_t>(piece);
+  n.meets = infinity<double>();
+  n.turned = Node::kNever;
+  set_course(*grid_, n, z, now_);
+  const std::size_t j = grid_->level(l), k = grid_->level(r);
+  const bool are_neighbours = j + 1 == k || k + 1 == j;
+  if (are_neighbours && !((j < k ? n.q_below : n.q_above) > 0)) n.turned = now_;
+  return i;
+}
+
+/// The level of the flux through a place between l and r that can carry so much on its two sides.
+template <class Observer>
+std::size_t CurvedSystem<Observer>::flux_level(State l, State r, std::size_t cap_below,
+                                               std::size_t cap_above) const {
+  const std::size_t demand = grid_->is_high(l) ? std::min(grid_->level(l), cap_below) : cap_below;
+  const std::size_t supply = grid_->is_high(r) ? cap_above : std::min(grid_->level(r), cap_above);
+  return std::min(demand, supply);
+}
+
+/// The waves that go down from z where the flux has become that of `level`; `at` is the state left there.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit_left(FrontIndex under, std::size_t piece, State l, std::size_t level,
+                                             double z, State& at) {
+  at = grid_->low(level);
+  if (l == grid_->high(level)) at = l;
+  if (l == at) return under;
+  if (!grid_->is_high(l) && grid_->level(l) < level) {
+    for (std::size_t k = grid_->level(l); k < level; ++k)
+      under = emit(under, piece, grid_->low(k), grid_->low(k + 1), z);
+    return under;
+  }
+  return emit(under, piece, l, at, z);
+}
+/// The waves that go up.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level,
+                                              double z, State& at) {
+  at = grid_->high(level);
+  if (r == grid_->low(level)) at = r;
+  if (r == at) return under;
+  if (grid_->is_high(r) && grid_->level(r) < level) {
+    for (std::size_t k = level; k > grid_->level(r); --k)
+      under = emit(under, piece, grid_->high(k), grid_->high(k - 1), z);
+    return under;
+  }
+  return emit(under, piece, at, r, z);
+}
+
+/// The label of a level beyond its turning height, where both of its states are one: that of the side on which it lives, so
+/// that the region may go on there.
+template <class Observer>
+State CurvedSystem<Observer>::dead_label(std::size_t piece, State l, State r, std::size_t level) const {
+  if (grid_->piece(piece).bend > 0) return grid_->level(r) == level ? r : grid_->high(level);
+  return grid_->level(l) == level ? l : grid_->low(level);
+}
+
+/// The Riemann problem of l | r at a height inside a piece, at the start. Returns the topmost new node; r is another name of
+/// the same state where its level has turned.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t piece, State l, State& r,
+                                               double z) {
+  if (l == r) return under;
+  const double rate = grid_->piece(piece).rate(z);
+  const std::size_t cap = grid_->cap(rate), level = flux_level(l, r, cap, cap);
+  State below, above;
+  const FrontIndex left = emit_left(under, piece, l, level, z, below);
+  const bool is_dead = !(grid_->q(piece, level, z, rate) > 0);
+  FrontIndex middle = left;
+  const bool stands = !is_dead && below != (r == grid_->low(level) ? r : grid_->high(level));
+  if (stands) middle = emit(left, piece, below, r == grid_->low(level) ? r : grid_->high(level), z);
+  const FrontIndex right = emit_right(middle, piece, r, level, z, above);
+  if (!is_dead || below == above) return right;
+  const State label = dead_label(piece, l, r, level);
+  fronts_[left].above = label;
+  if (right != left)
+    fronts_[fronts_[left].next].below = label;
+  else
+    r = label;
+  return right;
+}
+
+/// Solves the Riemann problem at boundary b. Returns the topmost new node, or b.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State r) {
+  const std::size_t n = grid_->n_layers();
+  const double z = fronts_[b].z;
+  const std::size_t level = flux_level(l, r, b > 0 ? grid_->cap_high(b - 1) : 0, b < n ? grid_->cap_low(b) : 0);
+  State below = l, above = r;
+  if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below);
+  FrontIndex top = b;
+  if (b < n) top = emit_right(b, b, r, level, z, above);
+  fronts_[b].below = below;
+  fronts_[b].above = above;
+  return top;
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::collide(FrontIndex i) {
+  now_ = fronts_[i].meets;
+  ++collisions_;
+  last_collision_ = std::max(last_collision_, now_);
+  const FrontIndex j = fronts_[i].next;
+  if (fronts_[i].turns_next)
+    turn(i);
+  else if (is_boundary(i))
+    reach_boundary(j, i);
+  else if (is_boundary(j))
+    reach_boundary(i, j);
+  else
+    merge(i, j);
+  n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::schedule_all(FrontIndex from, FrontIndex to) {
+  for (FrontIndex i = from; i != kNoFront; i = fronts_[i].next) {
+    schedule(i);
+    if (i == to) break;
+  }
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::remove(FrontIndex i) {
+  agenda_.unschedule(fronts_[i]);
+  fronts_.remove(i);
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
+  const bool is_from_below = fronts_[mover].next == b;
+  const State l = is_from_below ? fronts_[mover].below : fronts_[b].below,
+              r = is_from_below ? fronts_[b].above : fronts_[mover].above;
+  remove(mover);
+  const FrontIndex under = fronts_[b].prev;
+  const FrontIndex top = emit_at_boundary(b, l, r);
+  Waves& waves = waves_[b];
+  if (!waves.first) waves.first = now_;
+  waves.last = now_;
+  schedule_all(under == kNoFront ? b : under, top);
+}
+
+/// Fronts f and g of one piece become one.
+template <class Observer>
+void CurvedSystem<Observer>::merge(FrontIndex f, FrontIndex g) {
+  const FrontIndex under = fronts_[f].prev;
+  const State l = fronts_[f].below, r = fronts_[g].above;
+  const std::size_t piece = fronts_[f].layer;
+  const double z = fronts_[f].meeting_z;
+  remove(g);
+  const std::size_t level = grid_->level(l);
+  const bool is_dead = level == grid_->level(r) && !(grid_->q(piece, level, z) > 0);
+  if (l == r || is_dead) {
+    const FrontIndex over = fronts_[f].next;
+    remove(f);
+    if (l != r) {
+      const State label = dead_label(piece, l, r, level);
+      if (label != l) set_above(under, label);
+      if (label != r) set_below(over, label);
+      if (label != l && fronts_[under].prev != kNoFront) schedule(fronts_[under].prev);
+      schedule(over);
+    }
+    schedule(under);
+    return;
+  }
+  Node& n = fronts_[f];
+  agenda_.unschedule(n);
+  n.above = r;
+  n.turned = Node::kNever;
+  n.is_edge = false;
+  set_course(*grid_, n, z, now_);
+  schedule(under);
+  schedule(f);
+}
+
+/// A front f whose level behind has reached the turning height of the next lower one, beyond which it may not be.
+template <class Observer>
+void CurvedSystem<Observer>::turn(FrontIndex f) {
+  const bool rises = fronts_[f].direction > 0;
+  const double z = fronts_[f].end;
+  const std::size_t piece = fronts_[f].layer;
+  const State behind = rises ? fronts_[f].below : fronts_[f].above,
+              ahead = rises ? fronts_[f].above : fronts_[f].below;
+  const std::size_t level = grid_->level(behind) - 1;
+  const State label = rises ? grid_->low(level) : grid_->high(level);
+  const FrontIndex under = fronts_[f].prev, over = fronts_[f].next;
+  const auto set_turned = [&](FrontIndex i) {
+    Node& n = fronts_[i];
+    agenda_.unschedule(n);
+    (rises ? n.above : n.below) = label;
+    set_course(*grid_, n, z, now_);
+    n.turned = now_;
+    n.is_edge = false;
+  };
+  if (grid_->level(ahead) == level) {
+    set_turned(f);
+    if (rises)
+      set_below(over, label);
+    else
+      set_above(under, label);
+    schedule_all(!rises && fronts_[under].prev != kNoFront ? fronts_[under].prev : under, rises ? over : f);
+    return;
+  }
+  if (rises) {
+    set_turned(f);
+    const FrontIndex further = emit(f, piece, label, ahead, z);
+    schedule_all(under, further);
+  } else {
+    set_turned(f);
+    const FrontIndex further = emit(under, piece, ahead, label, z);
+    schedule(under);
+    schedule(further);
+    schedule(f);
+  }
+}
+
+/// Before the label of a level changes of a front that has passed its turning height, its path begins anew there: on the live
+/// side it was that of the old label.
+template <class Observer>
+void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
+  const std::size_t piece = f.layer;
+  if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return;
+  const double z = grid_->turning_height(piece, level);
+  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
+  const double turned = f.turned, t = passage(*grid_, f, z).t;
+  set_course(*grid_, f, z, t);
+  f.turned = turned;
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
+  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
+  fronts_[i].below = state;
+}
+template <class Observer>
+void CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
+  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
+  fronts_[i].above = state;
+}
+
+template class CurvedSystem<NoObserver>;
+
+}  // namespace shearfront
