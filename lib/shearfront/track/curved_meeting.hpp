@@ -41,15 +41,19 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
-  [[nodiscard]] CurvedMeeting at(const CurvedNode& front, double z) const {
-    return {passage(grid_, front, z).t, z};
+  /// At z, at the time of the front with the larger change of the flux: rounding of times grows with its inverse, and moves
+  /// as much mass as both together.
+  [[nodiscard]] CurvedMeeting at(double z) const {
+    const auto change = [&](const CurvedNode& f) {
+      return std::abs(grid_.capacity(grid_.level(f.below)) - grid_.capacity(grid_.level(f.above)));
+    };
+    return {passage(grid_, change(f_) > change(g_) ? f_ : g_, z).t, z};
   }
   /// Where the difference of the times of a and b is 0, being negative at `negative` and positive at `positive`.
   [[nodiscard]] CurvedMeeting root(const CurvedNode& a, const CurvedNode& b, double negative, double positive,
                                    double start) const {
-    const double z =
-        bracketed_root(negative, positive, start, [&](double x) { return difference(a, b, x); });
-    return at(std::abs(z - a.z) < std::abs(z - b.z) ? a : b, z);
+    const double z = bracketed_root(negative, positive, start, [&](double x) { return difference(a, b, x); });
+    return at(z);
   }
 
   /// f rises, g sinks.
@@ -61,15 +65,15 @@ class CurvedMeetings {
     }
     const double at_lo = difference(f_, g_, lo).t;
     if (at_lo > 0) {
-      if (lo == f_.z) return at(g_, lo);
+      if (lo == f_.z) return at(lo);
       return std::nullopt;
     }
     const double at_hi = difference(f_, g_, hi).t;
     if (at_hi < 0) {
-      if (hi == g_.z) return at(f_, hi);
+      if (hi == g_.z) return at(hi);
       return std::nullopt;
     }
-    if (at_hi == at_lo) return at(f_, lo);
+    if (at_hi == at_lo) return at(lo);
     return root(f_, g_, lo, hi, lo + (hi - lo) * std::clamp(-at_lo / (at_hi - at_lo), 0.01, 0.99));
   }
 
@@ -82,8 +86,7 @@ class CurvedMeetings {
     const double hi = ahead(rear.end, lead.end) ? lead.end : rear.end;
     if (ahead(lo, hi)) return std::nullopt;
     const std::size_t p = f_.layer;
-    const std::size_t most =
-        std::max({grid_.level(f_.below), grid_.level(f_.above), grid_.level(g_.above)});
+    const std::size_t most = std::max({grid_.level(f_.below), grid_.level(f_.above), grid_.level(g_.above)});
     const RatePiece& piece = grid_.piece(p);
     const bool gets_smaller = s * piece.bend < 0;
     // Beyond it the polygon is not convex.
@@ -93,11 +96,11 @@ class CurvedMeetings {
     if (is_fan) {
       if (at_hi >= 0) return std::nullopt;
       const double from = ahead(dead, lo) ? (ahead(dead, hi) ? hi : dead) : lo;
-      if (!(difference(rear, lead, from).t > 0)) return at(lead, from);
+      if (!(difference(rear, lead, from).t > 0)) return at(from);
       return root(rear, lead, hi, from, from + (hi - from) / 2);
     }
     const double at_lo = difference(rear, lead, lo).t;
-    if (at_lo <= 0) return at(lead, lo);
+    if (at_lo <= 0) return at(lo);
     if (at_hi <= 0)
       return root(rear, lead, hi, lo, lo + (hi - lo) * std::clamp(at_lo / (at_lo - at_hi), 0.01, 0.99));
     if (!gets_smaller || !ahead(hi, dead)) return std::nullopt;

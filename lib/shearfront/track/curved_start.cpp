@@ -16,7 +16,8 @@ double capacity_of(double rate, double u) { return rate * (4 * u * (1 - u)); }
 
 /// The flux, times 4, that the Riemann problem of l | r sends through a place of this rate.
 double sent(double rate, double l, double r) {
-  const double demand = l >= 0.5 ? capacity_of(rate, l) : rate, supply = r <= 0.5 ? capacity_of(rate, r) : rate;
+  const double demand = l >= 0.5 ? capacity_of(rate, l) : rate,
+               supply = r <= 0.5 ? capacity_of(rate, r) : rate;
   return std::min(demand, supply);
 }
 
@@ -44,7 +45,8 @@ Spacing spacing_of(const std::vector<RatePiece>& pieces, double most, double res
   for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
   const double offset = std::min(0.1 * most, least_rate);
   // u changes by dh / (4 r q), q >= 1/2 where |u - 1/2| >= 1/4: there h <= 3 r / 4.
-  const double at_least_rate = 2 * least_rate / (0.75 * least_rate + offset), at_others = 8.0 / 3 / (1 + offset / most);
+  const double at_least_rate = 2 * least_rate / (0.75 * least_rate + offset),
+               at_others = 8.0 / 3 / (1 + offset / most);
   return {offset, resolution * std::min(at_least_rate, at_others)};
 }
 
@@ -100,8 +102,7 @@ double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, st
   };
   const bool rises = first < second;  // then q_first > q_second
   if (!(b > a)) return a;
-  return std::clamp(
-      bracketed_root(rises ? a : b, rises ? b : a, a + (b - a) / 2, excess), a, b);
+  return std::clamp(bracketed_root(rises ? a : b, rises ? b : a, a + (b - a) / 2, excess), a, b);
 }
 
 }  // namespace
@@ -166,8 +167,7 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
     if (s > 0) levels.at_low = state(from + 1);
     if (s < 0) levels.at_high = state(to + 1);
     for (std::size_t k = next(from); k != to; k = next(k))
-      levels.steps.push_back(
-          {grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
+      levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
     return levels;
   }
   const double spread = 4 * segment.u * (1 - segment.u), excess = std::abs(2 * segment.u - 1);

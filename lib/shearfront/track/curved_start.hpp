@@ -37,8 +37,8 @@ struct LevelPlan {
 [[nodiscard]] LevelPlan plan_levels(const std::vector<RatePiece>& pieces,
                                     const std::vector<StartSegment>& start, double resolution);
 /// How many levels these would be, about.
-[[nodiscard]] double count_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
-                                  double resolution);
+[[nodiscard]] double count_levels(const std::vector<RatePiece>& pieces,
+                                  const std::vector<StartSegment>& start, double resolution);
 
 /// A segment of constant u in levels. Where the rate varies it is no steady state: between the heights at which r u (1 - u) is
 /// a level there is one step, where it keeps the amount; u = 1/2 is a level beyond its turning height. Cost: O(levels crossed).

@@ -29,8 +29,7 @@ void CurvedSystem<Observer>::start(const std::vector<StartSegment>& segments) {
     const std::size_t piece = is_end ? grid_->n_layers() : segments[i].piece;
     State at_low = levels.at_low;
     if (i > 0 && !is_end && segments[i - 1].piece == piece) {
-      emit_inside(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, last, at_low,
-                  segments[i].z_low);
+      emit_inside(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, last, at_low, segments[i].z_low);
     } else {
       const std::size_t before = n_fronts();
       emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low);
@@ -159,7 +158,8 @@ template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State r) {
   const std::size_t n = grid_->n_layers();
   const double z = fronts_[b].z;
-  const std::size_t level = flux_level(l, r, b > 0 ? grid_->cap_high(b - 1) : 0, b < n ? grid_->cap_low(b) : 0);
+  const std::size_t level =
+      flux_level(l, r, b > 0 ? grid_->cap_high(b - 1) : 0, b < n ? grid_->cap_low(b) : 0);
   State below = l, above = r;
   if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below);
   FrontIndex top = b;
@@ -194,6 +194,21 @@ void CurvedSystem<Observer>::schedule_all(FrontIndex from, FrontIndex to) {
   }
 }
 
+/// Tells the observer that a front goes, or goes on in another way, at (now, z).
+template <class Observer>
+void CurvedSystem<Observer>::end_course(const Node& f, double z) {
+  if constexpr (Observer::kActive) observer_.ended(f, now_, z);
+}
+template <class Observer>
+void CurvedSystem<Observer>::note(double z, std::size_t boundary, std::size_t incoming,
+                                  std::size_t outgoing) {
+  if constexpr (Observer::kActive) {
+    Collision event{now_, z, boundary, incoming, outgoing};
+    if (boundary == CollisionView<double>::kNoBoundary) event.boundary.reset();
+    observer_.met(event);
+  }
+}
+
 template <class Observer>
 void CurvedSystem<Observer>::remove(FrontIndex i) {
   agenda_.unschedule(fronts_[i]);
@@ -205,9 +220,12 @@ void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
   const bool is_from_below = fronts_[mover].next == b;
   const State l = is_from_below ? fronts_[mover].below : fronts_[b].below,
               r = is_from_below ? fronts_[b].above : fronts_[mover].above;
+  end_course(fronts_[mover], fronts_[b].z);
   remove(mover);
   const FrontIndex under = fronts_[b].prev;
+  const std::size_t before = n_fronts();
   const FrontIndex top = emit_at_boundary(b, l, r);
+  note(fronts_[b].z, b, 1, n_fronts() - before);
   Waves& waves = waves_[b];
   if (!waves.first) waves.first = now_;
   waves.last = now_;
@@ -221,6 +239,8 @@ void CurvedSystem<Observer>::merge(FrontIndex f, FrontIndex g) {
   const State l = fronts_[f].below, r = fronts_[g].above;
   const std::size_t piece = fronts_[f].layer;
   const double z = fronts_[f].meeting_z;
+  end_course(fronts_[f], z);
+  end_course(fronts_[g], z);
   remove(g);
   const std::size_t level = grid_->level(l);
   const bool is_dead = level == grid_->level(r) && !(grid_->q(piece, level, z) > 0);
@@ -235,8 +255,10 @@ void CurvedSystem<Observer>::merge(FrontIndex f, FrontIndex g) {
       schedule(over);
     }
     schedule(under);
+    note(z, CollisionView<double>::kNoBoundary, 2, 0);
     return;
   }
+  note(z, CollisionView<double>::kNoBoundary, 2, 1);
   Node& n = fronts_[f];
   agenda_.unschedule(n);
   n.above = r;
@@ -258,6 +280,8 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
   const std::size_t level = grid_->level(behind) - 1;
   const State label = rises ? grid_->low(level) : grid_->high(level);
   const FrontIndex under = fronts_[f].prev, over = fronts_[f].next;
+  end_course(fronts_[f], z);
+  note(z, CollisionView<double>::kNoBoundary, 1, grid_->level(ahead) == level ? 1 : 2);
   const auto set_turned = [&](FrontIndex i) {
     Node& n = fronts_[i];
     agenda_.unschedule(n);
@@ -297,6 +321,7 @@ void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
   const double z = grid_->turning_height(piece, level);
   if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
   const double turned = f.turned, t = passage(*grid_, f, z).t;
+  if constexpr (Observer::kActive) observer_.ended(f, t, z);
   set_course(*grid_, f, z, t);
   f.turned = turned;
 }
@@ -313,5 +338,6 @@ void CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
 }
 
 template class CurvedSystem<NoObserver>;
+template class CurvedSystem<CurvedRecord>;
 
 }  // namespace shearfront

@@ -7,6 +7,7 @@
 
 #include "shearfront/track/agenda.hpp"
 #include "shearfront/track/curved_front.hpp"
+#include "shearfront/track/curved_record.hpp"
 #include "shearfront/track/curved_start.hpp"
 #include "shearfront/track/observers.hpp"
 
@@ -70,6 +71,8 @@ class CurvedSystem {
   void set_below(FrontIndex i, State state);
   void set_above(FrontIndex i, State state);
   void anchor_beyond(Node& f, std::size_t level);
+  void end_course(const Node& f, double z);
+  void note(double z, std::size_t boundary, std::size_t incoming, std::size_t outgoing);
   void schedule_all(FrontIndex from, FrontIndex to);
   void remove(FrontIndex i);
   [[nodiscard]] bool is_boundary(FrontIndex i) const { return fronts_.is_boundary(i); }
@@ -86,5 +89,6 @@ class CurvedSystem {
 };
 
 extern template class CurvedSystem<NoObserver>;
+extern template class CurvedSystem<CurvedRecord>;
 
 }  // namespace shearfront

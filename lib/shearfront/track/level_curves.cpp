@@ -15,8 +15,7 @@ constexpr double kSmallRoot = 0.1;
 double exponential_series(double q) {
   const double x = q * q;
   return q * x *
-         (1.0 / 3 +
-          x * (1.0 / 5 + x * (1.0 / 7 + x * (1.0 / 9 + x * (1.0 / 11 + x * (1.0 / 13 + x / 15))))));
+         (1.0 / 3 + x * (1.0 / 5 + x * (1.0 / 7 + x * (1.0 / 9 + x * (1.0 / 11 + x * (1.0 / 13 + x / 15))))));
 }
 
 /// q - (1 - q^2) artanh q.

@@ -95,6 +95,8 @@ class Tracking {
   /// phi at time(), between walls, interfaces and fronts: constant, or linear where fronts are the states of
   /// a fan (TrackOptions::reconstruct).
   [[nodiscard]] Profile<double> profile() const;
+  /// The same at any height: phi and M, and integrals. `scene` is that it was made with, and must outlive the field.
+  [[nodiscard]] std::unique_ptr<Field> field(const Scene<double>& scene) const;
   /// All fronts up to time(), by the time and height at which they begin; those alive end at time().
   /// Precondition: they are kept (TrackOptions::fronts or history).
   [[nodiscard]] std::vector<FrontSegment<double>> fronts() const;
