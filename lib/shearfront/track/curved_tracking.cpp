@@ -6,6 +6,7 @@
 
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/track/curved_field.hpp"
+#include "shearfront/track/curved_reconstruct.hpp"
 #include "shearfront/track/curved_record.hpp"
 #include "shearfront/track/tracker.hpp"
 
@@ -22,6 +23,7 @@ class CurvedTracking final : public AnyTracking {
                  Progress progress)
       : bed_(make_bed(std::move(curved), options)),
         scene_(std::make_shared<const Scene<double>>(scene)),
+        reconstruct_(options.reconstruct),
         limits_{options.max_collisions, std::move(progress)},
         tracker_(CurvedSystem<Observer>(bed_->grid, bed_->scene.start, Observer{},
                                         static_cast<std::size_t>(options.max_fronts))) {}
@@ -31,8 +33,11 @@ class CurvedTracking final : public AnyTracking {
   }
   Status advance(double t) override { return status_ = tracker_.advance_to(t, limits_); }
   [[nodiscard]] double time() const override { return tracker_.time(); }
-  [[nodiscard]] Profile<double> profile() const override { return *steps().profile(); }
-  [[nodiscard]] std::unique_ptr<Field> field(const Scene<double>& /*scene*/) const override {
+  [[nodiscard]] Profile<double> profile() const override {
+    return reconstruct_ == Reconstruction::linear ? lines() : *steps().profile();
+  }
+  [[nodiscard]] std::unique_ptr<Field> field(const Scene<double>& scene) const override {
+    if (reconstruct_ == Reconstruction::linear) return std::make_unique<ProfileField>(scene, lines());
     return std::make_unique<CurvedField>(steps());
   }
   [[nodiscard]] std::vector<FrontSegment<double>> fronts() const override {
@@ -96,6 +101,10 @@ class CurvedTracking final : public AnyTracking {
     return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), options.resolution);
   }
   [[nodiscard]] CurvedField steps() const { return {bed_, snapshot_of(tracker_.system(), time())}; }
+  [[nodiscard]] Profile<double> lines() const {
+    const CurvedSnapshot snapshot = snapshot_of(tracker_.system(), time());
+    return CurvedReconstruction(*bed_, tracker_.system().fronts(), snapshot).profile();
+  }
   [[nodiscard]] std::string message() const {
     if (tracker_.has_too_many_fronts())
       return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
@@ -117,6 +126,7 @@ class CurvedTracking final : public AnyTracking {
 
   std::shared_ptr<const CurvedBed> bed_;
   std::shared_ptr<const Scene<double>> scene_;
+  Reconstruction reconstruct_;
   RunLimits limits_;
   Tracker<LevelCurves, Observer, CurvedSystem<Observer>> tracker_;
   Status status_ = Status::ok;
