@@ -34,7 +34,7 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   const bool is_dead = !(grid.q(p, std::max(i, j), z, rate) > 0);
   if (!is_dead && grid.is_high(front.below) != grid.is_high(front.above)) return {};
   const double h = (grid.capacity(i) + grid.capacity(j)) / 2;
-  Node node{true, z, 0, 0};
+  Node node{true, z, 0, 0, h};
   const double below = grid.phi(p, front.below, z), above = grid.phi(p, front.above, z);
   double turned = front.turned;
   if (front.turns) turned = passage(grid, front, front.end).t;
@@ -52,31 +52,36 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   return node;
 }
 
-/// The lines end at a shock or interface at `limit`, or at the level of the region next to it, beyond which it is a plateau.
-CurvedReconstruction::Point CurvedReconstruction::end_of(std::size_t region, double limit, const Node& first,
-                                                         const Node& second) const {
+/// From a node to the shock or interface at `limit`, or to where H is that of the region, if it is a plateau: nodes without the
+/// first.
+std::vector<CurvedReconstruction::Node> CurvedReconstruction::end_of(std::size_t region, double limit,
+                                                                     const Node& first,
+                                                                     const Node& second) const {
   const LevelCurves& grid = bed_.grid;
   const std::size_t p = snapshot_.piece[region];
   const State state = snapshot_.state[region];
-  const auto level = [&](double z) { return grid.phi(p, state, z); };
-  const double dz = second.z - first.z;
-  if (dz == 0 || first.z == limit) return {first.z, first.u};
-  const double slope = (second.u - first.u) / dz;
-  const auto line = [&](double z) { return first.u + slope * (z - first.z); };
-  if (bed_.is_plateau[grid.level(state)]) {
-    double near = first.z, far = limit;
-    const bool is_above = line(near) > level(near);
-    if ((line(far) > level(far)) != is_above) {
-      constexpr int kSteps = 50;
-      for (int n = 0; n < kSteps; ++n) {
-        const double middle = near + (far - near) / 2;
-        ((line(middle) > level(middle)) == is_above ? near : far) = middle;
-      }
-      return {far, level(far)};
-    }
+  const std::size_t k = grid.level(state);
+  const double dz = first.z - second.z;
+  if (dz == 0 || first.z == limit) return {};
+  const double slope = (first.h - second.h) / dz, at_level = grid.capacity(k);
+  const double reach = std::abs(first.h - at_level);
+  double end = limit;
+  if (bed_.is_plateau[k]) {
+    const double z = slope == 0 ? limit : first.z + (at_level - first.h) / slope;
+    if ((z - first.z) * (limit - first.z) > 0 && std::abs(z - first.z) < std::abs(limit - first.z)) end = z;
   }
-  const double room = std::abs(first.u - level(first.z)), at_limit = level(limit);
-  return {limit, std::clamp(line(limit), std::max(0.0, at_limit - room), std::min(1.0, at_limit + room))};
+  std::vector<Node> nodes;
+  constexpr int kLines = 12;
+  for (int i = 1; i <= kLines; ++i) {
+    const double x = 1 - static_cast<double>(i) / kLines;
+    const double z = i == kLines ? end : end + (first.z - end) * x * x;  // at throats u is a square root
+    const double h =
+        std::clamp(first.h + slope * (z - first.z), std::max(0.0, at_level - reach), at_level + reach);
+    const double rate = grid.piece(p).rate(z), root = std::sqrt(std::max(0.0, (rate - h) / rate));
+    const double u = grid.is_high(state) ? (1 + root) / 2 : h < rate ? h / rate / (2 * (1 + root)) : 0.5;
+    nodes.push_back({true, z, u, x * x * first.room, h});
+  }
+  return nodes;
 }
 
 /// A monotone cubic through the nodes (slopes by harmonic means: Fritsch & Butland 1984) as lines.
@@ -105,7 +110,7 @@ std::vector<CurvedReconstruction::Node> CurvedReconstruction::joined(const std::
     for (int i = 1; i < kLines; ++i) {
       const double x = static_cast<double>(i) / kLines, y = 1 - x;
       all.push_back({true, nodes[k].z + x * width, nodes[k].u + x * step + x * y * (y * d0 + x * d1),
-                     y * nodes[k].room + x * nodes[k + 1].room});
+                     y * nodes[k].room + x * nodes[k + 1].room, 0});
     }
   }
   all.push_back(nodes[n - 1]);
@@ -127,17 +132,17 @@ void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
   double last = bottom;
   for (Node& node : nodes) last = node.z = std::clamp(node.z, last, top);
   const std::size_t n = nodes.size();
-  const Point first = end_of(low, bottom, nodes[0], nodes[1]),
-              second = end_of(high - 1, top, nodes[n - 1], nodes[n - 2]);
-  std::vector<Node> all{{true, first.z, first.u, 0}};
-  all.insert(all.end(), nodes.begin(), nodes.end());
-  all.push_back({true, second.z, second.u, 0});
+  const std::vector<Node> down = end_of(low, bottom, nodes[0], nodes[1]),
+                          up = end_of(high - 1, top, nodes[n - 1], nodes[n - 2]);
+  std::vector<Node> all(down.rbegin(), down.rend());
+  const std::vector<Node> inner = joined(nodes);
+  all.insert(all.end(), inner.begin(), inner.end());
+  all.insert(all.end(), up.begin(), up.end());
   const LevelCurves& grid = bed_.grid;
   CompensatedSum<double> excess;
   excess += snapshot_.below[low] - snapshot_.below[high];
-  excess += grid.amount(snapshot_.piece[low], snapshot_.state[low], bottom, first.z);
-  excess += grid.amount(snapshot_.piece[high - 1], snapshot_.state[high - 1], second.z, top);
-  all = joined(all);
+  excess += grid.amount(snapshot_.piece[low], snapshot_.state[low], bottom, all.front().z);
+  excess += grid.amount(snapshot_.piece[high - 1], snapshot_.state[high - 1], all.back().z, top);
   double room = 0;
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const double width = all[k + 1].z - all[k].z;
@@ -152,7 +157,7 @@ void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
     node.u = u;
   }
   const double tolerance = line_tolerance(bed_);
-  lines_.add_level(grid, snapshot_.piece[low], snapshot_.state[low], first.z, tolerance);
+  lines_.add_level(grid, snapshot_.piece[low], snapshot_.state[low], all.front().z, tolerance);
   for (std::size_t k = 0; k + 1 < all.size(); ++k) lines_.add(all[k + 1].z, all[k].u, all[k + 1].u);
   lines_.add_level(grid, snapshot_.piece[high - 1], snapshot_.state[high - 1], top, tolerance);
 }

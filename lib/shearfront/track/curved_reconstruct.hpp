@@ -12,7 +12,7 @@ namespace shearfront {
 /// A front between neighbouring levels is the mean of the characteristics of the fluxes between, so the one in the middle,
 /// H = (H_i + H_j) / 2, passes its place up to the square of their distance, with the u of that H; where the front turned in its
 /// piece the middle characteristic is known in closed form from the turning time on. Monotone cubics, cut into lines, join these nodes; towards shocks and
-/// interfaces the last line goes on, at plateaus (levels of the initial state) down to their profile. What a stretch between
+/// interfaces H goes on linearly, as far as half of the next level, at plateaus (levels of the initial state) to the level. What a stretch between
 /// shocks and interfaces then holds too much or too little, of second order, is taken from its nodes in proportion to
 /// their distance from the levels beside them. Guaranteed: M at walls, interfaces and shocks is that of the steps; u stays between 0
 /// and 1. A stretch where this would move a node beyond a level beside it keeps its levels. Cost: O(fronts).
@@ -42,15 +42,14 @@ class CurvedReconstruction {
     bool is_smooth = false;
     double z = 0, u = 0;
     double room = 0;  ///< distance of u from the nearer level
-  };
-  struct Point {
-    double z, u;
+    double h = 0;     ///< 4 H of the characteristic
   };
   [[nodiscard]] Node node_of(const CurvedNode& front, double z) const;
   [[nodiscard]] static std::vector<Node> joined(const std::vector<Node>& nodes);
   void add_stretch(std::size_t low, std::size_t high);
   void add_steps(std::size_t low, std::size_t high);
-  [[nodiscard]] Point end_of(std::size_t region, double limit, const Node& first, const Node& second) const;
+  [[nodiscard]] std::vector<Node> end_of(std::size_t region, double limit, const Node& first,
+                                         const Node& second) const;
 
   const CurvedBed& bed_;
   const CurvedSnapshot& snapshot_;

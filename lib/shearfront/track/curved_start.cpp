@@ -83,13 +83,63 @@ std::vector<Special> specials_of(const std::vector<RatePiece>& pieces, const std
   return all;
 }
 
-std::vector<double> ordinary_levels(const Spacing& spacing, double most) {
+/// Capacities below which levels are spaced in u instead of H: where u stays near 1/2, or begins there.
+std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
+                                       const std::vector<StartSegment>& start, const Spacing& spacing,
+                                       double most) {
+  std::vector<double> all;
+  const auto add = [&](double capacity) {
+    if (capacity <= most * (1 + kSameLevel)) all.push_back(capacity);
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const RatePiece& piece = pieces[p];
+    constexpr double kFewLevels = 4;
+    const double least = std::min(piece.low, piece.high), rise = std::abs(piece.high - piece.low);
+    if (rise <= kFewLevels * spacing.ratio * (least + spacing.offset)) add(least);
+    if (p + 1 == pieces.size()) break;
+    const RatePiece& next = pieces[p + 1];  // a throat between them
+    if (piece.high <= next.low ? piece.bend <= 0 : next.bend >= 0) add(std::min(piece.high, next.low));
+  }
+  for (std::size_t i = 0; i + 1 < start.size(); ++i)
+    if (start[i].u < 0.5 && start[i + 1].u > 0.5)
+      add(std::min(pieces[start[i].piece].rate(start[i].z_high),
+                   pieces[start[i + 1].piece].rate(start[i + 1].z_low)));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x <= kSameLevel * y; }),
+            all.end());
+  return all;
+}
+
+/// u = (1 - q) / 2 in steps of `resolution` below a capacity, as far as that is finer.
+constexpr double kRefinedRoot = 0.4;
+
+std::vector<double> ordinary_levels(const Spacing& spacing, double most, const std::vector<double>& refined,
+                                    double resolution) {
   const double n = count(spacing, most);
-  std::vector<double> h;
+  std::vector<double> all;
   for (double i = 1; i <= n; ++i)
-    h.push_back(spacing.offset * std::expm1(i / n * std::log1p(most / spacing.offset)));
-  h.back() = most;
-  return h;
+    all.push_back(spacing.offset * std::expm1(i / n * std::log1p(most / spacing.offset)));
+  all.back() = most;
+  if (refined.empty()) return all;
+  for (const double capacity : refined)
+    for (double q = 2 * resolution; q < kRefinedRoot; q += 2 * resolution)
+      all.push_back(capacity * (1 - q * q));
+  std::sort(all.begin(), all.end());
+  // None much nearer to the next than the finest spacing there.
+  std::vector<double> levels;
+  std::size_t first = 0;
+  for (const double h : all) {
+    double room = spacing.ratio * (h + spacing.offset);
+    while (first < refined.size() && refined[first] < h) ++first;
+    for (std::size_t k = first; k < refined.size(); ++k) {
+      const double root = std::sqrt(std::max(0.0, 1 - h / refined[k]));
+      if (root > kRefinedRoot) break;
+      room = std::min(room, 4 * resolution * refined[k] * std::max(root, resolution));
+    }
+    constexpr double kLeastShare = 0.6;
+    if (levels.empty() || h - levels.back() > kLeastShare * room) levels.push_back(h);
+  }
+  return levels;
 }
 
 /// Height at which int q_first from `a` to it and q_second from it to `b` is `wanted`; q_first <= q_second or the other way.
@@ -120,9 +170,16 @@ LevelPlan plan_levels(const std::vector<RatePiece>& pieces, const std::vector<St
   if (!(most > 0)) return plan;
   const std::vector<Special> specials = specials_of(pieces, start, most);
   const Spacing spacing = spacing_of(pieces, most, resolution);
-  const std::vector<double> ordinary = ordinary_levels(spacing, most);
+  const std::vector<double> ordinary =
+      ordinary_levels(spacing, most, refined_capacities(pieces, start, spacing, most), resolution);
   constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
-  const auto room_at = [&](double h) { return kRoom * std::min(spacing.ratio, 0.5) * (h + spacing.offset); };
+  // Of the nearest levels: where they are refined it is less.
+  const auto room_at = [&](double h) {
+    const auto it = std::upper_bound(ordinary.begin(), ordinary.end(), h);
+    const double above = it == ordinary.end() ? most * (1 + spacing.ratio) : *it;
+    const double below = it == ordinary.begin() ? 0 : *std::prev(it);
+    return kRoom * std::min(std::min(spacing.ratio, 0.5) * (h + spacing.offset), above - below);
+  };
   auto next = ordinary.begin();
   const auto add_up_to = [&](double end) {
     for (; next != ordinary.end() && *next < end; ++next)

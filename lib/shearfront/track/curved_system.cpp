@@ -32,7 +32,7 @@ void CurvedSystem<Observer>::start(const std::vector<StartSegment>& segments) {
       emit_inside(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, last, at_low, segments[i].z_low);
     } else {
       const std::size_t before = n_fronts();
-      emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low);
+      emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low, now_);
       if (n_fronts() > before) waves_[piece] = {now_, now_, now_};
     }
     (levels.steps.empty() ? levels.at_high : levels.steps.front().below) = at_low;
@@ -75,6 +75,7 @@ FrontIndex CurvedSystem<Observer>::emit(FrontIndex under, std::size_t piece, Sta
   n.layer = static_cast<std::uint32_t>(piece);
   n.meets = infinity<double>();
   n.turned = Node::kNever;
+  n.is_edge = false;
   set_course(*grid_, n, z, now_);
   const std::size_t j = grid_->level(l), k = grid_->level(r);
   const bool are_neighbours = j + 1 == k || k + 1 == j;
@@ -91,16 +92,32 @@ std::size_t CurvedSystem<Observer>::flux_level(State l, State r, std::size_t cap
   return std::min(demand, supply);
 }
 
+/// Front i, put in now, is the edge of a fan next to a state that was there before, whose characteristic left its place at t.
+template <class Observer>
+void CurvedSystem<Observer>::set_edge(FrontIndex i, double t) {
+  Node& n = fronts_[i];
+  n.is_edge = n.direction != 0 && (n.direction > 0 ? n.q_above : n.q_below) > 0;
+  n.edge_t = t;
+}
+/// When the characteristic of the state ahead of an edge reaches z.
+template <class Observer>
+double CurvedSystem<Observer>::arrival_of_edge(const Node& f, double z) const {
+  return f.edge_t +
+         grid_->characteristic_time(f.layer, grid_->level(f.direction > 0 ? f.above : f.below), f.z, z);
+}
+
 /// The waves that go down from z where the flux has become that of `level`; `at` is the state left there.
 template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_left(FrontIndex under, std::size_t piece, State l, std::size_t level,
-                                             double z, State& at) {
+                                             double z, State& at, double edge_t) {
   at = grid_->low(level);
   if (l == grid_->high(level)) at = l;
   if (l == at) return under;
   if (!grid_->is_high(l) && grid_->level(l) < level) {
-    for (std::size_t k = grid_->level(l); k < level; ++k)
+    for (std::size_t k = grid_->level(l); k < level; ++k) {
       under = emit(under, piece, grid_->low(k), grid_->low(k + 1), z);
+      if (k == grid_->level(l)) set_edge(under, edge_t);
+    }
     return under;
   }
   return emit(under, piece, l, at, z);
@@ -108,13 +125,14 @@ FrontIndex CurvedSystem<Observer>::emit_left(FrontIndex under, std::size_t piece
 /// The waves that go up.
 template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level,
-                                              double z, State& at) {
+                                              double z, State& at, double edge_t) {
   at = grid_->high(level);
   if (r == grid_->low(level)) at = r;
   if (r == at) return under;
   if (grid_->is_high(r) && grid_->level(r) < level) {
     for (std::size_t k = level; k > grid_->level(r); --k)
       under = emit(under, piece, grid_->high(k), grid_->high(k - 1), z);
+    set_edge(under, edge_t);
     return under;
   }
   return emit(under, piece, at, r, z);
@@ -137,12 +155,12 @@ FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t pie
   const double rate = grid_->piece(piece).rate(z);
   const std::size_t cap = grid_->cap(rate), level = flux_level(l, r, cap, cap);
   State below, above;
-  const FrontIndex left = emit_left(under, piece, l, level, z, below);
+  const FrontIndex left = emit_left(under, piece, l, level, z, below, now_);
   const bool is_dead = !(grid_->q(piece, level, z, rate) > 0);
   FrontIndex middle = left;
   const bool stands = !is_dead && below != (r == grid_->low(level) ? r : grid_->high(level));
   if (stands) middle = emit(left, piece, below, r == grid_->low(level) ? r : grid_->high(level), z);
-  const FrontIndex right = emit_right(middle, piece, r, level, z, above);
+  const FrontIndex right = emit_right(middle, piece, r, level, z, above, now_);
   if (!is_dead || below == above) return right;
   const State label = dead_label(piece, l, r, level);
   fronts_[left].above = label;
@@ -155,15 +173,15 @@ FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t pie
 
 /// Solves the Riemann problem at boundary b. Returns the topmost new node, or b.
 template <class Observer>
-FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State r) {
+FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State r, double edge_t) {
   const std::size_t n = grid_->n_layers();
   const double z = fronts_[b].z;
   const std::size_t level =
       flux_level(l, r, b > 0 ? grid_->cap_high(b - 1) : 0, b < n ? grid_->cap_low(b) : 0);
   State below = l, above = r;
-  if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below);
+  if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below, edge_t);
   FrontIndex top = b;
-  if (b < n) top = emit_right(b, b, r, level, z, above);
+  if (b < n) top = emit_right(b, b, r, level, z, above, edge_t);
   fronts_[b].below = below;
   fronts_[b].above = above;
   return top;
@@ -220,14 +238,16 @@ void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
   const bool is_from_below = fronts_[mover].next == b;
   const State l = is_from_below ? fronts_[mover].below : fronts_[b].below,
               r = is_from_below ? fronts_[b].above : fronts_[mover].above;
+  const double edge_t = fronts_[mover].is_edge ? arrival_of_edge(fronts_[mover], fronts_[b].z) : now_;
   end_course(fronts_[mover], fronts_[b].z);
   remove(mover);
   const FrontIndex under = fronts_[b].prev;
   const std::size_t before = n_fronts();
-  const FrontIndex top = emit_at_boundary(b, l, r);
+  const FrontIndex top = emit_at_boundary(b, l, r, edge_t);
   note(fronts_[b].z, b, 1, n_fronts() - before);
   Waves& waves = waves_[b];
   if (!waves.first) waves.first = now_;
+  waves.first_edge = waves.first_edge ? std::min(*waves.first_edge, edge_t) : edge_t;
   waves.last = now_;
   schedule_all(under == kNoFront ? b : under, top);
 }
@@ -321,6 +341,7 @@ void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
   const double z = grid_->turning_height(piece, level);
   if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
   const double turned = f.turned, t = passage(*grid_, f, z).t;
+  f.is_edge = false;
   if constexpr (Observer::kActive) observer_.ended(f, t, z);
   set_course(*grid_, f, z, t);
   f.turned = turned;

@@ -27,7 +27,8 @@ class CurvedSystem {
 
   struct Waves {
     std::optional<double> first, last;
-    std::optional<double> first_edge;  ///< when the characteristic of the first wave's edge comes
+    std::optional<double>
+        first_edge;  ///< the first, where it is the edge of a fan that of its characteristic
   };
 
   CurvedSystem(const LevelCurves& grid, const std::vector<StartSegment>& start, Observer observer,
@@ -59,11 +60,13 @@ class CurvedSystem {
   void start(const std::vector<StartSegment>& segments);
   void schedule(FrontIndex i);
   FrontIndex emit(FrontIndex under, std::size_t piece, State l, State r, double z);
-  FrontIndex emit_left(FrontIndex under, std::size_t piece, State l, std::size_t level, double z, State& at);
-  FrontIndex emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level, double z, State& at);
+  FrontIndex emit_left(FrontIndex under, std::size_t piece, State l, std::size_t level, double z, State& at,
+                       double edge_t);
+  FrontIndex emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level, double z, State& at,
+                        double edge_t);
   [[nodiscard]] std::size_t flux_level(State l, State r, std::size_t cap_below, std::size_t cap_above) const;
   FrontIndex emit_inside(FrontIndex under, std::size_t piece, State l, State& r, double z);
-  FrontIndex emit_at_boundary(FrontIndex b, State l, State r);
+  FrontIndex emit_at_boundary(FrontIndex b, State l, State r, double edge_t);
   void reach_boundary(FrontIndex mover, FrontIndex b);
   void merge(FrontIndex f, FrontIndex g);
   void turn(FrontIndex f);
@@ -73,6 +76,8 @@ class CurvedSystem {
   void anchor_beyond(Node& f, std::size_t level);
   void end_course(const Node& f, double z);
   void note(double z, std::size_t boundary, std::size_t incoming, std::size_t outgoing);
+  void set_edge(FrontIndex i, double t);
+  [[nodiscard]] double arrival_of_edge(const Node& f, double z) const;
   void schedule_all(FrontIndex from, FrontIndex to);
   void remove(FrontIndex i);
   [[nodiscard]] bool is_boundary(FrontIndex i) const { return fronts_.is_boundary(i); }

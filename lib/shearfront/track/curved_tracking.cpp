@@ -24,6 +24,7 @@ class CurvedTracking final : public AnyTracking {
       : bed_(make_bed(std::move(curved), options)),
         scene_(std::make_shared<const Scene<double>>(scene)),
         reconstruct_(options.reconstruct),
+        edges_(options.edges),
         limits_{options.max_collisions, std::move(progress)},
         tracker_(CurvedSystem<Observer>(bed_->grid, bed_->scene.start, Observer{},
                                         static_cast<std::size_t>(options.max_fronts))) {}
@@ -73,11 +74,15 @@ class CurvedTracking final : public AnyTracking {
     timeline.mass = scene_->mass();
     timeline.steady_height = scene_->steady_height();
     const std::size_t n = bed_->grid.n_layers();
-    timeline.t0 = tracker_.first_wave(0);
-    timeline.t1 = tracker_.first_wave(n);
+    const auto first = [&](std::size_t k) {
+      const auto& waves = tracker_.system().waves(k);
+      return edges_ == FanEdges::characteristic ? waves.first_edge : waves.first;
+    };
+    timeline.t0 = first(0);
+    timeline.t1 = first(n);
     if (tracker_.is_steady()) timeline.t_star = tracker_.last_collision();
     for (std::size_t k = 1; k < n; ++k)
-      timeline.interfaces.push_back({bed_->grid.boundary(k), tracker_.first_wave(k), tracker_.last_wave(k)});
+      timeline.interfaces.push_back({bed_->grid.boundary(k), first(k), tracker_.last_wave(k)});
     return timeline;
   }
   [[nodiscard]] Summary summary() const override {
@@ -127,6 +132,7 @@ class CurvedTracking final : public AnyTracking {
   std::shared_ptr<const CurvedBed> bed_;
   std::shared_ptr<const Scene<double>> scene_;
   Reconstruction reconstruct_;
+  FanEdges edges_;
   RunLimits limits_;
   Tracker<LevelCurves, Observer, CurvedSystem<Observer>> tracker_;
   Status status_ = Status::ok;

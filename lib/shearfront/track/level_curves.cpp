@@ -78,16 +78,17 @@ double LevelCurves::area(std::size_t p, std::size_t level, Place a, Place b) con
   return piece.curve == RateCurve::linear ? linear_area(piece, h, a, b) : exponential_area(piece, h, a, b);
 }
 
-double LevelCurves::characteristic_time(std::size_t p, double capacity, double a, double b) const {
+double LevelCurves::characteristic_time(std::size_t p, std::size_t level, double from, double to) const {
   const RatePiece& piece = pieces_[p];
-  const double rate_a = piece.rate(a), rate_b = piece.rate(b), d = b - a;
-  if (capacity == 0) return piece.pure_time(a, b);
-  const double q_a = std::sqrt(std::max(0.0, (rate_a - capacity) / rate_a)),
-               q_b = std::sqrt(std::max(0.0, (rate_b - capacity) / rate_b));
-  if (piece.is_constant()) return d / (rate_a * q_a);
-  // dq / dz = h r' / (2 q r^2): by q = sqrt(1 - h / r) the integral is elementary.
-  if (piece.curve == RateCurve::exponential) return 2 * (q_b - q_a) / (capacity * piece.bend);
-  return 2 * (std::atanh(q_b) - std::atanh(q_a)) / piece.bend;
+  const Place a = place(p, level, std::min(from, to)), b = place(p, level, std::max(from, to));
+  const double d = b.z - a.z;
+  if (!(d > 0)) return 0;
+  if (piece.is_constant()) return d / (a.rate * a.q);
+  // q' = h r' / (2 q r^2): int dz / (r q) is 2 q / (h bend), and 2 artanh q / bend in a linear piece.
+  if (piece.curve == RateCurve::exponential)
+    return -2 * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
+  const double rise = piece.bend * d, delta = h_[level] * rise / (a.rate * b.rate * (a.q + b.q));
+  return (2 * std::log1p(delta / (1 + a.q)) + std::log1p(rise / a.rate)) / piece.bend;
 }
 
 }  // namespace shearfront

@@ -105,9 +105,9 @@ class LevelCurves {
     if (k == 0) return is_high(s) ? to - from : 0;
     return ((to - from) + sign(s) * area(p, k, from, to)) / 2;
   }
-  /// int dz / (r q) from a to b > a: the time in which the flux H of `capacity` goes there by its characteristic. Precondition:
-  /// the rate is larger all the way.
-  [[nodiscard]] double characteristic_time(std::size_t p, double capacity, double a, double b) const;
+  /// |int dz / (r q_k)| from a to b: the time in which a characteristic of the level goes there. Precondition: it lives all the
+  /// way, ends excepted where the rate is not constant.
+  [[nodiscard]] double characteristic_time(std::size_t p, std::size_t level, double from, double to) const;
 
  private:
   [[nodiscard]] static double linear_area(const RatePiece& piece, double h, const Place& a, const Place& b);
