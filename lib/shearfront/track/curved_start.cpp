@@ -57,26 +57,28 @@ double count(const Spacing& spacing, double most) {
 struct Special {
   double capacity;
   std::size_t piece;
-  double z;
-  bool turns;  ///< it turns there
+  double value;   ///< of KnownTurn
+  bool is_known;  ///< whether it has one
 };
 
 std::vector<Special> specials_of(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
                                  double most) {
   std::vector<Special> all;
-  const auto add = [&](double capacity, std::size_t p, double z, bool turns) {
-    if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, z, turns});
+  const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
+    if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
   };
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    add(pieces[p].low, p, pieces[p].z_low, true);
-    add(pieces[p].high, p, pieces[p].z_high, true);
+    add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
+    add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    for (const double z : {s.z_low, s.z_high}) add(capacity_of(piece.rate(z), s.u), s.piece, z, s.u == 0.5);
+    if (piece.is_constant()) add(capacity_of(piece.low, s.u), s.piece, std::abs(2 * s.u - 1), true);
+    if (!piece.is_constant())
+      for (const double z : {s.z_low, s.z_high}) add(capacity_of(piece.rate(z), s.u), s.piece, z, s.u == 0.5);
     if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= 0.5 && start[i + 1].u >= 0.5)
-      add(piece.rate(s.z_high), s.piece, s.z_high, true);
+      add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
@@ -155,6 +157,18 @@ double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, st
   return std::clamp(bracketed_root(rises ? a : b, rises ? b : a, a + (b - a) / 2, excess), a, b);
 }
 
+/// A state of a constant piece. Where rounding of its capacity makes it one of u = 1/2, a little of the next level at its top
+/// keeps the amount.
+StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& segment, State state) {
+  constexpr double kLeast = 1e-13;
+  const double u = grid.phi(segment.piece, state, segment.z_low), width = segment.z_high - segment.z_low;
+  const std::size_t level = grid.level(state);
+  if (level == 0 || std::abs(segment.u - u) < kLeast) return {state, state, {}};
+  const State next = segment.u > u ? grid.high(level - 1) : grid.low(level - 1);
+  const double share = (segment.u - u) / (grid.phi(segment.piece, next, segment.z_low) - u);
+  return {state, next, {{segment.z_high - share * width, state, next}}};
+}
+
 }  // namespace
 
 double count_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
@@ -197,7 +211,7 @@ LevelPlan plan_levels(const std::vector<RatePiece>& pieces, const std::vector<St
       plan.capacities.push_back(h);
       plan.is_plateau.push_back(true);
     }
-    if (special.turns) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.z});
+    if (special.is_known) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.value});
   }
   if (plan.capacities.back() < most * (1 - kSameLevel)) {
     add_up_to(most * (1 - room_at(most) / most));
@@ -215,6 +229,7 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
   if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
   const auto level_at = [&](double z) { return grid.cap(capacity_of(piece.rate(z), segment.u)); };
   const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
+  if (from == to && piece.is_constant()) return constant_state(grid, segment, state(from));
   if (from == to) return {state(from), state(to), {}};
   StartSegmentLevels levels{state(from), state(to), {}};
   const int s = from < to ? 1 : -1;

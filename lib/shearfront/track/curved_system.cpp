@@ -33,7 +33,13 @@ void CurvedSystem<Observer>::start(const std::vector<StartSegment>& segments) {
     } else {
       const std::size_t before = n_fronts();
       emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low, now_);
-      if (n_fronts() > before) waves_[piece] = {now_, now_, now_};
+      // A state that is not pure changes at once where the rate varies.
+      const auto changes = [&](std::size_t p, State state) {
+        return grid_->level(state) > 0 && !grid_->piece(p).is_constant();
+      };
+      const bool is_inner = i > 0 && !is_end;
+      if (n_fronts() > before || (is_inner && (changes(piece - 1, last) || changes(piece, at_low))))
+        waves_[piece] = {now_, now_, now_};
     }
     (levels.steps.empty() ? levels.at_high : levels.steps.front().below) = at_low;
     for (const StartSegmentLevels::Step& step : levels.steps)

@@ -45,8 +45,11 @@ LevelCurves::LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capa
     cap_low_.push_back(cap(piece.low));
     cap_high_.push_back(cap(piece.high));
   }
-  for (const KnownTurn& turn : known)
-    turning_[turn.piece][turn.level] = pieces_[turn.piece].is_constant() ? 0 : turn.z;
+  for (const KnownTurn& turn : known) {
+    double& value = turning_[turn.piece][turn.level];
+    const bool is_capacity = pieces_[turn.piece].is_constant() && value == 0;
+    if (!is_capacity) value = turn.value;
+  }
 }
 
 double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a, const Place& b) {

@@ -10,11 +10,12 @@
 
 namespace shearfront {
 
-/// A level that turns at a height known beforehand: there the rate is 4 H.
+/// What is known of a level in a piece without rounding of its capacity: the height at which it turns, or where the rate is
+/// constant its q.
 struct KnownTurn {
   std::size_t piece;
   std::size_t level;
-  double z;
+  double value;
 };
 
 /// Levels of the flux H = r(z) u (1 - u) of u_t - H_z = 0 in a bed of pieces, and the states at rest that belong to them.
