@@ -99,8 +99,9 @@ std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
     const double least = std::min(piece.low, piece.high), rise = std::abs(piece.high - piece.low);
     if (rise <= kFewLevels * spacing.ratio * (least + spacing.offset)) add(least);
     if (p + 1 == pieces.size()) break;
-    const RatePiece& next = pieces[p + 1];  // a throat between them
-    if (piece.high <= next.low ? piece.bend <= 0 : next.bend >= 0) add(std::min(piece.high, next.low));
+    const RatePiece& next = pieces[p + 1];
+    const bool is_throat = (piece.high > next.low || piece.bend <= 0) && (piece.high < next.low || next.bend >= 0);
+    if (is_throat) add(std::min(piece.high, next.low));
   }
   for (std::size_t i = 0; i + 1 < start.size(); ++i)
     if (start[i].u < 0.5 && start[i + 1].u > 0.5)
