@@ -25,6 +25,7 @@ struct CurvedNode {
   double rate = 0;                  ///< r(z)
   double q_below = 0, q_above = 0;  ///< of its levels at z
   double end = 0;                   ///< height at which it ends or turns
+  double end_t = 0;                 ///< when it turns there
   double meets = 0, meeting_z = 0;  ///< next event: when, and where
   double turned = kNever;           ///< when a mean characteristic of its levels turned there
   State below = 0, above = 0;
@@ -47,12 +48,61 @@ struct Passage {
   double t, slope;
 };
 
+/// int q_k dz from the origin of a front to a height as `plain` + log1p(logarithm) `weight`, and q_k there.
+struct LevelWay {
+  double q, plain, weight, logarithm;
+};
+
+namespace curved_front_detail {
+
+constexpr double kSmallRoot = 0.1;  ///< below it terms cancel: LevelCurves::area knows how
+
+/// `shrink` = r(origin) / r(z) - 1.
+[[nodiscard]] inline LevelWay exponential_way(const LevelCurves& grid, const CurvedNode& f, std::size_t level,
+                                              double q_origin, double z, double rate, double shrink) {
+  if (level == 0) return {1, z - f.z, 0, 0};
+  const std::size_t p = f.layer;
+  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
+  if (!(q_origin > 0)) {  // from its turning height on
+    const double turn = grid.turning_height(p, level), q = grid.q(p, level, z, rate);
+    if (q < kSmallRoot) return {q, grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
+    return {q, (z - turn) - factor * q, factor, q};
+  }
+  constexpr double kFarFromTurn = 0.75;
+  const double x = h / rate, q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
+  if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
+    return {q, grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
+  const double delta = -(h / f.rate) * shrink / (q_origin + q);
+  return {q, (z - f.z) - factor * delta, factor, delta / (1 + q_origin)};
+}
+
+}  // namespace curved_front_detail
+
+/// When a front is at a height of its piece, ahead of its origin.
 [[nodiscard]] inline Passage passage(const LevelCurves& grid, const CurvedNode& f, double z) {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
-  const double rate = grid.piece(p).rate(z);
-  const double q_i = grid.q(p, i, z, rate), q_j = grid.q(p, j, z, rate);
   const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  const RatePiece& piece = grid.piece(p);
+  if (piece.is_constant() || z == f.z) {
+    const double slope = factor * (s_j * f.q_above - s_i * f.q_below);
+    return {f.t + slope * (z - f.z), slope};
+  }
+  if (piece.curve == RateCurve::exponential) {
+    const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
+    const double shrink = needs_rate ? std::expm1(-piece.bend * (z - f.z)) : 0, rate = f.rate / (1 + shrink);
+    const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
+                   b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
+    // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
+    double way = s_j * b.plain - s_i * a.plain;
+    const double weight = std::max(std::abs(a.weight), std::abs(b.weight)) * (piece.bend < 0 ? -1 : 1);
+    if (weight != 0) {
+      const double x = b.logarithm, y = a.logarithm;
+      way += s_j * weight * (s_i == s_j ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
+    }
+    return {f.t + factor * way, factor * (s_j * b.q - s_i * a.q)};
+  }
+  const double rate = piece.rate(z), q_i = grid.q(p, i, z, rate), q_j = grid.q(p, j, z, rate);
   const double D_i = grid.area(p, i, {f.z, f.rate, f.q_below}, {z, rate, q_i});
   const double D_j = grid.area(p, j, {f.z, f.rate, f.q_above}, {z, rate, q_j});
   return {f.t + factor * (s_j * D_j - s_i * D_i), factor * (s_j * q_j - s_i * q_i)};
@@ -86,6 +136,7 @@ inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double 
   if (f.direction > 0 ? !(last < f.end) : !(last > f.end)) return;
   f.end = f.direction > 0 ? std::max(last, z) : std::min(last, z);
   f.turns = most == (f.direction > 0 ? i : j);  // else the front ahead does
+  if (f.turns) f.end_t = f.end == z ? t : passage(grid, f, f.end).t;
 }
 
 /// Newton's method inside a bracket: where evaluate(z) = {value, slope} is 0, the value having the sign of `orientation`
@@ -93,6 +144,7 @@ inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double 
 template <class Evaluate>
 [[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
   constexpr int kMostSteps = 200, kPatience = 6;
+  constexpr double kLastStep = 1e-10;  // the next one would be its square
   double z = start;
   for (int n = 0; n < kMostSteps; ++n) {
     const Passage at = evaluate(z);
@@ -101,8 +153,11 @@ template <class Evaluate>
     const double middle = lo + (hi - lo) / 2;
     double next = z - at.t / at.slope;
     const bool is_inside = lo < hi ? next > lo && next < hi : next > hi && next < lo;
-    if (!is_inside || (n > kPatience && n % 3 == 0)) next = middle;
-    if (std::abs(next - z) <= 2e-16 * (1 + std::abs(z)) || next == lo || next == hi) return next;
+    const bool is_newton = is_inside && !(n > kPatience && n % 3 == 0);
+    if (!is_newton) next = middle;
+    const double step = std::abs(next - z);
+    if (step <= 2e-16 * (1 + std::abs(z)) || next == lo || next == hi) return next;
+    if (is_newton && step < kLastStep * std::min(std::abs(hi - lo), 1.0)) return next;
     z = next;
   }
   return z;
@@ -111,7 +166,7 @@ template <class Evaluate>
 /// Where a front is at a time. Precondition: it has begun; after its end it is there.
 [[nodiscard]] inline double position_of(const LevelCurves& grid, const CurvedNode& f, double t) {
   if (f.direction == 0 || !(t > f.t)) return f.z;
-  const double t_end = passage(grid, f, f.end).t;
+  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
   if (!(t < t_end)) return f.end;
   const double share = (t - f.t) / (t_end - f.t);
   const double start = f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99);

@@ -56,6 +56,13 @@ class CurvedMeetings {
     return at(z);
   }
 
+  /// A first guess of a root between lo and hi: Newton's from lo, or along the secant.
+  [[nodiscard]] static double first_guess(double lo, double hi, const Passage& at_lo, double at_hi) {
+    const double next = lo - at_lo.t / at_lo.slope, share = at_lo.t / (at_lo.t - at_hi);
+    const bool is_inside = lo < hi ? next > lo && next < hi : next < lo && next > hi;
+    return is_inside ? next : lo + (hi - lo) * std::clamp(share, 0.01, 0.99);
+  }
+
   /// f rises, g sinks.
   [[nodiscard]] std::optional<CurvedMeeting> opposite() const {
     const double lo = std::max(f_.z, g_.end), hi = std::min(g_.z, f_.end);
@@ -63,8 +70,8 @@ class CurvedMeetings {
       if (f_.z < g_.z) return std::nullopt;  // they turn before
       return CurvedMeeting{std::max(f_.t, g_.t), f_.z};
     }
-    const double at_lo = difference(f_, g_, lo).t;
-    if (at_lo > 0) {
+    const Passage at_lo = difference(f_, g_, lo);
+    if (at_lo.t > 0) {
       if (lo == f_.z) return at(lo);
       return std::nullopt;
     }
@@ -73,8 +80,8 @@ class CurvedMeetings {
       if (hi == g_.z) return at(hi);
       return std::nullopt;
     }
-    if (at_hi == at_lo) return at(lo);
-    return root(f_, g_, lo, hi, lo + (hi - lo) * std::clamp(-at_lo / (at_hi - at_lo), 0.01, 0.99));
+    if (at_hi == at_lo.t) return at(lo);
+    return root(f_, g_, lo, hi, first_guess(lo, hi, at_lo, at_hi));
   }
 
   /// `rear` follows `lead` in the direction s.
@@ -92,6 +99,7 @@ class CurvedMeetings {
     // Beyond it the polygon is not convex.
     const double dead = most > 0 && gets_smaller ? grid_.turning_height(p, most) : hi;
     const bool is_fan = f_.below < g_.below && g_.below < g_.above;
+    if (is_fan && !ahead(hi, dead)) return std::nullopt;
     const double at_hi = difference(rear, lead, hi).t;
     if (is_fan) {
       if (at_hi >= 0) return std::nullopt;
@@ -99,10 +107,9 @@ class CurvedMeetings {
       if (!(difference(rear, lead, from).t > 0)) return at(from);
       return root(rear, lead, hi, from, from + (hi - from) / 2);
     }
-    const double at_lo = difference(rear, lead, lo).t;
-    if (at_lo <= 0) return at(lo);
-    if (at_hi <= 0)
-      return root(rear, lead, hi, lo, lo + (hi - lo) * std::clamp(at_lo / (at_lo - at_hi), 0.01, 0.99));
+    const Passage at_lo = difference(rear, lead, lo);
+    if (at_lo.t <= 0) return at(lo);
+    if (at_hi <= 0) return root(rear, lead, hi, lo, first_guess(lo, hi, at_lo, at_hi));
     if (!gets_smaller || !ahead(hi, dead)) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
   }

@@ -37,7 +37,7 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   Node node{true, z, 0, 0, h};
   const double below = grid.phi(p, front.below, z), above = grid.phi(p, front.above, z);
   double turned = front.turned;
-  if (front.turns) turned = passage(grid, front, front.end).t;
+  if (front.turns) turned = front.end_t;
   if (std::isfinite(turned)) {
     const Turned middle = characteristic_after_turn(grid.piece(p), h, snapshot_.t - turned);
     node.z = middle.z;

@@ -100,7 +100,8 @@ std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
     if (rise <= kFewLevels * spacing.ratio * (least + spacing.offset)) add(least);
     if (p + 1 == pieces.size()) break;
     const RatePiece& next = pieces[p + 1];
-    const bool is_throat = (piece.high > next.low || piece.bend <= 0) && (piece.high < next.low || next.bend >= 0);
+    const bool is_throat =
+        (piece.high > next.low || piece.bend <= 0) && (piece.high < next.low || next.bend >= 0);
     if (is_throat) add(std::min(piece.high, next.low));
   }
   for (std::size_t i = 0; i + 1 < start.size(); ++i)

@@ -60,9 +60,8 @@ void CurvedSystem<Observer>::schedule(FrontIndex i) {
   if (f.next != kNoFront) next = CurvedMeetings(*grid_, f, fronts_[f.next]).find();
   f.turns_next = false;
   if (f.turns) {
-    const double t = f.end == f.z ? f.t : passage(*grid_, f, f.end).t;
-    if (!next || t < next->t) {
-      next = CurvedMeeting{t, f.end};
+    if (!next || f.end_t < next->t) {
+      next = CurvedMeeting{f.end_t, f.end};
       f.turns_next = true;
     }
   }
