@@ -108,10 +108,18 @@ class CurvedMeetings {
       return root(rear, lead, hi, from, from + (hi - from) / 2);
     }
     const Passage at_lo = difference(rear, lead, lo);
-    if (at_lo.t <= 0) return at(lo);
-    if (at_hi <= 0) return root(rear, lead, hi, lo, first_guess(lo, hi, at_lo, at_hi));
+    const bool touches = at_lo.t <= 0 && leaves(rear, lead, at_lo, s);
+    if (at_lo.t <= 0 && !touches) return at(lo);
+    if (at_hi <= 0)
+      return root(rear, lead, hi, lo, touches ? lo + (hi - lo) / 2 : first_guess(lo, hi, at_lo, at_hi));
     if (!gets_smaller || !ahead(hi, dead)) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
+  }
+  /// Whether they touch where one of them begins and then separate: a front that has just turned is faster than any other.
+  [[nodiscard]] bool leaves(const CurvedNode& rear, const CurvedNode& lead, const Passage& at_lo,
+                            int s) const {
+    constexpr double kTie = 1e-12;  // what rounding makes of times that are equal, some events later
+    return s * at_lo.slope > 0 && at_lo.t >= -kTie * std::max(rear.t, lead.t);
   }
   /// The difference is positive at lo and hi and has its minimum beyond `from`, if anywhere.
   [[nodiscard]] std::optional<CurvedMeeting> touching(const CurvedNode& rear, const CurvedNode& lead,
