@@ -11,6 +11,8 @@
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/solution/mixing.hpp"
+#include "shearfront/solver/all.hpp"
+#include "shearfront/solver/solve.hpp"
 #include "shearfront/track/track.hpp"
 #include "support/curved_scenes.hpp"
 #include "support/source_examples.hpp"
@@ -20,6 +22,7 @@ namespace {
 
 struct CurvedErrors {
   double steps, lines, M;
+  double M_at_pieces;  ///< largest |M - exact M| that the integral met
 };
 
 CurvedErrors curved_errors(const Scene<double>& scene, const ExactSolution<double>& exact, double resolution,
@@ -34,8 +37,9 @@ CurvedErrors curved_errors(const Scene<double>& scene, const ExactSolution<doubl
     const double z = scene.bottom() + (scene.top() - scene.bottom()) * i / 40;
     largest = std::max(largest, std::abs(field->at(z).M - exact.M(z, t)));
   }
-  return {errors_against(exact, steps.profile(), t).l1, errors_against(exact, lines.profile(), t).l1,
-          largest};
+  const auto of_steps = errors_against(exact, steps.profile(), t),
+             of_lines = errors_against(exact, lines.profile(), t);
+  return {of_steps.l1, of_lines.l1, largest, std::max(of_steps.M_max, of_lines.M_max)};
 }
 
 TEST(CurvedFronts, ConvergeInTheExponentialBedOfThePaper) {
@@ -87,7 +91,7 @@ TEST(CurvedFronts, ShocksAreOfSecondOrder) {
 // Tables with throats, humps and jumps, exponentials, chutes; scenes that have come to rest say nothing.
 void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
   double coarse[3]{}, fine[3]{};
-  int counted = 0;
+  int counted = 0, missed = 0;
   for (int i = 0; i < n; ++i) {
     const SceneSpec<double> spec =
         support::random_curved_spec(support::seed_of(first + static_cast<std::uint64_t>(i)));
@@ -96,6 +100,12 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     const double t = t_scaled / spec.scale;
     const CurvedErrors a = curved_errors(scene, exact, 0.02, t), b = curved_errors(scene, exact, 0.0025, t);
     if (a.steps < 1e-6 || b.M < 1e-12) continue;
+    // The exact solution can miss a path at a single height, next to where two kinds of paths meet: then the integral, which
+    // bisects to there, is not that of the error.
+    if (std::max(a.M_at_pieces, b.M_at_pieces) > 1e-2) {
+      ++missed;
+      continue;
+    }
     ++counted;
     const double now[3]{a.steps, a.lines, a.M}, then[3]{b.steps, b.lines, b.M};
     for (int k = 0; k < 3; ++k) coarse[k] += std::log2(now[k]), fine[k] += std::log2(then[k]);
@@ -103,6 +113,7 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     EXPECT_LE(b.steps, 1e-2) << "seed " << first + static_cast<std::uint64_t>(i);
   }
   EXPECT_GE(counted, n / 2);
+  EXPECT_LE(missed, 1 + n / 100);
   const auto order = [&](int k) { return (coarse[k] - fine[k]) / counted / 3; };
   std::printf("%d scenes: mean orders of steps %.2f, lines %.2f, M %.2f; mean errors %.1e, %.1e, %.1e\n",
               counted, order(0), order(1), order(2), std::exp2(fine[0] / counted),
@@ -111,7 +122,7 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
   EXPECT_GE(order(1), 1.6);
   EXPECT_GE(order(2), 1.7);
 }
-TEST(CurvedFronts, ConvergeInRandomBeds) { converge_in_random_beds(20, 1, 0.3); }
+TEST(CurvedFronts, ConvergeInRandomBeds) { converge_in_random_beds(40, 1, 0.3); }
 TEST(SlowCurvedFronts, ConvergeInRandomBeds) { converge_in_random_beds(500, 1000, 0.3); }
 
 // Where a fan's edge between pure states comes first the arrival is exact at every resolution, through kinks and jumps.
@@ -162,6 +173,79 @@ TEST(CurvedFronts, OtherParabolas) {
     ++n;
   }
   EXPECT_EQ(n, 3);
+}
+
+// What rests beyond an end is a wall.
+TEST(CurvedFronts, OpenEndsWithPureStatesAreWalls) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SceneSpec<double> spec = support::random_curved_spec(support::seed_of(seed));
+    const Scene<double> walls(spec);
+    spec.outside_bottom = OutsideState<double>{{}, {1}};
+    spec.outside_top = OutsideState<double>{{}, {0}};
+    const Scene<double> open(spec);
+    Tracking a(walls, {.resolution = 0.1}), b(open, {.resolution = 0.1});
+    const double t = 0.5 / spec.scale;
+    a.advance(t);
+    b.advance(t);
+    const auto of_walls = a.field(walls), of_open = b.field(open);
+    // Levels differ where those of the ends are higher than any of the start.
+    for (int i = 0; i <= 20; ++i)
+      EXPECT_NEAR(of_walls->at(i / 20.0).M, of_open->at(i / 20.0).M, 1e-2) << seed;
+    EXPECT_NEAR(of_open->at(1).M, walls.mass(), 1e-12) << seed;
+  }
+}
+
+// A part of a bed whose states beyond it have not come in is a bed with open ends.
+TEST(CurvedFronts, OpenEndsLetFansOut) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Exponential<double>{2, 0.4};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  const ExactSolution<double> whole(Scene<double>{spec});
+  spec.bottom = 0.3;
+  spec.top = 0.7;
+  spec.outside_bottom = OutsideState<double>{{}, {0}};
+  spec.outside_top = OutsideState<double>{{}, {1}};
+  const Scene<double> part(spec);
+  Tracking tracking(part, {.resolution = 0.002});
+  for (const double t : {0.1, 0.4, 0.7}) {  // the shock from the bottom wall is at 0.3 when t is about 1
+    tracking.advance(t);
+    const auto field = tracking.field(part);
+    for (int i = 0; i <= 20; ++i) {
+      const double z = 0.3 + 0.02 * i;
+      EXPECT_NEAR(field->at(z).M, whole.M(z, t) - whole.M(0.3, t), 2e-5) << t << ' ' << z;
+    }
+  }
+}
+
+// Inflow that changes in time, and periodic ends, against a first-order scheme on a fine grid.
+TEST(CurvedFronts, EndsAgreeWithFiniteVolumes) {
+  SceneSpec<double> open;
+  open.shear_rate = Table<double>{{0, 0.4, 0.7, 1}, {1, 2, 0.6, 1.4}};
+  open.initial_breaks = {0.3, 0.6};
+  open.initial_values = {0.2, 0.8, 0.5};
+  SceneSpec<double> periodic = open;
+  open.outside_bottom = OutsideState<double>{{0.2, 0.5}, {0.3, 0.9, 0.6}};
+  open.outside_top = OutsideState<double>{{0.35}, {0.7, 0.1}};
+  periodic.is_periodic = true;
+  for (const SceneSpec<double>& spec : {open, periodic}) {
+    const Scene<double> scene(spec);
+    SolverRequest request{{0.1, 0.3, 0.45, 0.9}, {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95, 1}};
+    const SolverResult tracked = solve<FrontTrackingSolver>(scene, request, {.resolution = 0.005});
+    GodunovSolver::Options fine;
+    fine.cells = 4000;
+    const SolverResult cells = solve<GodunovSolver>(scene, request, fine);
+    ASSERT_TRUE(tracked.summary.usable());
+    ASSERT_TRUE(cells.summary.usable());
+    EXPECT_LE(tracked.summary.layers, 3u);
+    for (std::size_t i = 0; i < request.times.size(); ++i) {
+      for (std::size_t j = 0; j < request.heights.size(); ++j)
+        EXPECT_NEAR(tracked.M(i, j), cells.M(i, j), 1e-3) << request.times[i] << ' ' << request.heights[j];
+      if (spec.is_periodic) {
+        EXPECT_NEAR(tracked.M(i, request.heights.size() - 1), scene.mass(), 1e-12);
+      }
+    }
+  }
 }
 
 // The curves of a picture: where they are, the state jumps as they say.

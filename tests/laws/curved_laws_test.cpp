@@ -31,14 +31,14 @@ struct CurvedRun {
   CurvedRun(const SceneSpec<double>& spec, double resolution)
       : scene(spec),
         bed(make(scene, resolution)),
-        tracker(CurvedSystem<NoObserver>(bed->grid, bed->scene.start, {}, SIZE_MAX)) {
+        tracker(CurvedSystem<NoObserver>(bed->grid, bed->scene.problem, {}, SIZE_MAX)) {
     double rate = 0;
-    for (const RatePiece& piece : bed->scene.pieces) rate = std::max({rate, piece.low, piece.high});
+    for (const RatePiece& piece : bed->scene.problem.pieces) rate = std::max({rate, piece.low, piece.high});
     unit_time = 1 / rate;
   }
   static std::shared_ptr<const CurvedBed> make(const Scene<double>& scene, double resolution) {
     CurvedScene curved = *curved_scene(scene);
-    LevelPlan plan = plan_levels(curved.pieces, curved.start, resolution);
+    LevelPlan plan = plan_levels(curved.problem, resolution);
     return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), resolution);
   }
   Status advance(double t) {

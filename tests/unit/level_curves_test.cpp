@@ -159,7 +159,7 @@ TEST(CurvedStart, EndsAndInitialStatesAreLevels) {
   const std::vector<RatePiece> pieces{{0, 0.5, 1, 0.4, RateCurve::linear},
                                       {0.5, 1, 0.4 * (1 + 1e-10), 0.9, RateCurve::linear}};
   const std::vector<StartSegment> start{{0, 0, 0.3, 0.2}, {0, 0.3, 0.5, 0.8}, {1, 0.5, 1, 0.8}};
-  const LevelPlan plan = plan_levels(pieces, start, 0.05);
+  const LevelPlan plan = plan_levels({pieces, start}, 0.05);
   const auto has = [&](double h) {
     return std::any_of(plan.capacities.begin(), plan.capacities.end(),
                        [&](double level) { return std::abs(level - h) < 1e-14; });
@@ -176,7 +176,7 @@ TEST(CurvedStart, StepsKeepTheAmount) {
     for (const double u :
          {0.0, 0.03, 0.4, 0.4999, 0.499999, 0.49999999, 0.499999999, 0.5, 0.5 + 1e-12, 0.51, 0.8, 1.0}) {
       const std::vector<StartSegment> start{{0, 0, 1, u}};
-      const LevelPlan plan = plan_levels({piece}, start, 0.05);
+      const LevelPlan plan = plan_levels({{piece}, start}, 0.05);
       const LevelCurves grid({piece}, plan.capacities, plan.known);
       const StartSegmentLevels levels = in_levels(grid, start[0]);
       double z = 0, amount = 0;

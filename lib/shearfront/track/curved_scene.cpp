@@ -2,6 +2,7 @@
 #include "shearfront/track/curved_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -65,7 +66,7 @@ std::vector<StartSegment> start_of(const Scene<double>& scene, const std::vector
 }  // namespace
 
 std::optional<CurvedScene> curved_scene(const Scene<double>& scene) {
-  if (scene.is_layered() || scene.fluxes().size() != 1 || !scene.has_walls() || scene.has_diffusion() ||
+  if (scene.is_layered() || scene.fluxes().size() != 1 || scene.has_diffusion() || scene.spec().is_neumann ||
       scene.spec().solid_fraction || scene.spec().initial_state)
     return std::nullopt;
   const Flux<double>& flux = scene.fluxes().front();
@@ -81,10 +82,19 @@ std::optional<CurvedScene> curved_scene(const Scene<double>& scene) {
   curved.bottom = scene.bottom();
   curved.offset = has_maximum ? range.highest : range.lowest;
   curved.slope = has_maximum ? -width : width;
-  curved.pieces = pieces_of(scene, *curve, 4 * std::abs(extremum) / width);
-  curved.start = start_of(scene, curved.pieces, [&](double phi) {
+  const auto state_of = [&](double phi) {
     return std::clamp((phi - curved.offset) / curved.slope, 0.0, 1.0);
-  });
+  };
+  CurvedProblem& problem = curved.problem;
+  problem.pieces = pieces_of(scene, *curve, 4 * std::abs(extremum) / width);
+  problem.start = start_of(scene, problem.pieces, state_of);
+  problem.ends.is_periodic = scene.spec().is_periodic;
+  const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!*outside[end]) continue;
+    problem.ends.changes[end] = (*outside[end])->breaks;
+    for (const double phi : (*outside[end])->values) problem.ends.states[end].push_back(state_of(phi));
+  }
   return curved;
 }
 

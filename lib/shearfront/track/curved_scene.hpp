@@ -10,11 +10,10 @@
 
 namespace shearfront {
 
-/// A scene with one parabola for a flux as u_t - (r(z) u (1 - u))_z = 0 between walls: phi = lowest + width u for a flux with a
+/// A scene with one parabola for a flux as u_t - (r(z) u (1 - u))_z = 0: phi = lowest + width u for a flux with a
 /// minimum, highest - width u for one with a maximum.
 struct CurvedScene {
-  std::vector<RatePiece> pieces;
-  std::vector<StartSegment> start;
+  CurvedProblem problem;
   double bottom;
   double offset, slope;  ///< phi = offset + slope u
 
@@ -26,7 +25,7 @@ struct CurvedScene {
 };
 
 /// The scene if its rate varies and is constant, linear or exponential in pieces, as its models say, one parabola is its flux,
-/// c = 1, and its ends are walls; else nothing: then a staircase stands for it.
+/// and c = 1; else nothing: then a staircase stands for it.
 [[nodiscard]] std::optional<CurvedScene> curved_scene(const Scene<double>& scene);
 
 }  // namespace shearfront

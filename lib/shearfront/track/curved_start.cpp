@@ -22,8 +22,14 @@ double sent(double rate, double l, double r) {
 }
 
 /// Largest 4 H that the start excites: H falls with time.
-double largest_capacity(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start) {
+double largest_capacity(const CurvedProblem& problem) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const std::vector<StartSegment>& start = problem.start;
   double most = 0;
+  const double low = pieces.front().low, high = pieces.back().high;
+  if (!problem.ends.states[0].empty()) most = low;
+  if (!problem.ends.states[1].empty()) most = std::max(most, high);
+  if (problem.ends.is_periodic) most = std::min(low, high);
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
@@ -61,8 +67,9 @@ struct Special {
   bool is_known;  ///< whether it has one
 };
 
-std::vector<Special> specials_of(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
-                                 double most) {
+std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const std::vector<StartSegment>& start = problem.start;
   std::vector<Special> all;
   const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
     if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
@@ -80,6 +87,9 @@ std::vector<Special> specials_of(const std::vector<RatePiece>& pieces, const std
     if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= 0.5 && start[i + 1].u >= 0.5)
       add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
   }
+  for (std::size_t end = 0; end < 2; ++end)
+    for (const double u : problem.ends.states[end])
+      add(capacity_of(end == 0 ? pieces.front().low : pieces.back().high, u), 0, 0, false);
   std::stable_sort(all.begin(), all.end(),
                    [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
   return all;
@@ -173,21 +183,25 @@ StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& s
 
 }  // namespace
 
-double count_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
-                    double resolution) {
-  const double most = largest_capacity(pieces, start);
-  return most > 0 ? count(spacing_of(pieces, most, resolution), most) : 0;
+double count_levels(const CurvedProblem& problem, double resolution) {
+  const double most = largest_capacity(problem);
+  return most > 0 ? count(spacing_of(problem.pieces, most, resolution), most) : 0;
 }
 
-LevelPlan plan_levels(const std::vector<RatePiece>& pieces, const std::vector<StartSegment>& start,
-                      double resolution) {
+State outside_state(const LevelCurves& grid, std::size_t end, double u) {
+  const double rate = end == 0 ? grid.piece(0).low : grid.piece(grid.n_layers() - 1).high;
+  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(capacity_of(rate, u));
+  return u > 0.5 ? grid.high(level) : grid.low(level);
+}
+
+LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
   LevelPlan plan{{0}, {true}, {}};
-  const double most = largest_capacity(pieces, start);
+  const double most = largest_capacity(problem);
   if (!(most > 0)) return plan;
-  const std::vector<Special> specials = specials_of(pieces, start, most);
-  const Spacing spacing = spacing_of(pieces, most, resolution);
-  const std::vector<double> ordinary =
-      ordinary_levels(spacing, most, refined_capacities(pieces, start, spacing, most), resolution);
+  const std::vector<Special> specials = specials_of(problem, most);
+  const Spacing spacing = spacing_of(problem.pieces, most, resolution);
+  const std::vector<double> ordinary = ordinary_levels(
+      spacing, most, refined_capacities(problem.pieces, problem.start, spacing, most), resolution);
   constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
   // Of the nearest levels: where they are refined it is less.
   const auto room_at = [&](double h) {

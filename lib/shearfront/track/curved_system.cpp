@@ -9,30 +9,38 @@
 namespace shearfront {
 
 template <class Observer>
-CurvedSystem<Observer>::CurvedSystem(const LevelCurves& grid, const std::vector<StartSegment>& segments,
-                                     Observer observer, std::size_t max_fronts)
+CurvedSystem<Observer>::CurvedSystem(const LevelCurves& grid, const CurvedProblem& problem, Observer observer,
+                                     std::size_t max_fronts)
     : grid_(&grid),
       max_fronts_(max_fronts),
       observer_(std::move(observer)),
       fronts_(grid, std::min(4 * grid.n_levels(), max_fronts)),
-      waves_(grid.n_layers() + 1) {
-  start(segments);
+      waves_(grid.n_layers() + 1),
+      is_periodic_(problem.ends.is_periodic) {
+  for (std::size_t end = 0; end < 2; ++end)
+    if (!problem.ends.states[end].empty())
+      outside_[end] = outside_state(grid, end, problem.ends.states[end].front());
+  start(problem.start);
 }
 
 template <class Observer>
 void CurvedSystem<Observer>::start(const std::vector<StartSegment>& segments) {
-  State last = grid_->high(0);
+  State last = outside_[0].value_or(grid_->high(0));
+  const State beyond = outside_[1].value_or(grid_->low(0));
   for (std::size_t i = 0; i <= segments.size(); ++i) {
     const bool is_end = i == segments.size();
     StartSegmentLevels levels =
-        is_end ? StartSegmentLevels{grid_->low(0), grid_->low(0), {}} : in_levels(*grid_, segments[i]);
+        is_end ? StartSegmentLevels{beyond, beyond, {}} : in_levels(*grid_, segments[i]);
     const std::size_t piece = is_end ? grid_->n_layers() : segments[i].piece;
     State at_low = levels.at_low;
     if (i > 0 && !is_end && segments[i - 1].piece == piece) {
       emit_inside(fronts_[static_cast<FrontIndex>(piece + 1)].prev, piece, last, at_low, segments[i].z_low);
     } else {
       const std::size_t before = n_fronts();
-      emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low, now_);
+      if (is_periodic_ && i == 0)
+        fronts_[0].above = at_low;  // solved with the top
+      else
+        emit_at_boundary(static_cast<FrontIndex>(piece), last, levels.at_low, now_);
       // A state that is not pure changes at once where the rate varies.
       const auto changes = [&](std::size_t p, State state) {
         return grid_->level(state) > 0 && !grid_->piece(p).is_constant();
@@ -180,9 +188,13 @@ FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t pie
 template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State r, double edge_t) {
   const std::size_t n = grid_->n_layers();
+  if (is_periodic_ && (b == 0 || b == n)) return emit_at_seam(b, l, r, edge_t);
   const double z = fronts_[b].z;
-  const std::size_t level =
-      flux_level(l, r, b > 0 ? grid_->cap_high(b - 1) : 0, b < n ? grid_->cap_low(b) : 0);
+  // Nothing passes a wall; beyond an open end the rate is that at the end.
+  std::size_t cap_below = 0, cap_above = 0;
+  if (b > 0 || outside_[0]) cap_below = b > 0 ? grid_->cap_high(b - 1) : grid_->cap_low(0);
+  if (b < n || outside_[1]) cap_above = b < n ? grid_->cap_low(b) : grid_->cap_high(n - 1);
+  const std::size_t level = flux_level(l, r, cap_below, cap_above);
   State below = l, above = r;
   if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below, edge_t);
   FrontIndex top = b;
@@ -190,6 +202,30 @@ FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State
   fronts_[b].below = below;
   fronts_[b].above = above;
   return top;
+}
+
+/// Both ends of a periodic bed are one interface; what is new at the other end is scheduled here.
+template <class Observer>
+FrontIndex CurvedSystem<Observer>::emit_at_seam(FrontIndex b, State l, State r, double edge_t) {
+  const std::size_t last = grid_->n_layers() - 1;
+  const auto top = static_cast<FrontIndex>(last + 1);
+  if (b == 0)
+    l = fronts_[top].below;
+  else
+    r = fronts_[0].above;
+  const std::size_t level = flux_level(l, r, grid_->cap_high(last), grid_->cap_low(0));
+  const FrontIndex under = fronts_[top].prev;
+  const double z_top = fronts_[top].z, z_bottom = fronts_[0].z;
+  State below, above;
+  emit_left(under, last, l, level, z_top, below, edge_t);
+  const FrontIndex uppermost = emit_right(0, 0, r, level, z_bottom, above, edge_t);
+  fronts_[top].below = below;
+  fronts_[0].above = above;
+  if (b == 0)
+    schedule_all(under, top);
+  else
+    schedule_all(0, uppermost);
+  return b == 0 ? uppermost : b;
 }
 
 template <class Observer>
@@ -246,15 +282,31 @@ void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
   const double edge_t = fronts_[mover].is_edge ? arrival_of_edge(fronts_[mover], fronts_[b].z) : now_;
   end_course(fronts_[mover], fronts_[b].z);
   remove(mover);
+  solve_boundary(b, l, r, edge_t, 1);
+}
+
+/// The Riemann problem at boundary b at any time after the start.
+template <class Observer>
+void CurvedSystem<Observer>::solve_boundary(FrontIndex b, State l, State r, double edge_t,
+                                            std::size_t incoming) {
   const FrontIndex under = fronts_[b].prev;
   const std::size_t before = n_fronts();
   const FrontIndex top = emit_at_boundary(b, l, r, edge_t);
-  note(fronts_[b].z, b, 1, n_fronts() - before);
+  note(fronts_[b].z, b, incoming, n_fronts() - before);
   Waves& waves = waves_[b];
   if (!waves.first) waves.first = now_;
   waves.first_edge = waves.first_edge ? std::min(*waves.first_edge, edge_t) : edge_t;
   waves.last = now_;
   schedule_all(under == kNoFront ? b : under, top);
+}
+
+template <class Observer>
+void CurvedSystem<Observer>::change_outside(std::size_t end, State state) {
+  outside_[end] = state;
+  last_collision_ = std::max(last_collision_, now_);
+  const FrontIndex b = end == 0 ? 0 : static_cast<FrontIndex>(grid_->n_layers());
+  solve_boundary(b, end == 0 ? state : fronts_[b].below, end == 0 ? fronts_[b].above : state, now_, 0);
+  n_fronts_max_ = std::max(n_fronts_max_, n_fronts());
 }
 
 /// Fronts f and g of one piece become one.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace shearfront {
 
-/// Fronts between levels in a bed between walls whose rate varies, and what happens when they meet, reach a boundary or turn.
+/// Fronts between levels in a bed whose rate varies, and what happens when they meet, reach a boundary or turn.
 /// A Tracker decides up to which time.
 ///
 /// Where fronts of a piece meet one front leaves; at walls, jumps and kinks the flux is the least of what both sides can send
@@ -31,7 +32,7 @@ class CurvedSystem {
         first_edge;  ///< the first, where it is the edge of a fan that of its characteristic
   };
 
-  CurvedSystem(const LevelCurves& grid, const std::vector<StartSegment>& start, Observer observer,
+  CurvedSystem(const LevelCurves& grid, const CurvedProblem& problem, Observer observer,
                std::size_t max_fronts);
 
   [[nodiscard]] const LevelCurves& grid() const { return *grid_; }
@@ -48,8 +49,11 @@ class CurvedSystem {
   [[nodiscard]] std::size_t n_fronts() const { return fronts_.n_fronts(); }
   [[nodiscard]] std::size_t n_fronts_max() const { return n_fronts_max_; }
   [[nodiscard]] bool has_too_many_fronts() const { return n_fronts_max_ > max_fronts_; }
-  [[nodiscard]] bool is_periodic() const { return false; }
-  void change_outside(std::size_t /*end*/, State /*state*/) {}
+  [[nodiscard]] bool is_periodic() const { return is_periodic_; }
+  /// State beyond the bottom (0) or the top (1) of the bed; none at a wall.
+  [[nodiscard]] const std::optional<State>& outside(std::size_t end) const { return outside_[end]; }
+  /// Now another state lies beyond an open end. Precondition: what meets at this time has met.
+  void change_outside(std::size_t end, State state);
 
   /// Handles the next event of node i: it turns, or meets its upper neighbour.
   void collide(FrontIndex i);
@@ -67,6 +71,8 @@ class CurvedSystem {
   [[nodiscard]] std::size_t flux_level(State l, State r, std::size_t cap_below, std::size_t cap_above) const;
   FrontIndex emit_inside(FrontIndex under, std::size_t piece, State l, State& r, double z);
   FrontIndex emit_at_boundary(FrontIndex b, State l, State r, double edge_t);
+  FrontIndex emit_at_seam(FrontIndex b, State l, State r, double edge_t);
+  void solve_boundary(FrontIndex b, State l, State r, double edge_t, std::size_t incoming);
   void reach_boundary(FrontIndex mover, FrontIndex b);
   void merge(FrontIndex f, FrontIndex g);
   void turn(FrontIndex f);
@@ -88,6 +94,8 @@ class CurvedSystem {
   Fronts fronts_;
   EventAgenda<Fronts> agenda_;
   std::vector<Waves> waves_;
+  std::array<std::optional<State>, 2> outside_;
+  bool is_periodic_;
   double now_ = 0, last_collision_ = 0;
   std::size_t n_fronts_max_ = 0;
   std::uint64_t collisions_ = 0;

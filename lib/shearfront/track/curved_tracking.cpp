@@ -2,6 +2,7 @@
 #include "shearfront/track/curved_tracking.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "shearfront/numeric/number_text.hpp"
@@ -26,13 +27,20 @@ class CurvedTracking final : public AnyTracking {
         reconstruct_(options.reconstruct),
         edges_(options.edges),
         limits_{options.max_collisions, std::move(progress)},
-        tracker_(CurvedSystem<Observer>(bed_->grid, bed_->scene.start, Observer{},
-                                        static_cast<std::size_t>(options.max_fronts))) {}
+        tracker_(CurvedSystem<Observer>(bed_->grid, bed_->scene.problem, Observer{},
+                                        static_cast<std::size_t>(options.max_fronts)),
+                 changes_of(*bed_)) {}
 
   [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override {
     return std::make_unique<CurvedTracking>(*this);
   }
-  Status advance(double t) override { return status_ = tracker_.advance_to(t, limits_); }
+  Status advance(double t) override {
+    if (tracker_.is_periodic() && !std::isfinite(t)) {
+      refused_ = "a periodic bed has no steady state; ask for a finite time";
+      return status_ = Status::unsupported;
+    }
+    return status_ = tracker_.advance_to(t, limits_);
+  }
   [[nodiscard]] double time() const override { return tracker_.time(); }
   [[nodiscard]] Profile<double> profile() const override {
     return reconstruct_ == Reconstruction::linear ? lines() : *steps().profile();
@@ -68,6 +76,11 @@ class CurvedTracking final : public AnyTracking {
     return {};
   }
   [[nodiscard]] std::optional<Timeline<double>> timeline() override {
+    if (!scene_->has_walls()) {
+      refused_ = "event times are those of a bed between walls";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
     Timeline<double> timeline;
@@ -88,7 +101,7 @@ class CurvedTracking final : public AnyTracking {
   [[nodiscard]] Summary summary() const override {
     Summary summary;
     summary.status = status_;
-    summary.message = message();
+    summary.message = !refused_.empty() ? refused_ : message();
     summary.collisions = tracker_.n_collisions();
     summary.fronts_max = tracker_.n_fronts_max();
     summary.levels = bed_->grid.n_levels() + 1;
@@ -102,8 +115,17 @@ class CurvedTracking final : public AnyTracking {
 
   [[nodiscard]] static std::shared_ptr<const CurvedBed> make_bed(CurvedScene curved,
                                                                  const TrackOptions& options) {
-    LevelPlan plan = plan_levels(curved.pieces, curved.start, options.resolution);
+    LevelPlan plan = plan_levels(curved.problem, options.resolution);
     return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), options.resolution);
+  }
+  [[nodiscard]] static std::vector<Ends<double>::Change> changes_of(const CurvedBed& bed) {
+    std::vector<Ends<double>::Change> changes;
+    const CurvedEnds& ends = bed.scene.problem.ends;
+    for (std::size_t end = 0; end < 2; ++end)
+      for (std::size_t i = 0; i < ends.changes[end].size(); ++i)
+        changes.push_back({ends.changes[end][i], end, outside_state(bed.grid, end, ends.states[end][i + 1])});
+    std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    return changes;
   }
   [[nodiscard]] CurvedField steps() const { return {bed_, snapshot_of(tracker_.system(), time())}; }
   [[nodiscard]] Profile<double> lines() const {
@@ -136,6 +158,7 @@ class CurvedTracking final : public AnyTracking {
   RunLimits limits_;
   Tracker<LevelCurves, Observer, CurvedSystem<Observer>> tracker_;
   Status status_ = Status::ok;
+  std::string refused_;
 };
 
 }  // namespace
@@ -146,8 +169,8 @@ bool wants_curves(const Scene<double>& scene, const TrackOptions& options) {
 
 std::string refusal_of_curves(const Scene<double>& scene, const TrackOptions& options) {
   const std::optional<CurvedScene> curved = curved_scene(scene);
-  const double n = count_levels(curved->pieces, curved->start, options.resolution);
-  if (n * static_cast<double>(curved->pieces.size()) > kMostLevelEntries)
+  const double n = count_levels(curved->problem, options.resolution);
+  if (n * static_cast<double>(curved->problem.pieces.size()) > kMostLevelEntries)
     return "the grid would need " + number_text(n) + " levels; use a coarser resolution";
   return {};
 }

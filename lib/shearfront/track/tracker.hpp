@@ -63,7 +63,8 @@ class Tracker {
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
           Observer observer = {}, std::size_t max_fronts = SIZE_MAX)
       : system_(grid, pieces, ends, std::move(observer), max_fronts), changes_(ends.changes) {}
-  explicit Tracker(System system) : system_(std::move(system)) {}
+  explicit Tracker(System system, std::vector<typename Ends<Scalar>::Change> changes = {})
+      : system_(std::move(system)), changes_(std::move(changes)) {}
   /// What a TrackingSetup holds, which must outlive the tracker.
   template <class Setup>
   explicit Tracker(const Setup& setup, Observer observer = {}) requires requires {
