@@ -58,7 +58,8 @@ double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a
   const double rise = piece.bend * (b.z - a.z);
   const double delta = h * rise / (a.rate * b.rate * (a.q + b.q));
   return (rise * (a.rate + b.rate - h) / (a.q * a.rate + b.q * b.rate) -
-          h * (std::log1p(delta / (1 + a.q)) + 0.5 * std::log1p(rise / a.rate))) /
+          h * (std::log1p(delta / (1 + a.q)) +
+               0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate)))) /
          piece.bend;
 }
 
@@ -91,7 +92,9 @@ double LevelCurves::characteristic_time(std::size_t p, std::size_t level, double
   if (piece.curve == RateCurve::exponential)
     return -2 * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
   const double rise = piece.bend * d, delta = h_[level] * rise / (a.rate * b.rate * (a.q + b.q));
-  return (2 * std::log1p(delta / (1 + a.q)) + std::log1p(rise / a.rate)) / piece.bend;
+  return (2 * std::log1p(delta / (1 + a.q)) +
+          (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate))) /
+         piece.bend;
 }
 
 }  // namespace shearfront

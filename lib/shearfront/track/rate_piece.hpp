@@ -27,7 +27,7 @@ struct RatePiece {
     } else if (curve == RateCurve::linear) {
       bend = rise / (z_high - z_low);
     } else {
-      bend = std::log1p(rise / low) / (z_high - z_low);
+      bend = log_ratio(low, high) / (z_high - z_low);
     }
   }
 
@@ -37,7 +37,9 @@ struct RatePiece {
   [[nodiscard]] double rate(double z) const {
     if (!(z < z_high)) return high;
     if (!(z > z_low) || is_constant()) return low;
-    return curve == RateCurve::linear ? low + bend * (z - z_low) : low * std::exp(bend * (z - z_low));
+    if (curve == RateCurve::exponential) return low * std::exp(bend * (z - z_low));
+    // From the smaller end: there it would cancel.
+    return high < low ? high + bend * (z - z_high) : low + bend * (z - z_low);
   }
   /// Where the rate, continued beyond the ends, is `r`. Precondition: it is not constant, r > 0.
   [[nodiscard]] double height_of(double r) const {
@@ -46,11 +48,16 @@ struct RatePiece {
     const double from_low = std::log(r / low) / bend, from_high = std::log(r / high) / bend;
     return std::abs(from_low) < std::abs(from_high) ? z_low + from_low : z_high + from_high;
   }
+  /// log(b / a), without cancellation where they are near to each other.
+  [[nodiscard]] static double log_ratio(double a, double b) {
+    const double rise = b - a;
+    return rise > -a / 2 && rise < a ? std::log1p(rise / a) : std::log(b / a);
+  }
   /// int dz / r from z to y, both in the piece.
   [[nodiscard]] double pure_time(double z, double y) const {
     const double d = y - z, r = rate(z);
     if (is_constant()) return d / r;
-    if (curve == RateCurve::linear) return std::log1p(bend * d / r) / bend;
+    if (curve == RateCurve::linear) return log_ratio(r, rate(y)) / bend;
     return -std::expm1(-bend * d) / (bend * r);
   }
 };

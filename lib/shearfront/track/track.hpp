@@ -57,7 +57,7 @@ struct TrackOptions {
                      "smooth shear rates: number of layers of the staircase",
                      {1, 1e6},
                      {},
-                     "as many as the resolution asks for"},
+                     "none with curved fronts, else as many as the resolution asks for"},
           self.layers);
     visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true},
           self.max_collisions);
