@@ -48,70 +48,84 @@ struct Passage {
   double t, slope;
 };
 
-/// int q_k dz from the origin of a front to a height as `plain` + log1p(logarithm) `weight`, and q_k there.
+/// dt/dz of a front where the rate is `rate` and its levels have these q. The difference of two that are near to each other comes
+/// from what they are.
+[[nodiscard]] inline double front_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
+                                        double q_below, double q_above) {
+  const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  if (s_i == s_j && q_below > 0 && q_above > 0) return 2 * s_j / (rate * (q_below + q_above));
+  return 2 * (s_j * q_above - s_i * q_below) /
+         (grid.capacity(grid.level(f.below)) - grid.capacity(grid.level(f.above)));
+}
+
+/// int (1 - q_k) dz from the origin of a front to a height as `plain` - `weight` log1p(logarithm), and q_k there.
 struct LevelWay {
   double q, plain, weight, logarithm;
 };
 
 namespace curved_front_detail {
 
-constexpr double kSmallRoot = 0.1;  ///< below it terms cancel: LevelCurves::area knows how
-
 /// `shrink` = r(origin) / r(z) - 1.
 [[nodiscard]] inline LevelWay exponential_way(const LevelCurves& grid, const CurvedNode& f, std::size_t level,
                                               double q_origin, double z, double rate, double shrink) {
-  if (level == 0) return {1, z - f.z, 0, 0};
+  if (level == 0) return {1, 0, 0, 0};
+  constexpr double kSmallRoot = 0.1;  // below it terms cancel: LevelCurves::area knows how
   const std::size_t p = f.layer;
   const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
   if (!(q_origin > 0)) {  // from its turning height on
     const double turn = grid.turning_height(p, level), q = grid.q(p, level, z, rate);
-    if (q < kSmallRoot) return {q, grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
-    return {q, (z - turn) - factor * q, factor, q};
+    if (q < kSmallRoot) return {q, (z - f.z) - grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
+    return {q, (turn - f.z) + factor * q, factor, q};
   }
   constexpr double kFarFromTurn = 0.75;
   const double x = h / rate, q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
   if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
-    return {q, grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
+    return {q, (z - f.z) - grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
   const double delta = -(h / f.rate) * shrink / (q_origin + q);
-  return {q, (z - f.z) - factor * delta, factor, delta / (1 + q_origin)};
+  return {q, factor * delta, factor, delta / (1 + q_origin)};
 }
 
 }  // namespace curved_front_detail
 
 /// When a front is at a height of its piece, ahead of its origin.
 [[nodiscard]] inline Passage passage(const LevelCurves& grid, const CurvedNode& f, double z) {
+  const RatePiece& piece = grid.piece(f.layer);
+  const double d = z - f.z;
+  if (piece.is_constant() || d == 0) {
+    const double slope = front_slope(grid, f, f.rate, f.q_below, f.q_above);
+    return {f.t + slope * d, slope};
+  }
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
-  const RatePiece& piece = grid.piece(p);
-  if (piece.is_constant() || z == f.z) {
-    const double slope = factor * (s_j * f.q_above - s_i * f.q_below);
-    return {f.t + slope * (z - f.z), slope};
-  }
   if (piece.curve == RateCurve::exponential) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
-    const double shrink = needs_rate ? std::expm1(-piece.bend * (z - f.z)) : 0, rate = f.rate / (1 + shrink);
+    const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
+    const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
-    double way = s_j * b.plain - s_i * a.plain;
+    const bool is_same_side = s_i == s_j;
+    double way = is_same_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
     const double weight = std::max(std::abs(a.weight), std::abs(b.weight)) * (piece.bend < 0 ? -1 : 1);
     if (weight != 0) {
       const double x = b.logarithm, y = a.logarithm;
-      way += s_j * weight * (s_i == s_j ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
+      way += weight * (is_same_side ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
     }
-    return {f.t + factor * way, factor * (s_j * b.q - s_i * a.q)};
+    return {f.t + factor * s_j * way, front_slope(grid, f, rate, a.q, b.q)};
   }
-  const double rate = piece.rate(z), q_i = grid.q(p, i, z, rate), q_j = grid.q(p, j, z, rate);
-  const double D_i = grid.area(p, i, {f.z, f.rate, f.q_below}, {z, rate, q_i});
-  const double D_j = grid.area(p, j, {f.z, f.rate, f.q_above}, {z, rate, q_j});
-  return {f.t + factor * (s_j * D_j - s_i * D_i), factor * (s_j * q_j - s_i * q_i)};
+  const double rate = piece.rate(z);
+  const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
+  const double E_i = grid.deficit(p, i, {f.z, f.rate, f.q_below}, below),
+               E_j = grid.deficit(p, j, {f.z, f.rate, f.q_above}, above);
+  const double way = s_i == s_j ? E_i - E_j : 2 * d - E_i - E_j;
+  return {f.t + factor * s_j * way, front_slope(grid, f, rate, below.q, above.q)};
 }
 [[nodiscard]] inline double slope_of(const LevelCurves& grid, const CurvedNode& f, double z) {
-  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const std::size_t p = f.layer;
   const double rate = grid.piece(p).rate(z);
-  return 2 / (grid.capacity(i) - grid.capacity(j)) *
-         (grid.sign(f.above) * grid.q(p, j, z, rate) - grid.sign(f.below) * grid.q(p, i, z, rate));
+  return front_slope(grid, f, rate, grid.q(p, grid.level(f.below), z, rate),
+                     grid.q(p, grid.level(f.above), z, rate));
 }
 
 /// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there.

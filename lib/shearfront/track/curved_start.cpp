@@ -156,17 +156,18 @@ std::vector<double> ordinary_levels(const Spacing& spacing, double most, const s
   return levels;
 }
 
-/// Height at which int q_first from `a` to it and q_second from it to `b` is `wanted`; q_first <= q_second or the other way.
+/// Height at which int (1 - q_first) dz from `a` to it and int (1 - q_second) dz from it to `b` is `wanted`.
 double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, std::size_t second, double a,
                    double b, double wanted) {
   const LevelCurves::Place at_a = grid.place(p, first, a), at_b = grid.place(p, second, b);
   const auto excess = [&](double z) -> Passage {
     const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
-    return {grid.area(p, first, at_a, one) + grid.area(p, second, other, at_b) - wanted, one.q - other.q};
+    return {grid.deficit(p, first, at_a, one) + grid.deficit(p, second, other, at_b) - wanted,
+            other.q - one.q};
   };
-  const bool rises = first < second;  // then q_first > q_second
+  const bool falls = first < second;  // then q_first > q_second
   if (!(b > a)) return a;
-  return std::clamp(bracketed_root(rises ? a : b, rises ? b : a, a + (b - a) / 2, excess), a, b);
+  return std::clamp(bracketed_root(falls ? b : a, falls ? a : b, a + (b - a) / 2, excess), a, b);
 }
 
 /// A state of a constant piece. Where rounding of its capacity makes it one of u = 1/2, a little of the next level at its top
@@ -258,13 +259,13 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
       levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
     return levels;
   }
-  const double spread = 4 * segment.u * (1 - segment.u), excess = std::abs(2 * segment.u - 1);
+  const double spread = 4 * segment.u * (1 - segment.u), lack = 2 * std::min(segment.u, 1 - segment.u);
   double low_end = segment.z_low;
   for (std::size_t k = from; k != to; k = next(k)) {
     const std::size_t above = next(k);
     double high_end = above == to ? segment.z_high : piece.height_of(grid.capacity(above) / spread);
     high_end = std::clamp(high_end, low_end, segment.z_high);
-    levels.steps.push_back({step_height(grid, p, k, above, low_end, high_end, excess * (high_end - low_end)),
+    levels.steps.push_back({step_height(grid, p, k, above, low_end, high_end, lack * (high_end - low_end)),
                             state(k), state(above)});
     low_end = high_end;
   }

@@ -82,6 +82,24 @@ double LevelCurves::area(std::size_t p, std::size_t level, Place a, Place b) con
   return piece.curve == RateCurve::linear ? linear_area(piece, h, a, b) : exponential_area(piece, h, a, b);
 }
 
+double LevelCurves::deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const {
+  if (level == 0) return 0;
+  const RatePiece& piece = pieces_[p];
+  const double d = b.z - a.z, h = h_[level];
+  if (piece.is_constant()) return h / a.rate / (1 + a.q) * d;
+  constexpr double kFarFromTurn = 0.5;  // elsewhere it is not small
+  if (a.q < kFarFromTurn || b.q < kFarFromTurn) return d - area(p, level, a, b);
+  if (piece.curve == RateCurve::exponential) {
+    const double delta = -(h / a.rate) * std::expm1(-piece.bend * d) / (a.q + b.q);
+    return (delta - std::log1p(delta / (1 + a.q))) * (2 / piece.bend);
+  }
+  const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
+  const double half_log = 0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate));
+  return h / piece.bend *
+         (rise * (1 - 1 / (1 + a.q) - 1 / (1 + b.q)) / (a.q * a.rate + b.q * b.rate) +
+          std::log1p(delta / (1 + a.q)) + half_log);
+}
+
 double LevelCurves::characteristic_time(std::size_t p, std::size_t level, double from, double to) const {
   const RatePiece& piece = pieces_[p];
   const Place a = place(p, level, std::min(from, to)), b = place(p, level, std::max(from, to));

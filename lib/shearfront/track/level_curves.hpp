@@ -100,11 +100,14 @@ class LevelCurves {
   [[nodiscard]] double area(std::size_t p, std::size_t level, double from, double to) const {
     return area(p, level, place(p, level, from), place(p, level, to));
   }
+  /// int (1 - q_k) dz from a to b: small ones, of levels far below the capacity, to all their digits.
+  [[nodiscard]] double deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const;
   /// int u dz of a state.
   [[nodiscard]] double amount(std::size_t p, State s, double from, double to) const {
     const std::size_t k = level(s);
     if (k == 0) return is_high(s) ? to - from : 0;
-    return ((to - from) + sign(s) * area(p, k, from, to)) / 2;
+    const double half = deficit(p, k, place(p, k, from), place(p, k, to)) / 2;
+    return is_high(s) ? (to - from) - half : half;
   }
   /// |int dz / (r q_k)| from a to b: the time in which a characteristic of the level goes there. Precondition: it lives all the
   /// way, ends excepted where the rate is not constant.
