@@ -41,13 +41,18 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
-  /// At z, at the time of the front with the larger change of the flux: rounding of times grows with its inverse, and moves
-  /// as much mass as both together.
+  /// At z, at the time of the front that knows it better: its own time is uncertain by rounding of heights, which slow fronts
+  /// magnify, and of areas, which weak ones do.
   [[nodiscard]] CurvedMeeting at(double z) const {
-    const auto change = [&](const CurvedNode& f) {
-      return std::abs(grid_.capacity(grid_.level(f.below)) - grid_.capacity(grid_.level(f.above)));
-    };
-    return {passage(grid_, change(f_) > change(g_) ? f_ : g_, z).t, z};
+    const Passage a = passage(grid_, f_, z), b = passage(grid_, g_, z);
+    return {uncertainty(f_, a, z) < uncertainty(g_, b, z) ? a.t : b.t, z};
+  }
+  /// Of the time, in units of rounding.
+  [[nodiscard]] double uncertainty(const CurvedNode& f, const Passage& at, double z) const {
+    const double h_below = grid_.capacity(grid_.level(f.below)),
+                 h_above = grid_.capacity(grid_.level(f.above));
+    const double area = std::abs(z - f.z) * std::min(1.0, std::max(h_below, h_above) / f.rate);
+    return std::abs(at.slope * z) + 2 * area / std::abs(h_below - h_above);
   }
   /// Where the difference of the times of a and b is 0, being negative at `negative` and positive at `positive`.
   [[nodiscard]] CurvedMeeting root(const CurvedNode& a, const CurvedNode& b, double negative, double positive,
