@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "shearfront/riemann/state.hpp"
 #include "shearfront/track/front_list.hpp"
@@ -85,6 +86,28 @@ namespace curved_front_detail {
   return {q, factor * delta, factor, delta / (1 + q_origin)};
 }
 
+/// int dz / (r q) from the origin to z for the mean of two levels of one side that are so near to each other that the difference
+/// of their areas would be rounding: the front is the characteristic between them. Nothing where that is not so, or too near to
+/// its turning height.
+[[nodiscard]] inline std::optional<double> mean_characteristic(const LevelCurves& grid, const CurvedNode& f,
+                                                               double h_below, double h_above, double z,
+                                                               double rate, double q_below, double q_above) {
+  constexpr double kNear = 1e-7, kFarFromTurn = 1e3;
+  const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
+  if (!(spread < kNear)) return std::nullopt;
+  const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
+  const double least = std::min(f.q_below, f.q_above);
+  if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
+  const RatePiece& piece = grid.piece(f.layer);
+  if (q_origin == 0)
+    return (piece.curve == RateCurve::exponential ? q / h : std::atanh(q)) * (2 / piece.bend);
+  if (!(least * least > kFarFromTurn * spread)) return std::nullopt;
+  if (piece.curve == RateCurve::exponential)
+    return -2 * std::expm1(-piece.bend * (z - f.z)) / (f.rate * piece.bend * (q_origin + q));
+  const double delta = h * (piece.bend * (z - f.z)) / (f.rate * rate * (q_origin + q));
+  return (2 * std::log1p(delta / (1 + q_origin)) + RatePiece::log_ratio(f.rate, rate)) / piece.bend;
+}
+
 }  // namespace curved_front_detail
 
 /// When a front is at a height of its piece, ahead of its origin.
@@ -104,6 +127,10 @@ namespace curved_front_detail {
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
+    if (s_i == s_j && i > 0 && j > 0)
+      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, grid.capacity(i),
+                                                                     grid.capacity(j), z, rate, a.q, b.q))
+        return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
     const bool is_same_side = s_i == s_j;
     double way = is_same_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
@@ -116,6 +143,10 @@ namespace curved_front_detail {
   }
   const double rate = piece.rate(z);
   const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
+  if (s_i == s_j && i > 0 && j > 0)
+    if (const auto mean = curved_front_detail::mean_characteristic(
+            grid, f, grid.capacity(i), grid.capacity(j), z, rate, below.q, above.q))
+      return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
   const double E_i = grid.deficit(p, i, {f.z, f.rate, f.q_below}, below),
                E_j = grid.deficit(p, j, {f.z, f.rate, f.q_above}, above);
   const double way = s_i == s_j ? E_i - E_j : 2 * d - E_i - E_j;
