@@ -136,6 +136,11 @@ class SlopedGradient {
     return q_at(rate, path_.r_reference, Scalar(path_.x * path_.x));
   }
   [[nodiscard]] Scalar at(std::size_t k, const Scalar& z) const { return pieces_.rate(k, z); }
+  /// Where a state of 1/2 starts, dT is divided by q and multiplied by it in the end: half of the digits are kept.
+  [[nodiscard]] static Scalar least_q() {
+    using std::sqrt;
+    return sqrt(unit_roundoff<Scalar>());
+  }
   /// Derivatives of the rate at z by the rates at both ends of its piece, which has the rate `rate` there.
   struct EndParts {
     Scalar low, high;
@@ -186,12 +191,14 @@ class SlopedGradient {
       if (!(b > a)) continue;
       const Scalar d = b - a, r1 = at(k, a), r2 = at(k, b), q1 = q(r1), q2 = q(r2);
       const RateForm form = pieces_.form[k];
-      const CrossingDerivatives<Scalar> by(form, d, r1, q1, r2, q2, h_);
-      T_h_ += times * crossing_T_h(form, d, r1, q1, r2, q2);
+      const Scalar some_q1 = std::max(least_q(), q1), some_q2 = std::max(least_q(), q2);
+      const CrossingDerivatives<Scalar> by(form, d, r1, q1, r2, q2, h_),
+          by_time(form, d, r1, some_q1, r2, some_q2, h_);
+      T_h_ += times * crossing_T_h(form, d, r1, some_q1, r2, some_q2);
       time_ += times * Crossing<Scalar>(form, d, r1, q1, r2, q2, h_).T;
       const Scalar gain = times * h_ / Scalar(4);
-      add_at(k, a, gain * by.J1, times * by.T1);
-      add_at(k, b, gain * by.J2, times * by.T2);
+      add_at(k, a, gain * by.J1, times * by_time.T1);
+      add_at(k, b, gain * by.J2, times * by_time.T2);
     }
   }
   /// The jumps passed n times.
@@ -291,7 +298,7 @@ class SlopedGradient {
   void phi_of_state() {
     const Scalar p0 = cells_.phi[path_.source], one(1), four(4), g = p0 * (one - p0);
     const Scalar r = at(start_, path_.foot);
-    const Scalar q0 = std::max(q(r), Scalar(unit_roundoff<Scalar>() * unit_roundoff<Scalar>()));
+    const Scalar q0 = std::max(q(r), least_q());
     const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
     const Scalar b = is_set_up_ ? slope : Scalar(-slope);
     const Scalar all = one - four * g * b * r * (q0 * T_h_), by_h = phi_by_h();
@@ -299,7 +306,9 @@ class SlopedGradient {
     for (Pair& pair : out_.pieces) pair.phi *= turn;
     for (Pair& pair : out_.boundaries) pair.phi *= turn;
     add_at(start_, path_.foot, Scalar(0), by_h * four * g / all);
-    out_.phi_state = by_h * four * r * (one - Scalar(2) * p0) / all;
+    const Scalar lean = one - Scalar(2) * p0, size = lean < 0 ? Scalar(-lean) : lean;
+    const Scalar least = is_set_up_ ? Scalar(-least_q()) : least_q();
+    out_.phi_state = by_h * four * r * (size < least_q() ? least : lean) / all;
     out_.phi_log_scale = -turn * t_;
     add_at(end_, z_, Scalar(0), phi_by_rate());
   }
