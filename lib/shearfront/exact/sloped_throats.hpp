@@ -7,6 +7,7 @@
 
 #include "shearfront/exact/path.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_curved.hpp"
 #include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
@@ -139,7 +140,22 @@ class SlopedThroats {
         start.source = is_state ? cell : view.is_mirror ? n - k : k;
         throat.starts.push_back(start);
       };
-      const Scalar four_g = Scalar(4) * view.p[k] * view.missing[k];
+      if (view.is_curved(k)) {
+        // The start whose state has the h of the throat.
+        Scalar lo = view.x[k], hi = view.x[k + 1];
+        const auto over = [&](const Scalar& y) { return CurvedState<Scalar>(view, k, y).q0; };
+        const auto more = [&](const Scalar& y) -> std::optional<Scalar> {
+          const CurvedState<Scalar> state(view, k, y);
+          return Scalar(Scalar(4) * state.p * state.missing * view.rate(k, y) - h);
+        };
+        if (keep_where<Scalar>(over, lo, hi))
+          if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
+            SlopedWay<Scalar> to = way;
+            to.add(view.form[k], view.x[k + 1] - *y, view.rate(k, *y), view.high[k], h);
+            add(*y, to, true);
+          }
+      }
+      const Scalar four_g = view.is_curved(k) ? Scalar(0) : Scalar(Scalar(4) * view.p[k] * view.missing[k]);
       if (view.q0[k] > 0 && four_g > 0 && view.bend[k] != 0) {
         const Scalar r = h / four_g;
         const bool is_rising = view.bend[k] > 0;
