@@ -46,16 +46,16 @@ class CurvedCell {
     // At an end a minimum has no slope; all others are those of the fans of the points.
     if (a.slope() == 0) found(a);
     if (b.slope() == 0) found(b);
-    if constexpr (Law::kMovesAtCapacity) {
-      const Scalar& exit = sweep_.exit(law_, z_);
-      if (sweep_.upward && !(lo > exit - reach) && is_fastest(a)) found(a);
-      if (!sweep_.upward && !(hi < exit + reach) && is_fastest(b)) found(b);
-    }
+    // The cost has an end there: the value may be least at it with any slope that leads inwards.
+    const Scalar& exit = sweep_.exit(law_, z_);
+    if (sweep_.upward && !(lo > exit - reach) && (a.slope() > 0 || is_fastest(a))) found(a);
+    if (!sweep_.upward && !(hi < exit + reach) && (b.slope() < 0 || is_fastest(b))) found(b);
     const bool rises = cells_.phi[cell_] < cells_.phi_high[cell_];
     if (rises) {
       if (a.slope() < 0 && b.slope() > 0) found(root(a, b));
       return;
     }
+    if (Law::kIsSymmetric && sweep_.start == sweep_.own) return in_own_parabola(a, b, found);
     least_ = std::min(a.value(), b.value());
     split(a, b, found, 0);
   }
@@ -73,7 +73,7 @@ class CurvedCell {
     const Scalar& exit = sweep_.exit(law_, z_);
     const Scalar d = std::max(Scalar(0), up ? Scalar(exit - y) : Scalar(y - exit));
     const Scalar lean = law_.peaks(y, z_);
-    if (sweep_.start == sweep_.own && d == 0) {  // it rests
+    if (d == 0 && !(sweep_.T0 > 0)) {  // it rests
       s.fan.reachable = true;
       s.fan.r_min = law_.rate[j];
       s.fan.H = s.fan.r_min / Scalar(4);
@@ -93,6 +93,36 @@ class CurvedCell {
     return s;
   }
 
+  /// In the layer of z a parabola's p is linear in y, so that the slope of the value, as phi, bends one way only: it changes its sign from
+  /// - to + once at most, beyond its extremum if both ends have the same.
+  template <class Found>
+  void in_own_parabola(const Start& a, const Start& b, const Found& found) const {
+    if (a.slope() < 0 && b.slope() > 0) return found(root(a, b));
+    const bool is_below = a.slope() < 0 && !(b.slope() > 0), is_above = !(a.slope() < 0) && b.slope() > 0;
+    if (!is_below && !is_above) return;
+    const Scalar sign(is_below ? 1 : -1);  // of what the slope has to become inside
+    Start m = start_at(Scalar(a.y + (b.y - a.y) / Scalar(2)));
+    const Scalar bend = sign * (m.slope() - (a.slope() + b.slope()) / Scalar(2));
+    if (!(bend > Scalar(16) * unit_roundoff<Scalar>())) return;  // straight, or bent the other way
+    Scalar lo = a.y, hi = b.y;
+    constexpr int kMost = 80;
+    for (int n = 0; n < kMost && !(sign * m.slope() > 0); ++n) {
+      const bool is_upper = hi - m.y > m.y - lo;
+      const Scalar y = is_upper ? Scalar(m.y + (hi - m.y) * Scalar(0.381966))
+                                : Scalar(m.y - (m.y - lo) * Scalar(0.381966));
+      if (y == m.y || !(y > lo && y < hi)) return;
+      Start next = start_at(y);
+      if (sign * next.slope() > sign * m.slope()) {
+        (is_upper ? lo : hi) = m.y;
+        m = next;
+      } else {
+        (is_upper ? hi : lo) = y;
+      }
+    }
+    if (!(sign * m.slope() > 0)) return;
+    if (is_below && a.slope() < 0) found(root(a, m));
+    if (is_above && b.slope() > 0) found(root(m, b));
+  }
   /// On the way out of a layer that carries less than the way beyond it takes, a path rests: the limit of those that start deeper
   /// in it, and cheaper than to leave at once.
   void rest_before_leaving(Start& s) const {

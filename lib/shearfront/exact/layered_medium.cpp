@@ -207,7 +207,8 @@ FanState<Scalar> LayeredMedium<Scalar, Law>::try_source(const Query& query, Swee
     fan = law_.solve_fan(sweep, d, query.t, base, limit);
     if (prune && !own && fan.reachable) sweep.set_dual(law_, Scalar(Scalar(4) * fan.H));
   }
-  if (!fan.reachable || fan.pruned) return fan;
+  // Without `prune` only a bound is wanted of those that emit nothing: between pure states their rounded values may be the least.
+  if (!fan.reachable || fan.pruned || !emits(i, sweep.upward)) return fan;
   Path<Scalar> path;
   path.value = base + fan.Q / Scalar(2) + fan.H * query.t;
   if (path.value > best.value) return fan;

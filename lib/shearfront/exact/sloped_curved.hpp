@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -54,6 +55,51 @@ template <Real Scalar, class F>
   return size(*a) < size(*b) ? lo : hi;
 }
 
+/// Calls found(place) for the places between lo and hi where f changes its sign: between neighbours of some samples, close to the
+/// ends, where times may change like roots, and on both sides of an extremum between them that crosses 0.
+template <Real Scalar, class F, class Found>
+void sign_changes(const F& f, const Scalar& lo, const Scalar& hi, const Found& found) {
+  constexpr std::array<double, 9> kPlaces{0, 1.0 / 64, 1.0 / 16, 0.25, 0.5, 0.75, 15.0 / 16, 63.0 / 64, 1};
+  std::array<Scalar, kPlaces.size()> y;
+  std::array<std::optional<Scalar>, kPlaces.size()> value;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    y[i] = i + 1 == y.size() ? hi : Scalar(lo + (hi - lo) * Scalar(kPlaces[i]));
+    value[i] = f(y[i]);
+  }
+  const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
+  for (std::size_t i = 0; i + 1 < y.size(); ++i) {
+    if (!value[i] || !value[i + 1]) continue;
+    if ((*value[i] > 0) != (*value[i + 1] > 0) || *value[i] == 0 || *value[i + 1] == 0) {
+      if (const auto place = sign_change<Scalar>(f, y[i], y[i + 1])) found(*place);
+      continue;
+    }
+    // Nearer to 0 than both neighbours.
+    if (i == 0 || !value[i - 1] || (*value[i - 1] > 0) != (*value[i] > 0)) continue;
+    if (!(size(*value[i]) < size(*value[i - 1]) && size(*value[i]) < size(*value[i + 1]))) continue;
+    Scalar a = y[i - 1], b = y[i + 1], m = y[i], best = *value[i];
+    constexpr int kMost = 40;
+    for (int n = 0; n < kMost; ++n) {
+      const bool is_upper = b - m > m - a;
+      const Scalar next = is_upper ? Scalar(m + (b - m) * Scalar(0.381966)) : Scalar(m - (m - a) * Scalar(0.381966));
+      const std::optional<Scalar> at = f(next);
+      if (!at) break;
+      if ((*at > 0) != (best > 0)) {
+        if (const auto place = sign_change<Scalar>(f, a, next)) found(*place);
+        if (const auto place = sign_change<Scalar>(f, next, b)) found(*place);
+        break;
+      }
+      if (size(*at) < size(best)) {
+        (is_upper ? a : b) = m;
+        m = next;
+        best = *at;
+      } else {
+        (is_upper ? b : a) = next;
+      }
+      if (!(b - a > Scalar(1e-9) * (hi - lo))) break;
+    }
+  }
+}
+
 /// The state of a curved cell at one height, as the view sees it.
 template <Real Scalar>
 struct CurvedState {
@@ -100,7 +146,7 @@ template <Real Scalar>
   using std::sqrt;
   const CurvedState<Scalar> state(view, k, y);
   const Scalar r = view.rate(k, y), h = Scalar(4) * state.p * state.missing * r;
-  if (!(state.q0 > 0) || h > route.least || h < h_low) return std::nullopt;
+  if (state.q0 < 0 || h > route.least || h < h_low) return std::nullopt;
   CurvedStart<Scalar> start;
   start.y = y;
   SlopedSample<Scalar>& s = start.s;

@@ -78,9 +78,9 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const auto arc = arc_from(y);
       return arc.exists ? std::optional(Scalar(y + arc.rise - z_)) : std::nullopt;
     };
-    const std::optional<Scalar> y = sign_change<Scalar>(gap, view_.x[k], view_.x[k + 1]);
-    if (!y) return;
-    accept(cell, arc_from(*y), *y, PathKind::constant, k, view_.amount(k, *y), low, high);
+    sign_changes<Scalar>(gap, view_.x[k], view_.x[k + 1], [&](const Scalar& y) {
+      accept(cell, arc_from(y), y, PathKind::constant, k, view_.amount(k, y), low, high);
+    });
   }
   /// From the height of a curved cell whose path comes along the route at the time t.
   void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
@@ -98,14 +98,14 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
       return start ? std::optional(Scalar(start->s.T - t_)) : std::nullopt;
     };
-    const std::optional<Scalar> y = sign_change<Scalar>(late, lo, hi);
-    if (!y) return;
-    const auto start = curved_start(view_, route, k, *y, leaves_up, h_low);
-    if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
-    const SlopedSample<Scalar>& s = start->s;
-    const Scalar value =
-        view_.amount(k, *y) + gained(*y, leaves_up ? top : *y) + s.X + s.h / Scalar(4) * (t_ - s.T);
-    offer(value, s.h, PathKind::constant, !turned, turned, k, *y, turn, route.least, s.qm);
+    sign_changes<Scalar>(late, lo, hi, [&](const Scalar& y) {
+      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
+      if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
+      const SlopedSample<Scalar>& s = start->s;
+      const Scalar value =
+          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s.X + s.h / Scalar(4) * (t_ - s.T);
+      offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+    });
   }
   /// From the lower node of cell k.
   void fan_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {

@@ -34,7 +34,7 @@ class StartShape {
       while (k + 1 < layers_.size() && !(z < layers_[k].top_z)) ++k;
       const Scalar y = image_of(k, z);
       if (y > layers_.front().bottom_y && y < layers_.back().top_y && (knots_.empty() || y > knots_.back()))
-        knots_.push_back(y);
+        knots_.push_back(y), knot_heights_.push_back(z);
     }
   }
 
@@ -72,13 +72,16 @@ class StartShape {
     const Layer& of = layers_[k];
     if (is_identity_) return y;
     if (!(y < of.top_y)) return of.top_z;
+    const auto knot = std::lower_bound(knots_.begin(), knots_.end(), y);
+    if (knot != knots_.end() && *knot == y)
+      return knot_heights_[static_cast<std::size_t>(knot - knots_.begin())];
     return std::clamp(Scalar(of.bottom_z + (y - of.bottom_y) / of.stretch), of.bottom_z, of.top_z);
   }
 
   std::shared_ptr<const Scene<Scalar>> scene_;
   std::vector<Layer> layers_;
   bool is_identity_;
-  std::vector<Scalar> knots_;
+  std::vector<Scalar> knots_, knot_heights_;  ///< in y and in z
 };
 
 }  // namespace shearfront::exact
