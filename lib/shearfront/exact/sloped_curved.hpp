@@ -80,7 +80,8 @@ void sign_changes(const F& f, const Scalar& lo, const Scalar& hi, const Found& f
     constexpr int kMost = 40;
     for (int n = 0; n < kMost; ++n) {
       const bool is_upper = b - m > m - a;
-      const Scalar next = is_upper ? Scalar(m + (b - m) * Scalar(0.381966)) : Scalar(m - (m - a) * Scalar(0.381966));
+      const Scalar next =
+          is_upper ? Scalar(m + (b - m) * Scalar(0.381966)) : Scalar(m - (m - a) * Scalar(0.381966));
       const std::optional<Scalar> at = f(next);
       if (!at) break;
       if ((*at > 0) != (best > 0)) {

@@ -11,6 +11,7 @@
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/track/pieces.hpp"
+#include "shearfront/track/solid_profile.hpp"
 
 namespace shearfront {
 
@@ -68,7 +69,7 @@ template <Real Scalar, class Grid>
 class StartStepper {
  public:
   StartStepper(const Scene<Scalar>& scene, const LayerStack<Scalar>& stack, const Grid& grid)
-      : scene_(scene), stack_(stack), grid_(grid) {}
+      : scene_(scene), stack_(stack), grid_(grid), has_smooth_c_(has_smooth_solid_fraction(scene)) {}
 
   [[nodiscard]] StartSteps<Scalar> run() {
     for_stretches(scene_, stack_, [&](std::size_t k, const Scalar& lo, const Scalar& hi) {
@@ -100,6 +101,7 @@ class StartStepper {
     }
   }
   [[nodiscard]] Scalar phi(State i) const { return grid_.phi(layer_, i); }
+  [[nodiscard]] Scalar share(State i) const { return phi(i) / c_; }
   [[nodiscard]] Scalar start(const Scalar& z) const { return c_ * scene_.initial_share(z); }
   /// The state next to phi, none less (or none more) than it.
   [[nodiscard]] State beside(const Scalar& value, bool is_above) const {
@@ -122,12 +124,12 @@ class StartStepper {
     const bool rises = high > low;
     if (low == high) {
       const State below = beside(low, false), above = beside(low, true);
-      return add(hi, low - phi(below) < phi(above) - low ? below : above, lo);
+      return add_level(lo, hi, low - phi(below) < phi(above) - low ? below : above);
     }
     State state = beside(low, !rises);
     const State end = beside(high, rises);
     const State next = (end > state) ? 1 : -1;
-    if (state == end) return add(hi, state, lo);
+    if (state == end) return add_level(lo, hi, state);
     Scalar from = lo;
     while (state != end) {
       const State beyond = state + next;
@@ -147,29 +149,41 @@ class StartStepper {
       ((here < value) == rises ? lo : hi) = z;
     }
   }
-  /// From state i at `lo` to state k at `hi`.
+  /// One state from `lo` to `hi`, for a start that is on one side of it.
+  void add_level(const Scalar& lo, const Scalar& hi, State i) {
+    const Scalar more = scene_.initial_amount(lo, hi) - share(i) * scene_.solid(lo, hi);
+    distance_ += more < 0 ? Scalar(-more) : more;
+    add(place_of(hi), i);
+  }
+  /// From state i at `lo` to state k at `hi`: share_i S_i + share_k (S - S_i) = amount, S what the bed holds.
   void step(const Scalar& lo, const Scalar& hi, State i, State k) {
     if (!(hi > lo)) return;
-    const Scalar below = phi(i), above = phi(k), amount = scene_.initial_amount(lo, hi);
-    // below (z - lo) + above (hi - z) = amount
-    const Scalar part = (amount / (hi - lo) - below) / (above - below);
-    const Scalar z = std::clamp(Scalar(hi - (hi - lo) * part), lo, hi);
-    add(z, i, lo);
-    add(hi, k, z);
+    const Scalar below = share(i), above = share(k), amount = scene_.initial_amount(lo, hi),
+                 solid = scene_.solid(lo, hi);
+    const Scalar part = std::clamp(Scalar((above - amount / solid) / (above - below)), Scalar(0), Scalar(1));
+    const Scalar z = std::clamp(Scalar(lo + (hi - lo) * part), lo, hi);  // to the second order where c varies
+    const Scalar more = scene_.initial_amount(lo, z) - below * scene_.solid(lo, z);
+    distance_ += Scalar(2) * (more < 0 ? Scalar(-more) : more);
+    const Scalar from = place_of(lo), to = place_of(hi);
+    add(std::clamp(Scalar(from + (to - from) * part), from, to), i);
+    add(to, k);
   }
-  void add(const Scalar& top, State i, const Scalar& bottom) {
-    if (!(top > bottom)) return;
-    const Scalar more = scene_.initial_amount(bottom, top) - phi(i) * (top - bottom);
-    distance_ += more < 0 ? Scalar(-more) : more;  // the start is on one side of the state
-    const Scalar share = phi(i) / c_;
+  /// Where the tracker has a height, its layer having the mean of c: below it the layer holds as much as the bed does.
+  [[nodiscard]] Scalar place_of(const Scalar& z) const {
+    const Scalar &bottom = stack_.boundary(layer_), &top = stack_.boundary(layer_ + 1);
+    if (!has_smooth_c_ || !(z < top) || !(z > bottom)) return z;
+    return std::clamp(Scalar(bottom + scene_.solid(bottom, z) / c_), bottom, top);
+  }
+  void add(const Scalar& top, State i) {
     auto& pieces = result_.pieces;
+    if (!(top > (pieces.empty() ? stack_.bottom() : pieces.back().top))) return;
     if (!pieces.empty() && pieces.back().layer == layer_ && pieces.back().state == i) {
       pieces.back().top = top;
       result_.initial.tops.back() = top;
       return;
     }
     pieces.push_back({layer_, top, i});
-    result_.initial.states.push_back({layer_, share});
+    result_.initial.states.push_back({layer_, share(i)});
     result_.initial.tops.push_back(top);
   }
 
@@ -178,7 +192,7 @@ class StartStepper {
   const Grid& grid_;
   std::size_t layer_ = 0;
   Scalar c_{1};
-  bool is_falling_ = false;
+  bool has_smooth_c_, is_falling_ = false;
   State first_ = 0, last_ = 0;
   StartSteps<Scalar> result_;
   CompensatedSum<Scalar> distance_;
