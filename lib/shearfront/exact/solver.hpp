@@ -8,7 +8,8 @@ namespace shearfront {
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription =
-      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces";
+      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces; from smooth "
+      "starts where it is constant";
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
