@@ -87,6 +87,37 @@ TEST(ExactEvents, InterfaceOfTwoPureSides) {
   EXPECT_NEAR(*events.interfaces[1].first, 0.3, 1e-14);
 }
 
+// However few grains there are they move: where the amount at an interface changes for the last time it changes for the first time.
+TEST(ExactEvents, TracesOfGrainsMove) {
+  SceneMaker make(support::seed_of(5400));
+  int n_moving = 0, n_never = 0;
+  for (int n = 0; n < 400; ++n) {
+    auto spec = make.data(make.integer(2, 4), make.order(), 4);
+    if (make.integer(0, 1) == 0) {  // a table with the same knots
+      const auto layers = std::get<Piecewise<double>>(spec.shear_rate);
+      Table<double> table{layers.breaks, layers.values};
+      table.z.insert(table.z.begin(), 0);
+      table.z.push_back(1);
+      table.values.push_back(make.integer(0, 1) == 0 ? table.values.back() : make.uniform(0.1, 4));
+      if (make.integer(0, 1) == 0) table.values[1] = table.values[0];
+      spec.shear_rate = table;
+    }
+    for (double& phi : spec.initial_values) {
+      const double trace = make.integer(0, 2) == 0 ? 0 : std::pow(10, make.uniform(-25, -10));
+      phi = phi == 1 ? 1 - trace : trace;
+    }
+    for (const auto& times : exact_timeline(Scene<double>(spec)).interfaces) {
+      ASSERT_EQ(times.first.has_value(), times.last.has_value()) << "scene " << n << ", z = " << times.z;
+      (times.first ? n_moving : n_never) += 1;
+      if (times.first) {
+        EXPECT_LE(*times.first, *times.last) << "scene " << n << ", z = " << times.z;
+      }
+    }
+  }
+  EXPECT_GT(n_moving, 100);
+  EXPECT_GT(n_never, 20);
+}
+
 /// Random scenes at rest at some interfaces: states {0, 1}, equal neighbouring a, mirrored states.
 SceneSpec<double> with_resting_interfaces(SceneMaker& make) {
   const int n = make.integer(2, 5);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "shearfront/exact/middle.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront::exact {
@@ -55,9 +56,9 @@ EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& l
 /// The form that comes nearer to the rate in the middle of a piece.
 template <Real Scalar>
 RateForm nearer_form(const Scalar& low, const Scalar& middle, const Scalar& high) {
-  using std::sqrt;
   const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
-  const Scalar linear = low + (high - low) / Scalar(2), exponential = sqrt(low) * sqrt(high);
+  const Scalar linear = low + (high - low) / Scalar(2),
+               exponential = geometric_middle(std::min(low, high), std::max(low, high));
   return size(Scalar(middle - exponential)) < size(Scalar(middle - linear)) ? RateForm::exponential
                                                                             : RateForm::linear;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/exact/middle.hpp"
 #include "shearfront/numeric/instantiated.hpp"
 
 namespace shearfront {
@@ -87,8 +88,7 @@ Scalar final_time(const Medium<Scalar>& medium, const Scalar& z, FinalAmount amo
       if (!is_finite(hi)) {
         next = Scalar(2) * t;
       } else if (lo > 0 && hi > Scalar(4) * lo) {
-        using std::sqrt;
-        next = sqrt(lo) * sqrt(hi);
+        next = exact::geometric_middle<Scalar>(lo, hi);
       } else {
         next = lo + (hi - lo) / Scalar(2);
       }

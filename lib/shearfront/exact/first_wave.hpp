@@ -8,6 +8,14 @@
 
 namespace shearfront::exact {
 
+/// Whether two fluxes computed from data are equal up to their rounding, to which each is known however small it is: traces of grains
+/// move.
+template <Real Scalar>
+[[nodiscard]] bool is_same_flux(const Scalar& a, const Scalar& b) {
+  const Scalar slack = Scalar(32) * unit_roundoff<Scalar>() * std::min(a, b);
+  return a - b <= slack && b - a <= slack;
+}
+
 /// Search for the first wave at one interface.
 template <Real Scalar, class Law>
 class Arrival {
@@ -51,7 +59,7 @@ class Arrival {
     const std::size_t k = cells_.layer[cell];
     return law_.rate[k] * law_.steepness(k, upward, over);
   }
-  /// No moving wave leaves this inner point at t = 0. Fluxes computed from the data may differ by rounding.
+  /// No moving wave leaves this inner point at t = 0.
   [[nodiscard]] bool at_rest(std::size_t point) const {
     const std::size_t b = point - 1, a = point;
     const Scalar &r_b = law_.rate[cells_.layer[b]], &r_a = law_.rate[cells_.layer[a]];
@@ -61,10 +69,8 @@ class Arrival {
     const Scalar h_b = law_.h_of(cells_.layer[b], phi_b), h_a = medium_.h_cell(a);
     const Scalar sent = law_.excess(cells_.layer[b], phi_b, true) > 0 ? h_b : r_b,
                  taken = excess(a, false) > 0 ? h_a : r_a;
-    const Scalar slack = Scalar(32) * unit_roundoff<Scalar>() * std::min(r_a, r_b);
     const Scalar passing = std::min(sent, taken);
-    const auto equal = [&](const Scalar& h) { return h - passing <= slack && passing - h <= slack; };
-    return equal(h_b) && equal(h_a);
+    return is_same_flux<Scalar>(h_b, passing) && is_same_flux<Scalar>(h_a, passing);
   }
   void arrive(const Scalar& t) {
     if (t < first_) first_ = t;

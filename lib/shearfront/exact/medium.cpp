@@ -66,16 +66,14 @@ std::vector<Scalar> finer_cuts(const CanonicalForm<Scalar>& form) {
   return cuts;
 }
 
-/// In a unit of time in which its rates are about 1 where they are very large or small.
+/// In the unit of time in which its fastest rate is about 1: closed forms multiply rates and take their roots, and results must not depend
+/// on the unit of the user's times.
 template <Real Scalar>
 std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scalar>& form) {
   std::vector<Scalar> low = form.low_rates(), high = form.high_rates();
   const Scalar fastest =
       std::max(*std::max_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end()));
-  constexpr int kFar = 60;  // closed forms multiply a few rates
-  const int exponent = std::ilogb(to_double(fastest));
-  const bool is_far = exponent > kFar || exponent < -kFar;
-  const Scalar unit = is_far ? Scalar(std::ldexp(1.0, exponent)) : Scalar(1);
+  const Scalar unit(std::ldexp(1.0, std::ilogb(to_double(fastest))));
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
@@ -84,7 +82,7 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
                             : Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries());
   auto medium =
       std::make_unique<const SlopedMedium<Scalar>>(std::move(pieces), std::move(cells), form.mass());
-  if (!is_far) return medium;
+  if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
 }
 

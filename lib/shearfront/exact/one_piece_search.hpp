@@ -10,7 +10,7 @@
 
 namespace shearfront::exact {
 
-/// The best path to (z, t) in a bed that is one exponential piece: a closed form for each initial jump and each state within reach, no
+/// The best path to (z, t) in a bed that is one piece: a closed form for each initial jump and each state within reach, no
 /// routes, no bounds. Heights of the upright view. Finite speed: the starts within reach are those of pure states.
 template <Real Scalar>
 class OnePieceSearch {
@@ -33,10 +33,16 @@ class OnePieceSearch {
   }
 
  private:
-  /// How far a pure state comes in the time t from where r falls off as exp(-bend d) with the distance d.
+  /// How far a pure state comes in the time t from where r falls off as exp(-bend d), or by the slope bend, with the distance d.
   [[nodiscard]] Scalar reach(const Scalar& bend) const {
+    using std::expm1;
     using std::log1p;
-    const Scalar x = bend * (rate_ * t_);
+    const Scalar way = rate_ * t_;
+    if (form_ == RateForm::linear) {
+      const Scalar x = bend * t_;
+      return x == 0 ? way : Scalar(way * (-expm1(Scalar(-x)) / x));
+    }
+    const Scalar x = bend * way;
     return x > Scalar(-1) ? Scalar(log1p(x) / bend) : infinity<Scalar>();
   }
 
@@ -65,21 +71,27 @@ class OnePieceSearch {
     path.value = M0 + arc.gain;
     if (!(path.value <= best_.value)) return;
     path.H = rate_ * arc.p * arc.missing;
-    path.upward = arc.p > Scalar(0.5);
+    // What p and the odds round to 1/2 and 1 is what the slope makes of it; a fan stands still at its own source in a flat piece.
+    const bool is_fan = kind == PathKind::fan, is_flat = bend_ == 0, is_rising = bend_ > 0;
+    path.upward = arc.p > Scalar(0.5) || (is_fan && arc.p == Scalar(0.5) && (is_flat || is_rising));
     const bool starts_up =
-                   arc.start_odds > Scalar(1) || (kind == PathKind::fan && arc.start_odds == Scalar(1)),
-               starts_down = arc.start_odds < Scalar(1);
-    const Scalar h = Scalar(4) * path.H;
-    // It would turn beyond the piece.
-    if (starts_up && !path.upward && h < view_.high.back()) return;
-    if (starts_down && path.upward && h < view_.low.front()) return;
-    path.turned = h > 0 && (path.upward ? starts_down : starts_up);
+                   arc.start_odds > Scalar(1) || (is_fan && arc.start_odds == Scalar(1) && !is_rising),
+               starts_down =
+                   arc.start_odds < Scalar(1) || (is_fan && arc.start_odds == Scalar(1) && is_rising);
+    const Scalar h = Scalar(4) * path.H,
+                 q = path.upward ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
+    const auto turns_beyond = [&](const Scalar& end, const Scalar& end_rate) {
+      return stays_above<Scalar>(form_, bend_, rate_, q, h, end - z_, end_rate);
+    };
+    if (starts_up && !path.upward && turns_beyond(view_.x.back(), view_.high.back())) return;
+    if (starts_down && path.upward && turns_beyond(view_.x.front(), view_.low.front())) return;
+    path.turned = h > 0 && !is_flat && (path.upward ? starts_down : starts_up);
     path.kind = kind;
     path.source = source;
     path.foot = y;
     path.interface = 0;
     path.r_reference = rate_;
-    path.x = path.upward ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
+    path.x = q;
     path.p = std::clamp(arc.p, Scalar(0), Scalar(1));
     if (path.better_than(best_)) best_ = path;
   }

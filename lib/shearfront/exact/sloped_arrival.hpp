@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "shearfront/exact/first_wave.hpp"
 #include "shearfront/exact/sloped_medium.hpp"
 
 namespace shearfront::exact {
@@ -56,9 +57,7 @@ class SlopedArrival {
     const Scalar r_b = rate(b, true), r_a = rate(a, false), h_b = h(b), h_a = h(a);
     if (r_b == r_a && cells_.phi[b] == cells_.phi[a]) return true;
     const Scalar passing = std::min(q(b) > 0 ? h_b : r_b, q(a) < 0 ? h_a : r_a);
-    const Scalar slack = Scalar(32) * unit_roundoff<Scalar>() * std::min(r_a, r_b);
-    const auto equal = [&](const Scalar& some) { return some - passing <= slack && passing - some <= slack; };
-    return equal(h_b) && equal(h_a);
+    return is_same_flux<Scalar>(h_b, passing) && is_same_flux<Scalar>(h_a, passing);
   }
 
   [[nodiscard]] Scalar of_pure_states() const {

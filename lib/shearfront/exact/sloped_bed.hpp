@@ -66,7 +66,7 @@ struct SlopedView {
       missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
   std::vector<Scalar> p_high;                       ///< at its upper end
   std::vector<Scalar> q0;                           ///< 2 p - 1
-  std::vector<Scalar> pure;                         ///< int dz / r from the first node
+  std::vector<Scalar> pure_time;                    ///< int dz / r over each cell
   std::vector<bool> emits;                          ///< a fan can leave the node upwards
   std::shared_ptr<const StartShape<Scalar>> shape;  ///< of a smooth start
 
@@ -98,11 +98,9 @@ struct SlopedView {
       std::reverse(piece.begin(), piece.end());
     }
     for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
-    pure = {Scalar(0)};
     emits.assign(x.size(), false);
     for (std::size_t i = 0; i < n_cells(); ++i) {
-      pure.push_back(pure[i] +
-                     Crossing<Scalar>(form[i], x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
+      pure_time.push_back(Crossing<Scalar>(form[i], x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
       emits[i] = i > 0 && may_emit(i);
     }
   }
@@ -115,12 +113,6 @@ struct SlopedView {
     const Scalar r = below < above ? rate_beyond(form[cell], bend[cell], low[cell], below)
                                    : rate_beyond(form[cell], bend[cell], high[cell], Scalar(-above));
     return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
-  }
-  /// Time of a pure state from a height in a cell to its upper end.
-  [[nodiscard]] Scalar pure_above(std::size_t cell, const Scalar& z) const {
-    const Scalar d = x[cell + 1] - z;
-    if (!(d > 0)) return Scalar(0);
-    return Crossing<Scalar>(form[cell], d, rate(cell, z), Scalar(1), high[cell], Scalar(1), Scalar(0)).T;
   }
   [[nodiscard]] bool is_curved(std::size_t cell) const { return shape && p[cell] != p_high[cell]; }
   /// Initial amount below a height of a cell, in the true orientation.

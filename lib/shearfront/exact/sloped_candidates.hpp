@@ -27,12 +27,11 @@ class SlopedCandidates {
         rate_below_(place.rate_below),
         rate_above_(place.rate_above) {
     slack_ = Scalar(64) * unit_roundoff<Scalar>() * (view.x.back() - view.x.front());
-    const Scalar from = z_ - view.x[below_];
-    pure_z_ = from > 0
-                  ? Scalar(view.pure[below_] + Crossing<Scalar>(view.form[below_], from, view.low[below_],
-                                                                Scalar(1), rate_below_, Scalar(1), Scalar(0))
-                                                   .T)
-                  : view.pure[below_];
+    const auto time = [&](std::size_t cell, const Scalar& d, const Scalar& r1, const Scalar& r2) {
+      return Crossing<Scalar>(view.form[cell], d, r1, Scalar(1), r2, Scalar(1), Scalar(0)).T;
+    };
+    time_below_ = time(below_, Scalar(z_ - view.x[below_]), view.low[below_], rate_below_);
+    time_above_ = time(above_, Scalar(view.x[above_ + 1] - z_), rate_above_, view.high[above_]);
     late_ = t * (Scalar(1) + Scalar(256) * unit_roundoff<Scalar>());
   }
 
@@ -100,7 +99,8 @@ class SlopedCandidates {
     offer(value, h, PathKind::fan, !turned, turned, node, view_.x[node], turn, route.least, (one - w) / more);
   }
 
-  void straight_fan(const Route& route, std::size_t node) {
+  /// `time`: of pure states along the route.
+  void straight_fan(const Route& route, std::size_t node, const Scalar& time) {
     const Scalar base = view_.M[node] + gained(view_.x[node], z_);
     if (base > limit()) return;  // L >= max(0, v)
     const Sample top = fan_sample(route, Scalar(1));
@@ -109,7 +109,7 @@ class SlopedCandidates {
       if (base + top.X + top.h / Scalar(4) * (t_ - top.T) > limit()) return;
     }
     Sample zero;
-    zero.T = pure_z_ - view_.pure[node];
+    zero.T = time;
     if (zero.T > late_) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
     const auto slope = [&](const Sample& s) { return fan_slope(route, s); };
@@ -145,72 +145,139 @@ class SlopedCandidates {
     return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - (s.T - s.T_falling));
   }
 
-  // States: h = 4 g r(y); the search runs over what r has lost since the end of its range where h is largest, or over its root
+  // States: h = 4 g r(y); the search runs over the part of the way from the end of its range where h is largest, or over its root
   // where h is the least rate there.
   enum class Leaves { upwards, downwards };
+
+  /// A place in a cell by the rate there and the distances to the ends of the cell where r is largest and where it is least, of which
+  /// the shorter in rate is what it is made of: where r is steep, one end knows nothing about the other.
+  struct Place {
+    Scalar rate, from_most, from_least;
+    bool is_near_most;
+  };
   struct StateRange {
     std::size_t cell;
     Leaves leaves;
-    Scalar anchor, most_lost, qa2, kappa, rate;  ///< rate of r at the anchor
+    Place begin, end;                   ///< h is largest at the begin
+    Scalar span, log_span, qa2, kappa;  ///< log_span: of r
     bool is_capped, is_empty;
   };
 
-  /// The height of a cell where r is `rate`, `lost` less than at the anchor.
-  [[nodiscard]] Scalar start_of(const StateRange& range, const Scalar& lost) const {
-    const std::size_t k = range.cell;
-    return range.anchor + distance_of(view_.form[k], view_.bend[k], range.rate, Scalar(-lost));
+  /// Where in cell k a state has h, given what r has lost there since it is largest (at most half of it, or else not used).
+  [[nodiscard]] Place place_of(std::size_t k, const Scalar& h, const Scalar& lost) const {
+    const bool is_rising = view_.bend[k] > 0;
+    const Scalar &most = is_rising ? view_.high[k] : view_.low[k],
+                 &least = is_rising ? view_.low[k] : view_.high[k];
+    const Scalar width = view_.x[k + 1] - view_.x[k], bend = size_of_bend(k), zero(0);
+    if (lost + lost <= most) {
+      const Scalar d = distance_of(view_.form[k], Scalar(-bend), most, Scalar(-lost));
+      return {most - lost, d, std::max(zero, Scalar(width - d)), true};
+    }
+    const Scalar d = distance_of(view_.form[k], bend, least, gain_at(k, least, h));
+    return {h / four_g(k), std::max(zero, Scalar(width - d)), d, false};
+  }
+  [[nodiscard]] Scalar four_g(std::size_t k) const { return Scalar(4) * view_.p[k] * view_.missing[k]; }
+  /// What r has to gain from where it is `rate` for the state of cell k to have h: h / (4 g) - r, and 4 g r - h = (r - h) - r q0^2
+  /// where g has lost what 1 - 4 g keeps.
+  [[nodiscard]] Scalar gain_at(std::size_t k, const Scalar& rate, const Scalar& h) const {
+    const Scalar q2 = view_.q0[k] * view_.q0[k];
+    return q2 > Scalar(0.5) ? Scalar(h / four_g(k) - rate) : Scalar(((h - rate) + rate * q2) / four_g(k));
   }
 
   [[nodiscard]] StateRange range_of(const Route& route, std::size_t k, Leaves leaves,
                                     const Scalar& h_low) const {
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k], q2 = view_.q0[k] * view_.q0[k];
     const bool is_rising = view_.bend[k] > 0;
-    const Scalar &most = is_rising ? view_.high[k] : view_.low[k],  // rate at the end with the largest h
-        &end = is_rising ? view_.x[k + 1] : view_.x[k];
-    // What r has lost where h is met: r - h / (4 g), and 4 g r - h = (r - h) - r q0^2 where g has lost what 1 - 4 g keeps.
-    const auto lost_at = [&](const Scalar& h) {
-      return q2 > Scalar(0.5) ? Scalar(most - h / four_g) : Scalar(((most - h) - most * q2) / four_g);
-    };
-    const Scalar first = lost_at(route.least);
-    StateRange range{k, leaves, end, Scalar(0), Scalar(0), four_g / route.least, most, first >= 0, false};
-    // By the bend: the rates at the ends of a part of a piece that is almost flat may be the same.
-    const Scalar width = view_.x[k + 1] - view_.x[k];
-    const Scalar over = -rise_of(view_.form[k], view_.bend[k], most, is_rising ? Scalar(-width) : width);
-    const Scalar skip = std::max(Scalar(0), first), last = std::min(over, lost_at(h_low));
-    range.is_empty = !(skip <= last);
+    const Scalar &most = is_rising ? view_.high[k] : view_.low[k],
+                 &least = is_rising ? view_.low[k] : view_.high[k];
+    const Scalar width = view_.x[k + 1] - view_.x[k], zero(0);
+    const Scalar first = -gain_at(k, most, route.least), last = -gain_at(k, most, h_low);
+    StateRange range{k,
+                     leaves,
+                     {most, zero, width, true},
+                     {least, width, zero, false},
+                     width,
+                     zero,
+                     zero,
+                     four_g(k) / route.least,
+                     first >= 0,
+                     last < 0};
     if (range.is_empty) return range;
-    if (skip > 0) range.anchor = start_of(range, skip);
-    range.rate = most - skip;
-    range.most_lost = last - skip;
+    if (first > 0) range.begin = place_of(k, route.least, first);
+    if (gain_at(k, least, h_low) > 0) range.end = place_of(k, h_low, last);
+    if (range.begin.is_near_most == range.end.is_near_most)
+      range.span = range.begin.is_near_most ? Scalar(range.end.from_most - range.begin.from_most)
+                                            : Scalar(range.begin.from_least - range.end.from_least);
+    else
+      range.span = width - range.begin.from_most - range.end.from_least;
+    range.is_empty = range.begin.from_most > width || range.begin.from_least < 0 || range.span < 0;
+    using std::log1p;
+    range.log_span = size_of_bend(k) * range.span;
+    if (view_.form[k] == RateForm::linear) range.log_span = log1p(Scalar(range.log_span / range.end.rate));
     if (!range.is_capped)
-      range.qa2 = std::max(Scalar(0), Scalar(((route.least - most) + most * q2) / route.least));
+      range.qa2 =
+          std::max(zero, Scalar(((route.least - most) + most * view_.q0[k] * view_.q0[k]) / route.least));
     return range;
+  }
+
+  /// A start in a range, at the part v of it or v^2, by log r.
+  struct Start {
+    Scalar y, d, rate, h, lost;  ///< d: to where it leaves the cell; lost: what r is less than at the begin
+  };
+  [[nodiscard]] Start start_at(const StateRange& range, const Scalar& v) const {
+    constexpr RateForm kLog = RateForm::exponential;
+    const std::size_t k = range.cell;
+    const Scalar one(1), part = range.is_capped ? Scalar(v * v) : v, rest = one - part;
+    const Scalar from_begin = range.log_span * part, to_end = range.log_span * rest;
+    const bool is_linear = view_.form[k] == RateForm::linear, is_up = range.leaves == Leaves::upwards,
+               leaves_at_most = is_up == (view_.bend[k] > 0);
+    Start start;
+    start.lost = -rise_of(kLog, Scalar(-one), range.begin.rate, from_begin);
+    start.rate = part < rest ? rate_beyond(kLog, Scalar(-one), range.begin.rate, from_begin)
+                             : rate_beyond(kLog, one, range.end.rate, to_end);
+    if (leaves_at_most)
+      start.d = range.begin.from_most +
+                (is_linear ? Scalar(start.lost / size_of_bend(k)) : Scalar(range.span * part));
+    else
+      start.d = range.end.from_least +
+                (is_linear ? Scalar(rise_of(kLog, one, range.end.rate, to_end) / size_of_bend(k))
+                           : Scalar(range.span * rest));
+    start.h = four_g(k) * start.rate;
+    start.y = std::clamp(is_up ? Scalar(view_.x[k + 1] - start.d) : Scalar(view_.x[k] + start.d), view_.x[k],
+                         view_.x[k + 1]);
+    return start;
+  }
+  /// d lost / dv of the same over q_m.
+  [[nodiscard]] Scalar slope_of_start(const StateRange& range, const Sample& s) const {
+    using std::sqrt;
+    if (!range.is_capped) return s.rate * range.log_span / s.qm;
+    const Scalar slope = (s.qm > 0 ? s.rate : range.begin.rate) * range.log_span;
+    return Scalar(2) * slope *
+           (s.qm > 0 ? Scalar(s.v / s.qm) : Scalar(Scalar(1) / sqrt(Scalar(range.kappa * slope))));
   }
 
   [[nodiscard]] Sample state_sample(const Route& route, const StateRange& range, const Scalar& v) const {
     using std::sqrt;
     const std::size_t k = range.cell;
-    const Scalar lost = range.is_capped ? Scalar(v * v) : v;
+    const Start start = start_at(range, v);
     Sample s;
     s.v = v;
-    s.y = start_of(range, lost);
-    const Scalar r = range.rate - lost;
-    s.h = Scalar(4) * view_.p[k] * view_.missing[k] * r;
-    s.qm2 = range.qa2 + range.kappa * lost;
+    s.y = start.y;
+    s.rate = start.rate;
+    s.h = start.h;
+    s.qm2 = range.qa2 + range.kappa * start.lost;
     s.qm = sqrt(s.qm2);
     add_route(route, s);
     const bool up = range.leaves == Leaves::upwards;
     const Scalar& exit = up ? view_.high[k] : view_.low[k];
-    const Scalar d = up ? view_.x[k + 1] - s.y : s.y - view_.x[k];
     const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
-    const Crossing<Scalar> c(view_.form[k], std::max(Scalar(0), d), r, view_.q0[k], exit, q, s.h);
+    const Crossing<Scalar> c(view_.form[k], start.d, s.rate, view_.q0[k], exit, q, s.h);
     s.T += c.T;
     s.X += c.X;
     const bool is_rising_h = up && view_.bend[k] < 0;
     add_start(route, k, q, is_rising_h, !up, s);
     if (!is_rising_h) s.T_falling += c.T;
     if (!up) {
-      const Turn<Scalar> turn(view_.form[k], size_of_bend(k), r, view_.q0[k], s.h);
+      const Turn<Scalar> turn(view_.form[k], size_of_bend(k), s.rate, view_.q0[k], s.h);
       s.T += turn.T;
       s.T_falling += turn.T;
       s.X += turn.X;
@@ -245,23 +312,16 @@ class SlopedCandidates {
     if (range.is_empty) return;
     const std::size_t k = range.cell;
     const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
-    const auto slope = [&](const Sample& s) {
-      const Scalar by = Scalar(-4) * view_.p[k] * view_.missing[k];
-      return range.is_capped ? Scalar(s.F() * Scalar(2) * by / sqrt(range.kappa)) : Scalar(s.F() * by / s.qm);
-    };
-    const Scalar v_max = range.is_capped ? Scalar(sqrt(range.most_lost)) : range.most_lost;
+    const auto slope = [&](const Sample& s) { return Scalar(-four_g(k) * s.F() * slope_of_start(range, s)); };
     const auto found = [&](const Sample& s, const Scalar& step) {
-      const Scalar v = std::clamp(Scalar(s.v + step), Scalar(0), v_max),
-                   lost = range.is_capped ? Scalar(v * v) : v;
-      const Scalar r = range.rate - lost, y = start_of(range, lost);
-      const Scalar h = Scalar(4) * view_.p[k] * view_.missing[k] * r;
+      const Start start = start_at(range, std::clamp(Scalar(s.v + step), Scalar(0), Scalar(1)));
       const Scalar height = range.leaves == Leaves::downwards ? s.y : top;
       const Scalar value = view_.amount(k, s.y) + gained(s.y, height) + s.X +
-                           (s.h + (h - s.h) / Scalar(2)) / Scalar(4) * (t_ - s.T);
-      offer(value, h, PathKind::constant, !turned, turned, k, y, turn, route.least,
-            sqrt(Scalar(range.qa2 + range.kappa * lost)));
+                           (s.h + (start.h - s.h) / Scalar(2)) / Scalar(4) * (t_ - s.T);
+      offer(value, start.h, PathKind::constant, !turned, turned, k, start.y, turn, route.least,
+            sqrt(Scalar(range.qa2 + range.kappa * start.lost)));
     };
-    const Sample b = at(Scalar(0)), a = at(v_max);
+    const Sample b = at(Scalar(0)), a = at(Scalar(1));
     SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
         .run(a, b);
   }
@@ -296,7 +356,8 @@ class SlopedCandidates {
   bool moving_only_;
   Path<Scalar>& best_;
   std::size_t n_, below_, above_;
-  Scalar rate_below_, rate_above_, slack_{0}, pure_z_{0}, late_{0};
+  Scalar rate_below_, rate_above_, slack_{0}, late_{0};
+  Scalar time_below_, time_above_;  ///< of pure states from z to the ends of its cells
 };
 
 }  // namespace shearfront::exact

@@ -37,7 +37,7 @@ template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                           bool moving_only) const {
   using std::sqrt;
-  if (pieces_.size() == 1 && pieces_.form.front() == RateForm::exponential && !cells_.shape)
+  if (pieces_.size() == 1 && !cells_.shape)
     return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "shearfront/exact/middle.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
 #include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
@@ -43,10 +44,10 @@ template <Real Scalar>
 struct SlopedSample {
   Scalar v{0};  ///< the variable of the search
   Scalar h{0}, qm2{0}, qm{0};
-  Scalar y{0};          ///< start
-  Scalar T{0}, X{0};    ///< X: with half of the E of a turn
-  Scalar T_falling{0};  ///< the part of T that does not increase with h
-  Scalar X_falling{0};  ///< X of the turn
+  Scalar y{0}, rate{0};  ///< start of a state, and r there
+  Scalar T{0}, X{0};     ///< X: with half of the E of a turn
+  Scalar T_falling{0};   ///< the part of T that does not increase with h
+  Scalar X_falling{0};   ///< X of the turn
   Scalar rising{0}, steep{0}, up{0}, down{0};
 
   [[nodiscard]] Scalar F() const { return rising + qm * steep + up - down; }
@@ -180,9 +181,8 @@ class SlopedRootSearch {
                                                                                              : v;
   }
   static Scalar split(const Scalar& a, const Scalar& b) {
-    using std::sqrt;
     const Scalar &lo = std::min(a, b), &hi = std::max(a, b);
-    if (lo > 0 && hi > Scalar(16) * lo) return sqrt(lo) * sqrt(hi);
+    if (lo > 0 && hi > Scalar(16) * lo) return geometric_middle<Scalar>(lo, hi);
     return lo + (hi - lo) / Scalar(2);
   }
 

@@ -26,8 +26,8 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
 
  private:
   using Base = SlopedCandidates<Scalar>;
-  using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::pure_z_,
-      Base::rate_above_, Base::rate_below_, Base::slack_, Base::t_, Base::view_, Base::z_;
+  using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::rate_above_,
+      Base::rate_below_, Base::slack_, Base::t_, Base::time_above_, Base::time_below_, Base::view_, Base::z_;
   using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
       Base::straight_fan, Base::turned_fan;
   using typename Base::Leaves;
@@ -42,20 +42,33 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     std::size_t first = cell, last = cell;
     while (first > 0 && is_of_piece(first - 1, cell)) --first;
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
-    for (std::size_t k = first; k <= last; ++k) {
-      if (pure_z_ - view_.pure[k + 1] > late_) continue;
-      if (view_.pure[k] - pure_z_ > late_) break;
-      if (!view_.is_mirror && !(moving_only_ && (view_.p[k] == 0 || view_.missing[k] == 0)))
-        state_inside(cell, k, view_.low[first], view_.high[last]);
-      if (k > 0 && view_.emits[k]) fan_inside(cell, k, view_.low[first], view_.high[last]);
+    const auto state = [&](std::size_t k) {
+      const bool is_pure = !view_.is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
+      if (!view_.is_mirror && !(moving_only_ && is_pure)) state_inside(cell, k, first, last);
+    };
+    const auto fan = [&](std::size_t k) {
+      if (k > 0 && view_.emits[k]) fan_inside(cell, k, first, last);
+    };
+    // Outwards from z, as far as pure states come.
+    state(cell);
+    Scalar time = cell == below_ ? time_below_ : Scalar(0);
+    for (std::size_t k = cell; !(time > late_); time += view_.pure_time[k]) {
+      fan(k);
+      if (k == first) break;
+      state(--k);
+    }
+    time = cell == above_ ? time_above_ : Scalar(0);
+    for (std::size_t k = cell + 1; k <= last && !(time > late_); time += view_.pure_time[k], ++k) {
+      fan(k);
+      state(k);
     }
   }
   [[nodiscard]] const Scalar& rate_beside(std::size_t cell) const {
     return cell == below_ ? rate_below_ : rate_above_;
   }
-  /// From cell k; `low` and `high` are the rates at the ends of the piece.
-  void state_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
-    if (view_.is_curved(k)) return curved_inside(cell, k, low, high);
+  /// From cell k; `first` and `last` are the outermost cells of the piece.
+  void state_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
+    if (view_.is_curved(k)) return curved_inside(cell, k, first, last);
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
@@ -65,10 +78,10 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (!arc.exists) return;
     const Scalar y = z_ - arc.rise;
     accept(cell, arc, std::clamp(y, view_.x[k], view_.x[k + 1]), PathKind::constant, k, view_.amount(k, y),
-           low, high);
+           first, last);
   }
   /// From the height of a curved cell whose state comes to z.
-  void curved_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
+  void curved_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
     const auto arc_from = [&](const Scalar& y) {
       const CurvedState<Scalar> state(view_, k, y);
       return arc_from_state(view_.form[cell], view_.bend[cell], t_, state.p, state.missing,
@@ -79,7 +92,9 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       return arc.exists ? std::optional(Scalar(y + arc.rise - z_)) : std::nullopt;
     };
     sign_changes<Scalar>(gap, view_.x[k], view_.x[k + 1], [&](const Scalar& y) {
-      accept(cell, arc_from(y), y, PathKind::constant, k, view_.amount(k, y), low, high);
+      const auto arc = arc_from(y);
+      if (moving_only_ && (arc.p == 0 || arc.missing == 0)) return;
+      accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y), first, last);
     });
   }
   /// From the height of a curved cell whose path comes along the route at the time t.
@@ -108,15 +123,15 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     });
   }
   /// From the lower node of cell k.
-  void fan_inside(std::size_t cell, std::size_t k, const Scalar& low, const Scalar& high) {
+  void fan_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
     const auto arc = arc_from_point(view_.form[cell], view_.bend[cell], t_, Scalar(z_ - view_.x[k]),
                                     view_.low[k], rate_beside(cell), view_.is_mirror ? Ways::down : Ways::up);
     const Scalar one(1), edge = one / Scalar(1 << 20);
     if (arc.exists && arc.start_odds >= one - edge)
-      accept(cell, arc, view_.x[k], PathKind::fan, k, view_.M[k], low, high);
+      accept(cell, arc, view_.x[k], PathKind::fan, k, view_.M[k], first, last);
   }
   void accept(std::size_t cell, const Arc<Scalar>& arc, const Scalar& y, PathKind kind, std::size_t source,
-              const Scalar& M0, const Scalar& low, const Scalar& high) {
+              const Scalar& M0, std::size_t first, std::size_t last) {
     const Scalar& r = rate_beside(cell);
     const Scalar h = Scalar(4) * r * arc.p * arc.missing;
     // Nothing turns in a flat piece: at its own source a fan stands still at 1/2.
@@ -124,30 +139,44 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     const bool ends_up = arc.p > Scalar(0.5) || (is_fan && is_flat);
     const bool starts_up = is_fan || arc.start_odds > Scalar(1),
                starts_down = !is_fan && arc.start_odds < Scalar(1);
-    // It would turn beyond the piece.
-    if (starts_up && !ends_up && h < high) return;
-    if (starts_down && ends_up && h < low) return;
-    const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
     const Scalar q = ends_up ? Scalar(arc.p - arc.missing) : Scalar(arc.missing - arc.p);
+    const auto turns_beyond = [&](const Scalar& end, const Scalar& end_rate) {
+      return stays_above<Scalar>(view_.form[cell], view_.bend[cell], r, q, h, end - z_, end_rate);
+    };
+    if (starts_up && !ends_up && turns_beyond(view_.x[last + 1], view_.high[last])) return;
+    if (starts_down && ends_up && turns_beyond(view_.x[first], view_.low[first])) return;
+    const bool turned = h > 0 && !is_flat && (ends_up ? starts_down : starts_up);
     offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
+  }
+
+  /// Where a way begins at which a path turns: a height, its cell, r there, and the time of a pure state to the end of the cell.
+  struct Entrance {
+    Scalar z;
+    std::size_t cell;
+    Scalar rate, time;
+  };
+  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_}; }
+  [[nodiscard]] Entrance at_node(std::size_t node) const {
+    return {view_.x[node], node, view_.low[node], view_.pure_time[node]};
   }
 
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
     Route route(n_);
-    if (below_ != above_) turned_states(route, below_, z_, above_, rate_above_);
+    if (below_ != above_) turned_states(route, below_, Scalar(0), at_z());
     route.add(view_.form[below_], view_.bends[below_], z_ - view_.x[below_], rate_below_, view_.low[below_],
               false);
-    for (std::size_t k = below_; k-- > 0;) {
+    Scalar time = time_below_;
+    for (std::size_t k = below_; k-- > 0; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
-      if (pure_z_ - view_.pure[node] > late_) return;
+      if (time > late_) return;
       if (view_.emits[node]) {
-        if (!is_of_piece(node, below_)) straight_fan(route, node);
-        turned_fans(route, node, z_, above_, rate_above_);
+        if (!is_of_piece(node, below_)) straight_fan(route, node, time);
+        turned_fans(route, node, time, at_z());
       }
-      if (!is_of_piece(k, below_)) state(route, k);
-      turned_states(route, k, z_, above_, rate_above_);
+      if (!is_of_piece(k, below_)) state(route, k, time);
+      turned_states(route, k, time, at_z());
       route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
                 false);
     }
@@ -157,19 +186,18 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void from_above() {
     Route route(n_);
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
-      turned_fans(route, above_, z_, above_, rate_above_);
+      turned_fans(route, above_, Scalar(0), at_z());
+    Scalar time(0);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
       if (!is_of_piece(k, above_)) state_that_turns_at_once(route, k);
-      if (k == above_)
-        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - z_, rate_above_, view_.high[k], false);
-      else
-        route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - view_.x[k], view_.low[k], view_.high[k],
-                  false);
+      const Entrance from = k == above_ ? at_z() : at_node(k);
+      route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - from.z, from.rate, view_.high[k], false);
+      time += from.time;
       const std::size_t node = k + 1;
-      if (node == n_ || view_.pure[node] - pure_z_ > late_) return;
-      turned_states(route, k, view_.x[node], node, view_.low[node]);
-      if (view_.emits[node]) turned_fans(route, node, view_.x[node], node, view_.low[node]);
+      if (node == n_ || time > late_) return;
+      turned_states(route, k, time, at_node(node));
+      if (view_.emits[node]) turned_fans(route, node, time, at_node(node));
     }
   }
 
@@ -179,9 +207,8 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
            (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
   }
 
-  void turned_fans(const Route& once, std::size_t node, const Scalar& from, std::size_t first,
-                   const Scalar& rate) {
-    turns(once, view_.M[node], node, node, from, first, rate, {Scalar(0), infinity<Scalar>()},
+  void turned_fans(const Route& once, std::size_t node, const Scalar& time, const Entrance& from) {
+    turns(once, time, view_.M[node], node, node, from, {Scalar(0), infinity<Scalar>()},
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             if (!turn_times(way, j, lo, hi).may_be(t_)) return;
@@ -189,10 +216,9 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
             turned_fan(way, node, j, lo, hi, top);
           });
   }
-  void turned_states(const Route& once, std::size_t k, const Scalar& from, std::size_t first,
-                     const Scalar& rate) {
+  void turned_states(const Route& once, std::size_t k, const Scalar& time, const Entrance& from) {
     if (!has_moving_state(k)) return;
-    turns(once, view_.least_amount(k), k, k + 1, from, first, rate, h_of_cell(k),
+    turns(once, time, view_.least_amount(k), k, k + 1, from, h_of_cell(k),
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             const Range h = h_of_cell(k);
@@ -230,24 +256,28 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
   }
 
-  /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, `first` and above, in which
-  /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass besides.
+  /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, that of `from` and above, in which
+  /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass
+  /// besides, which takes pure states the time `time`.
   /// fill() gives the route its runs: most are ruled out without them.
   template <class Found>
-  void turns(const Route& once, const Scalar& M0, std::size_t start, std::size_t node, const Scalar& from,
-             std::size_t first, const Scalar& rate, const Range& range, const Found& found) {
+  void turns(const Route& once, Scalar time, const Scalar& M0, std::size_t start, std::size_t node,
+             const Entrance& from, const Range& range, const Found& found) {
     Route& way = scratch_;
+    const std::size_t first = from.cell;
     way.stretches = once.stretches;
     way.least = once.least;
     way.turn_bend = Scalar(0);
     bool is_filled = false;
     std::size_t filled = first;
-    const auto entry_of = [&](std::size_t j) -> const Scalar& { return j == first ? rate : view_.low[j]; };
-    const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from : view_.x[j]; };
+    const auto entry_of = [&](std::size_t j) -> const Scalar& {
+      return j == first ? from.rate : view_.low[j];
+    };
+    const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from.z : view_.x[j]; };
     for (std::size_t j = first; j < n_; ++j) {
       const Scalar &entry = entry_of(j), &height = height_of(j);
       // Out of reach, or dearer than what there is: the height is gained, on one of both ways.
-      if (j > first && Scalar(2) * view_.pure[j] - view_.pure[node] - pure_z_ > late_) return;
+      if (time > late_) return;
       if (M0 + gained(view_.x[node], height) > limit()) return;
       const Scalar least = std::min(way.least, entry);
       if (least < range.least) return;
@@ -273,11 +303,13 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       }
       way.stretches.add(view_.bends[j], Scalar(view_.x[j + 1] - height), entry, view_.high[j], true);
       way.least = std::min(least, view_.high[j]);
+      time += Scalar(2) * (j == first ? from.time : view_.pure_time[j]);
     }
   }
 
-  void state(Route& route, std::size_t k) {
-    if (!view_.is_curved(k) && view_.missing[k] == 0) return pure_state(k);
+  /// `time`: of pure states along the route.
+  void state(Route& route, std::size_t k, const Scalar& time) {
+    if (!view_.is_curved(k) && view_.missing[k] == 0) return pure_state(k, time);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
@@ -328,13 +360,13 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
 
   /// H = 0: the time from the start is int dz / r.
-  void pure_state(std::size_t k) {
+  void pure_state(std::size_t k, const Scalar& time) {
     using std::expm1;
     using std::log1p;
     if (moving_only_) return;
-    const Scalar left = t_ - (pure_z_ - view_.pure[k + 1]);
+    const Scalar left = t_ - time;
     // By time, as the cells beside this one: in a thin cell heights within rounding may be far away in time.
-    if (left < t_ - late_ || t_ - (pure_z_ - view_.pure[k]) > late_ - t_) return;
+    if (time > late_ || left - view_.pure_time[k] > late_ - t_) return;
     const Scalar &b = view_.bend[k], x = -b * left, way = view_.high[k] * left;
     Scalar d = way;
     if (view_.form[k] == RateForm::exponential) {

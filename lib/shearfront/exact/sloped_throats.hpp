@@ -12,31 +12,37 @@
 
 namespace shearfront::exact {
 
-/// Time and gain of a run at a fixed h between two heights of a view, over cells whose rate is h at least: int p dz = the
-/// height gained on ways up + gain, gain <= 0. The time is infinite where it cannot go.
+/// Time and gain of a run at a fixed h away from a throat: int p dz = the height gained on ways up + gain, gain <= 0. The
+/// time is infinite where it cannot go.
 template <Real Scalar>
 struct SlopedWay {
   Scalar T{0}, gain{0};
+  Scalar excess{
+      0};  ///< r - h where it has come to: next to a throat by how r runs, for the rates there may be equal
 
-  void add(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& r2, const Scalar& h) {
+  /// Over d through a cell, or a part of it, in which r goes from r1 to r2 and has the bend `bend` that way.
+  void add(RateForm form, const Scalar& bend, const Scalar& d, const Scalar& r1, const Scalar& r2,
+           const Scalar& h, bool is_new_piece) {
+    if (is_new_piece) excess = r1 - h;
     if (!(d > 0)) return;
-    add(form, d, r1, q_at(r1, h, Scalar(0)), r2, q_at(r2, h, Scalar(0)), h);
+    const Scalar q1 = q_of(excess, r1);
+    excess += rise_of(form, bend, r1, d);
+    add_run(form, d, r1, q1, r2, excess < 0 ? Scalar(-1) : q_of(excess, r2), h);
   }
-  /// To the end of a query: r rises by `rise`, which next to r1 = h knows more than r2 - r1.
-  void add_last(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& rise, const Scalar& r2,
-                const Scalar& h) {
-    using std::sqrt;
-    if (!(d > 0)) return;
-    const Scalar q2 = ((r1 - h) + rise) / r2;
-    add(form, d, r1, q_at(r1, h, Scalar(0)), r2, q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0), h);
-  }
-
- private:
-  void add(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
-           const Scalar& q2, const Scalar& h) {
+  /// To where a state with |2 p - 1| = q2 starts.
+  void add_run(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
+               const Scalar& q2, const Scalar& h) {
+    if (q2 < 0) {
+      T = infinity<Scalar>();
+      return;
+    }
     const Crossing<Scalar> c(form, d, r1, q1, r2, q2, h);
     T += c.T;
     if (is_finite(c.T)) gain += c.X - h / Scalar(4) * c.T;
+  }
+  [[nodiscard]] static Scalar q_of(const Scalar& excess, const Scalar& rate) {
+    using std::sqrt;
+    return excess > 0 ? Scalar(sqrt(Scalar(excess / rate))) : Scalar(0);
   }
 };
 
@@ -86,19 +92,15 @@ class SlopedThroats {
       if (throat.starts.back().A + shift > limit) continue;
       SlopedWay<Scalar> way;
       if (is_above) {
-        for (std::size_t k = throat.node; k < cell_below && way.T <= t; ++k)
-          way.add(up.form[k], up.x[k + 1] - up.x[k], up.low[k], up.high[k], throat.h);
-        const Scalar d = z - up.x[cell_below];
-        way.add_last(up.form[cell_below], d, up.low[cell_below],
-                     rise_of(up.form[cell_below], up.bend[cell_below], up.low[cell_below], d), rate_below,
-                     throat.h);
+        std::size_t k = throat.node;
+        for (; k < cell_below && way.T <= t; ++k) cross(up, k, true, throat.node, throat.h, way);
+        way.add(up.form[k], up.bend[k], z - up.x[k], up.low[k], rate_below, throat.h,
+                is_new_piece(up, k, true, throat.node));
       } else if (z < z_i) {
-        for (std::size_t k = throat.node - 1; k > cell_above && way.T <= t; --k)
-          way.add(up.form[k], up.x[k + 1] - up.x[k], up.high[k], up.low[k], throat.h);
-        const Scalar d = up.x[cell_above + 1] - z;
-        way.add_last(up.form[cell_above], d, up.high[cell_above],
-                     rise_of(up.form[cell_above], up.bend[cell_above], up.high[cell_above], Scalar(-d)),
-                     rate_above, throat.h);
+        std::size_t k = throat.node - 1;
+        for (; k > cell_above && way.T <= t; --k) cross(up, k, false, throat.node, throat.h, way);
+        way.add(up.form[k], Scalar(-up.bend[k]), up.x[k + 1] - z, up.high[k], rate_above, throat.h,
+                is_new_piece(up, k, false, throat.node));
       }
       if (!(way.T <= t)) continue;
       const Scalar left = t - way.T;
@@ -125,6 +127,19 @@ class SlopedThroats {
   [[nodiscard]] const std::vector<Throat>& all() const { return all_; }
 
  private:
+  /// Whether the way from a throat enters cell k at the throat or from another piece.
+  [[nodiscard]] static bool is_new_piece(const SlopedView<Scalar>& view, std::size_t k, bool is_upward,
+                                         std::size_t node) {
+    return is_upward ? k == node || view.piece[k - 1] != view.piece[k]
+                     : k + 1 == node || view.piece[k + 1] != view.piece[k];
+  }
+  static void cross(const SlopedView<Scalar>& view, std::size_t k, bool is_upward, std::size_t node,
+                    const Scalar& h, SlopedWay<Scalar>& way) {
+    way.add(view.form[k], is_upward ? view.bend[k] : Scalar(-view.bend[k]), view.x[k + 1] - view.x[k],
+            is_upward ? view.low[k] : view.high[k], is_upward ? view.high[k] : view.low[k], h,
+            is_new_piece(view, k, is_upward, node));
+  }
+
   /// Starts below the node in this view.
   void collect(const SlopedView<Scalar>& view, std::size_t node, Throat& throat) {
     const Scalar& h = throat.h;
@@ -140,6 +155,8 @@ class SlopedThroats {
         start.source = is_state ? cell : view.is_mirror ? n - k : k;
         throat.starts.push_back(start);
       };
+      const Scalar four_g = view.is_curved(k) ? Scalar(0) : Scalar(Scalar(4) * view.p[k] * view.missing[k]);
+      const Scalar excess = is_new_piece(view, k, false, node) ? Scalar(view.high[k] - h) : way.excess;
       if (view.is_curved(k)) {
         // The start whose state has the h of the throat.
         Scalar lo = view.x[k], hi = view.x[k + 1];
@@ -151,25 +168,34 @@ class SlopedThroats {
         if (keep_where<Scalar>(over, lo, hi))
           if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
             SlopedWay<Scalar> to = way;
-            to.add(view.form[k], view.x[k + 1] - *y, view.rate(k, *y), view.high[k], h);
+            to.add_run(view.form[k], Scalar(view.x[k + 1] - *y), view.high[k],
+                       SlopedWay<Scalar>::q_of(excess, view.high[k]), view.rate(k, *y),
+                       CurvedState<Scalar>(view, k, *y).q0, h);
             add(*y, to, true);
           }
       }
-      const Scalar four_g = view.is_curved(k) ? Scalar(0) : Scalar(Scalar(4) * view.p[k] * view.missing[k]);
       if (view.q0[k] > 0 && four_g > 0 && view.bend[k] != 0) {
-        const Scalar r = h / four_g;
+        // Its start, from the end where r is least.
+        const Scalar r = h / four_g, q2 = view.q0[k] * view.q0[k], width = view.x[k + 1] - view.x[k];
         const bool is_rising = view.bend[k] > 0;
-        const Scalar& near = is_rising ? view.low[k] : view.high[k];
-        const Scalar y = (is_rising ? view.x[k] : view.x[k + 1]) +
-                         distance_of(view.form[k], view.bend[k], near, Scalar(r - near));
-        if (y >= view.x[k] && y <= view.x[k + 1]) {
+        const Scalar& least = is_rising ? view.low[k] : view.high[k];
+        const Scalar over =
+            is_rising ? Scalar(excess + rise_of(view.form[k], Scalar(-view.bend[k]), view.high[k], width))
+                      : excess;
+        // h / (4 g) - r, where g has lost what 1 - 4 g keeps from r - h.
+        const Scalar rise = q2 > Scalar(0.5) ? Scalar(r - least) : Scalar((least * q2 - over) / four_g);
+        const Scalar d =
+            distance_of(view.form[k], is_rising ? view.bend[k] : Scalar(-view.bend[k]), least, rise);
+        if (d >= 0 && d <= width) {
           SlopedWay<Scalar> to = way;
-          to.add(view.form[k], view.x[k + 1] - y, r, view.high[k], h);
-          add(y, to, true);
+          const Scalar left = is_rising ? Scalar(width - d) : d;
+          to.add_run(view.form[k], left, view.high[k], SlopedWay<Scalar>::q_of(excess, view.high[k]), r,
+                     view.q0[k], h);
+          add(Scalar(view.x[k + 1] - left), to, true);
         }
       }
       if (view.low[k] < h) return;
-      way.add(view.form[k], view.x[k + 1] - view.x[k], view.high[k], view.low[k], h);
+      cross(view, k, false, node, h, way);
       if (!is_finite(way.T)) return;
       const std::size_t reached = view.is_mirror ? n - k : k;
       throat.lowest = std::min(throat.lowest, reached);
