@@ -19,7 +19,7 @@
 namespace shearfront {
 namespace {
 
-Scene<double> read(const std::string& name) {
+Scene<double> read_start(const std::string& name) {
   return Scene<double>(read_scene<double>(SHEARFRONT_SOURCE_DIR "/tests/cases/inputs/" + name));
 }
 
@@ -34,7 +34,7 @@ double burgers_before_shock(double x, double t) {
 }
 
 TEST(SmoothStarts, BurgersEquationOnARing) {
-  const Scene<double> scene = read("burgers-ring.toml");
+  const Scene<double> scene = read_start("burgers-ring.toml");
   SolverRequest request{{0.5}, {}};
   for (int i = 0; i < 60; ++i) request.heights.push_back(2 * std::numbers::pi * (i + 0.5) / 60);
   int n = 0;
@@ -53,7 +53,7 @@ TEST(SmoothStarts, BurgersEquationOnARing) {
 }
 
 TEST(SmoothStarts, AProfileMeasuredInATable) {
-  const Scene<double> scene = read("measured-profile.toml");
+  const Scene<double> scene = read_start("measured-profile.toml");
   const ExactSolution<double> exact(scene);
   EXPECT_TRUE(exact.meets_tolerance());
   const auto times = exact_timeline(exact);
@@ -77,7 +77,7 @@ TEST(SmoothStarts, AProfileMeasuredInATable) {
 }
 
 TEST(SmoothStarts, WhatNoSolverTakesIsSaidByTheSolvers) {
-  SceneSpec<double> spec = read("burgers-ring.toml").spec();
+  SceneSpec<double> spec = read_start("burgers-ring.toml").spec();
   spec.shear_rate = Table<double>{{0, 7}, {1, 2}};  // periodic, and a(z) is not the same at both ends
   spec.initial_state = SineInitial<double>{0.25, 0.5, 2 * std::numbers::pi, 0};
   const Scene<double> scene(spec);

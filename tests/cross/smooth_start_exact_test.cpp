@@ -16,17 +16,17 @@
 namespace shearfront {
 namespace {
 
-struct Worst {
+struct WorstGap {
   double over = 0;  ///< |M difference| less the bound
   double phi = 0;   ///< mean |phi difference| over all places
   int n_places = 0;
 };
 
 /// At random places and times; phi may differ much where shocks are a little elsewhere.
-Worst compare(const SceneSpec<double>& spec, int n_cells, support::SceneMaker& make) {
+WorstGap compare_with_cells(const SceneSpec<double>& spec, int n_cells, support::SceneMaker& make) {
   const support::CellStart cells = support::as_cells(spec, n_cells);
   const ExactSolution<double> smooth{Scene<double>(spec)}, steps{Scene<double>(cells.spec)};
-  Worst worst;
+  WorstGap worst;
   worst.over = -1;
   const double crossing = smooth.medium().pure_travel_time(smooth.medium().bottom(), smooth.medium().top());
   for (int n = 0; n < 40; ++n) {
@@ -40,7 +40,7 @@ Worst compare(const SceneSpec<double>& spec, int n_cells, support::SceneMaker& m
   return worst;
 }
 
-constexpr double kRounding = 1e-13;
+constexpr double kRoundingOfM = 1e-13;
 
 TEST(SmoothStartExact, InLayersOfParabolas) {
   int n = 0;
@@ -50,8 +50,8 @@ TEST(SmoothStartExact, InLayersOfParabolas) {
     SceneSpec<double> spec;
     spec.shear_rate = make.layers(make.integer(1, 5), make.order());
     spec.initial_state = support::random_start(make);
-    const Worst worst = compare(spec, 400, make);
-    EXPECT_LE(worst.over, kRounding) << "seed " << 71000 + number;
+    const WorstGap worst = compare_with_cells(spec, 400, make);
+    EXPECT_LE(worst.over, kRoundingOfM) << "seed " << 71000 + number;
     phi += worst.phi;
     n += worst.n_places;
   }
@@ -73,8 +73,8 @@ TEST(SmoothStartExact, WithOtherFluxes) {
     spec.initial_state = support::random_start(make, range.lowest, range.highest);
     const Scene<double> scene(spec);
     if (!exact::refusal(scene).empty()) continue;
-    const Worst worst = compare(spec, 200, make);
-    EXPECT_LE(worst.over, kRounding * (range.highest - range.lowest))
+    const WorstGap worst = compare_with_cells(spec, 200, make);
+    EXPECT_LE(worst.over, kRoundingOfM * (range.highest - range.lowest))
         << "seed " << 72000 + number << ' ' << spec.fluxes[0].name();
     phi += worst.phi / (range.highest - range.lowest);
     n += worst.n_places;
@@ -102,8 +102,8 @@ TEST(SmoothStartExact, InSlopedPieces) {
       spec.shear_rate = table;
     }
     spec.initial_state = support::random_start(make);
-    const Worst worst = compare(spec, 100, make);
-    EXPECT_LE(worst.over, kRounding) << "seed " << 73000 + number;
+    const WorstGap worst = compare_with_cells(spec, 100, make);
+    EXPECT_LE(worst.over, kRoundingOfM) << "seed " << 73000 + number;
     phi += worst.phi;
     n += worst.n_places;
   }

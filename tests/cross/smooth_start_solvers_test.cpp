@@ -24,26 +24,26 @@
 namespace shearfront {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 /// u_t + (u^2 / 2)_x = 0 on a ring, u(x, 0) = 1/3 + 2/3 sin x.
 Scene<double> burgers_ring() {
   SceneSpec<double> spec;
   spec.fluxes = {Burgers<double>{}};
   spec.shear_rate = Piecewise<double>{{}, {1}};
-  spec.top = 2 * kPi;
+  spec.top = 2 * kHalfTurn;
   spec.is_periodic = true;
-  spec.initial_state = SineInitial<double>{1.0 / 3, 2.0 / 3, 2 * kPi, 0};
+  spec.initial_state = SineInitial<double>{1.0 / 3, 2.0 / 3, 2 * kHalfTurn, 0};
   return Scene<double>(spec);
 }
 /// In a frame that moves with 1/3 the wave is odd about x = pi, where the shock stands from t = 3/2 on; to its left u is the
 /// first root of y + 2/3 sin(y) t = x.
-double burgers(double x, double t) {
-  double moved = std::fmod(x - t / 3, 2 * kPi);
-  if (moved < 0) moved += 2 * kPi;
-  const bool is_right = moved > kPi;
-  if (is_right) moved = 2 * kPi - moved;
-  double lo = 0, hi = t > 1.5 ? std::acos(-1.5 / t) : kPi;
+double burgers_on_ring(double x, double t) {
+  double moved = std::fmod(x - t / 3, 2 * kHalfTurn);
+  if (moved < 0) moved += 2 * kHalfTurn;
+  const bool is_right = moved > kHalfTurn;
+  if (is_right) moved = 2 * kHalfTurn - moved;
+  double lo = 0, hi = t > 1.5 ? std::acos(-1.5 / t) : kHalfTurn;
   for (int i = 0; i < 100; ++i) {
     const double y = lo + (hi - lo) / 2;
     (y + 2.0 / 3 * std::sin(y) * t < moved ? lo : hi) = y;
@@ -60,7 +60,7 @@ double l1_from_burgers(const Profile<double>& profile, double t) {
     for (int k = 0; k < kPoints; ++k) {
       const double part = (k + 0.5) / kPoints;
       const double phi = profile.below()[i] + part * (profile.above()[i] - profile.below()[i]);
-      sum += width / kPoints * std::abs(phi - burgers(lo + part * width, t));
+      sum += width / kPoints * std::abs(phi - burgers_on_ring(lo + part * width, t));
     }
   }
   return sum;
@@ -115,7 +115,7 @@ TEST(BurgersRing, IsRefusedByTheExactMethodOnly) {
   EXPECT_EQ(Method("godunov").refusal(scene), "");
 }
 
-std::vector<std::string> without_diffusion() {
+std::vector<std::string> solvers_of_smooth_starts() {
   std::vector<std::string> names = Method::names();
   std::erase_if(names, [](const std::string& name) { return Method(name).guarantees().diffusion; });
   return names;
@@ -123,10 +123,10 @@ std::vector<std::string> without_diffusion() {
 
 /// M as the exact one to the order of the method, mass and range as promised, from any start.
 TEST(SmoothStartSolvers, KeepWhatTheyGuarantee) {
-  constexpr double kResolution = 0.02;
+  constexpr double kStepOfPhi = 0.02;
   int n_checked = 0;
-  for (const std::string& name : without_diffusion()) {
-    const Method method = support::method_of(name, {{"resolution", kResolution}, {"cells", 200}});
+  for (const std::string& name : solvers_of_smooth_starts()) {
+    const Method method = support::method_of(name, {{"resolution", kStepOfPhi}, {"cells", 200}});
     const Guarantees promised = method.guarantees();
     for (std::uint64_t number = 0; number < 12; ++number) {
       SCOPED_TRACE(name + ", seed " + std::to_string(77000 + number));
@@ -142,12 +142,12 @@ TEST(SmoothStartSolvers, KeepWhatTheyGuarantee) {
       ASSERT_TRUE(result.summary.usable()) << result.summary.message;
       const ExactSolution<double> exact(scene);
       double slack = 1e-12;
-      if (!promised.exact) slack = 2 * std::pow(kResolution, promised.order_M);
+      if (!promised.exact) slack = 2 * std::pow(kStepOfPhi, promised.order_M);
       // What M is off at the start, by wide steps where it is nearly level, it may be off for ever.
       double at_start = 0;
       for (std::size_t j = 0; j < request.heights.size(); ++j)
         at_start = std::max(at_start, std::abs(result.M(0, j) - exact.M(request.heights[j], 0)));
-      EXPECT_LE(at_start, promised.exact ? 1e-15 : kResolution / 4);
+      EXPECT_LE(at_start, promised.exact ? 1e-15 : kStepOfPhi / 4);
       slack += 1.5 * at_start;
       for (std::size_t i = 0; i < request.times.size(); ++i)
         for (std::size_t j = 0; j < request.heights.size(); ++j) {
