@@ -89,10 +89,13 @@ void note_pieces(const Scene<double>& scene, const ExactSolution<double>& exact,
       const double z = scene.bottom() + (scene.top() - scene.bottom()) * i / kHeights;
       worst = std::max(worst, exact.at(z, t).M_error);
     }
-  note(fmt::format(
-      "the bed varies smoothly: errors are measured against {} pieces of it, whose own error of M "
-      "is about {:.1e}; differences below that mean nothing",
-      exact.n_layers(), worst));
+  const std::string whose =
+      fmt::format("whose own error of M is about {:.1e}; differences below that mean nothing", worst);
+  note(exact.form().is_exact()
+           ? fmt::format("the start is smooth: errors are measured against a search in {} parts of it, {}",
+                         exact.form().n_start_parts(), whose)
+           : fmt::format("the bed varies smoothly: errors are measured against {} pieces of it, {}",
+                         exact.n_layers(), whose));
 }
 
 /// Says which methods ended early and why. Returns whether there is any result.

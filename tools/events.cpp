@@ -190,6 +190,10 @@ void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>
   settings.layers = static_cast<std::size_t>(number_of(method, "layers"));
   if (const double tolerance = number_of(method, "tolerance"); tolerance > 0) settings.tolerance = tolerance;
   const ExactSolution<double> solution(scene, settings);
+  if (!solution.is_exact() && solution.form().is_exact())
+    refuse("--digits", arguments.digits,
+           "must be left out for a smooth start where a(z) is not constant in pieces: its times are those of "
+           "a search");
   if (!solution.is_exact())
     refuse("--digits", arguments.digits,
            fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",

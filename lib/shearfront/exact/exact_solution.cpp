@@ -27,7 +27,7 @@ ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options
   const auto shared = std::make_shared<const Scene<Scalar>>(scene);
   resolution_ = options.layers > 0 ? options.layers : kFirstPieces;
   fine_ = represent(shared, resolution_);
-  if (!form().is_exact()) {
+  if (!form().is_final()) {
     if (options.layers == 0 && !form().has_pieces()) fine_ = represent(shared, resolution_ = kDefaultLayers);
     coarse_ = represent(shared, (resolution_ + 1) / 2);
     if (options.layers == 0 && form().has_pieces()) represent_within(shared, options.tolerance);
@@ -44,9 +44,10 @@ void ExactSolution<Scalar>::represent_within(const std::shared_ptr<const Scene<S
     probed_error_ = probe();
     const double error = to_double(probed_error_);
     meets_tolerance_ = error <= tolerance;
-    if (meets_tolerance_ || n >= kMostPieces) return;
+    const std::size_t most = form().is_exact() ? kMostParts : kMostPieces;
+    if (meets_tolerance_ || n >= most) return;
     std::size_t next = 2 * n;
-    for (double left = error / 4; left > tolerance && next < kMostPieces; left /= 4) next *= 2;
+    for (double left = error / 4; !form().is_exact() && left > tolerance && next < most; left /= 4) next *= 2;
     coarse_ = next == 2 * n ? std::move(fine_) : represent(scene, next / 2);
     fine_ = represent(scene, next);
     resolution_ = n = next;
@@ -112,7 +113,7 @@ auto ExactSolution<Scalar>::value_at_rest(const Scalar& z, bool is_initial) cons
   Value value;
   if (is_initial) {
     const auto& cells = medium().cells();
-    value.phi = cells.phi[cells.cell_at(y)];
+    value.phi = cells.state(cells.cell_at(y), y);
     value.M = y == medium().top() ? mass : std::min(cells.cumulative(y), mass);
     value.H = medium().flux_at(y, value.phi);
   } else {

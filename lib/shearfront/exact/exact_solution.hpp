@@ -19,6 +19,9 @@ namespace shearfront {
 /// Every scene is solved in its canonical form (exact/canonical_form.hpp) and mapped back. Value::H = dM/dt = -F is
 /// negative for concave fluxes.
 ///
+/// Smooth starts (Scene::has_smooth_start): guarantee (1) in layered scenes; elsewhere paths from them are looked for in parts of the bed,
+/// which are halved, and whose error is estimated, as (3) says.
+///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
 /// it, at the top the value below. Guarantees: (1) layered scenes, and a linear (tables) or exponential in pieces with fluxes
@@ -48,6 +51,7 @@ class ExactSolution {
   };
   static constexpr std::size_t kDefaultLayers = 128;
   static constexpr std::size_t kFirstPieces = 32, kMostPieces = 4096;
+  static constexpr std::size_t kMostParts = 512;  ///< of a bed that is exact but for its smooth start
 
   struct Value {
     Scalar phi{0}, M{0}, H{0};

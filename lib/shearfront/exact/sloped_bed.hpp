@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -61,13 +62,16 @@ struct SlopedView {
   std::vector<RateForm> form;
   std::vector<Scalar> bend;  ///< of r in each cell
   std::vector<RelativeBends<Scalar>> bends;
-  std::vector<Scalar> p, missing;  ///< initial state of each cell, and what it lacks to 1
-  std::vector<Scalar> q0;          ///< 2 p - 1
-  std::vector<Scalar> pure_time;   ///< int dz / r over each cell
-  std::vector<bool> emits;         ///< a fan can leave the node upwards
+  std::vector<Scalar> p,
+      missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
+  std::vector<Scalar> p_high;                       ///< at its upper end
+  std::vector<Scalar> q0;                           ///< 2 p - 1
+  std::vector<Scalar> pure_time;                    ///< int dz / r over each cell
+  std::vector<bool> emits;                          ///< a fan can leave the node upwards
+  std::shared_ptr<const StartShape<Scalar>> shape;  ///< of a smooth start
 
   SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored)
-      : is_mirror(mirrored), M(cells.M) {
+      : is_mirror(mirrored), M(cells.M), shape(cells.shape) {
     const Scalar one(1);
     for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
     for (std::size_t i = 0; i < cells.n_cells(); ++i) {
@@ -80,13 +84,15 @@ struct SlopedView {
       piece.push_back(k);
       form.push_back(pieces.form[k]);
       bend.push_back(mirrored ? Scalar(-pieces.bend[k]) : pieces.bend[k]);
-      p.push_back(mirrored ? Scalar(one - cells.phi[i]) : cells.phi[i]);
-      missing.push_back(mirrored ? cells.phi[i] : Scalar(one - cells.phi[i]));
-      q0.push_back(mirrored ? Scalar(one - Scalar(2) * cells.phi[i])
-                            : Scalar(Scalar(2) * cells.phi[i] - one));
+      const Scalar &phi = mirrored ? cells.phi_high[i] : cells.phi[i],
+                   &phi_high = mirrored ? cells.phi[i] : cells.phi_high[i];
+      p.push_back(mirrored ? Scalar(one - phi) : phi);
+      p_high.push_back(mirrored ? Scalar(one - phi_high) : phi_high);
+      missing.push_back(mirrored ? phi : Scalar(one - phi));
+      q0.push_back(mirrored ? Scalar(one - Scalar(2) * phi) : Scalar(Scalar(2) * phi - one));
     }
     if (mirrored) {
-      for (auto* all : {&x, &M, &low, &high, &bend, &p, &missing, &q0})
+      for (auto* all : {&x, &M, &low, &high, &bend, &p, &p_high, &missing, &q0})
         std::reverse(all->begin(), all->end());
       std::reverse(form.begin(), form.end());
       std::reverse(piece.begin(), piece.end());
@@ -108,8 +114,12 @@ struct SlopedView {
                                    : rate_beyond(form[cell], bend[cell], high[cell], Scalar(-above));
     return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
   }
+  [[nodiscard]] bool is_curved(std::size_t cell) const { return shape && p[cell] != p_high[cell]; }
   /// Initial amount below a height of a cell, in the true orientation.
   [[nodiscard]] Scalar amount(std::size_t cell, const Scalar& z) const {
+    if (is_curved(cell))
+      return M[cell] + (is_mirror ? Scalar(-shape->amount(piece[cell], Scalar(-z), Scalar(-x[cell])))
+                                  : shape->amount(piece[cell], x[cell], z));
     return is_mirror ? Scalar(M[cell] - missing[cell] * (z - x[cell]))
                      : Scalar(M[cell] + p[cell] * (z - x[cell]));
   }
@@ -136,10 +146,12 @@ struct SlopedView {
   [[nodiscard]] bool may_emit(std::size_t node) const {
     const Scalar slack = Scalar(1) / Scalar(1 << 20), one(1);
     const std::size_t b = node - 1, a = node;
-    if (!(p[b] < p[a]) && !is_jump(node)) return false;
+    if (!(p_high[b] < p[a]) && !is_jump(node)) return false;
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
-    const Scalar most = std::min(low[a], q0[b] > 0 ? h(b, high[b]) : high[b]);
+    const Scalar below =
+        p_high[b] + p_high[b] > one ? Scalar(Scalar(4) * p_high[b] * (one - p_high[b]) * high[b]) : high[b];
+    const Scalar most = std::min(low[a], below);
     // Between pure states a fan is no more than the path of the state, which is no moving one.
     return most > 0 && least <= most * (one + slack);
   }

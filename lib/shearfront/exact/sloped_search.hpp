@@ -5,6 +5,7 @@
 
 #include "shearfront/exact/arc.hpp"
 #include "shearfront/exact/sloped_candidates.hpp"
+#include "shearfront/exact/sloped_curved.hpp"
 
 namespace shearfront::exact {
 
@@ -42,8 +43,8 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     while (first > 0 && is_of_piece(first - 1, cell)) --first;
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
-      if (!view_.is_mirror && !(moving_only_ && (view_.p[k] == 0 || view_.missing[k] == 0)))
-        state_inside(cell, k, first, last);
+      const bool is_pure = !view_.is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
+      if (!view_.is_mirror && !(moving_only_ && is_pure)) state_inside(cell, k, first, last);
     };
     const auto fan = [&](std::size_t k) {
       if (k > 0 && view_.emits[k]) fan_inside(cell, k, first, last);
@@ -67,6 +68,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
   /// From cell k; `first` and `last` are the outermost cells of the piece.
   void state_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
+    if (view_.is_curved(k)) return curved_inside(cell, k, first, last);
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
@@ -77,6 +79,48 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     const Scalar y = z_ - arc.rise;
     accept(cell, arc, std::clamp(y, view_.x[k], view_.x[k + 1]), PathKind::constant, k, view_.amount(k, y),
            first, last);
+  }
+  /// From the height of a curved cell whose state comes to z.
+  void curved_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
+    const auto arc_from = [&](const Scalar& y) {
+      const CurvedState<Scalar> state(view_, k, y);
+      return arc_from_state(view_.form[cell], view_.bend[cell], t_, state.p, state.missing,
+                            rate_beside(cell));
+    };
+    const auto gap = [&](const Scalar& y) -> std::optional<Scalar> {
+      const auto arc = arc_from(y);
+      return arc.exists ? std::optional(Scalar(y + arc.rise - z_)) : std::nullopt;
+    };
+    sign_changes<Scalar>(gap, view_.x[k], view_.x[k + 1], [&](const Scalar& y) {
+      const auto arc = arc_from(y);
+      if (moving_only_ && (arc.p == 0 || arc.missing == 0)) return;
+      accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y), first, last);
+    });
+  }
+  /// From the height of a curved cell whose path comes along the route at the time t.
+  void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
+                    bool turned, std::size_t turn) {
+    Scalar lo = view_.x[k], hi = view_.x[k + 1];
+    const auto h = [&](const Scalar& y) {
+      const CurvedState<Scalar> state(view_, k, y);
+      return Scalar(Scalar(4) * state.p * state.missing * view_.rate(k, y));
+    };
+    if (!keep_where<Scalar>([&](const Scalar& y) { return CurvedState<Scalar>(view_, k, y).q0; }, lo, hi) ||
+        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(route.least - h(y)); }, lo, hi) ||
+        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
+      return;
+    const auto late = [&](const Scalar& y) -> std::optional<Scalar> {
+      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
+      return start ? std::optional(Scalar(start->s.T - t_)) : std::nullopt;
+    };
+    sign_changes<Scalar>(late, lo, hi, [&](const Scalar& y) {
+      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
+      if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
+      const SlopedSample<Scalar>& s = start->s;
+      const Scalar value =
+          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s.X + s.h / Scalar(4) * (t_ - s.T);
+      offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+    });
   }
   /// From the lower node of cell k.
   void fan_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
@@ -158,6 +202,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
 
   [[nodiscard]] bool has_moving_state(std::size_t k) const {
+    if (view_.is_curved(k)) return std::max(view_.p[k], view_.p_high[k]) > Scalar(0.5);
     return view_.p[k] > 0 && view_.missing[k] > 0 &&
            (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
   }
@@ -191,8 +236,13 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   };
   /// h of the state of cell k.
   [[nodiscard]] Range h_of_cell(std::size_t k) const {
-    return {view_.h(k, std::min(view_.low[k], view_.high[k])),
-            view_.h(k, std::max(view_.low[k], view_.high[k]))};
+    const Scalar &least = std::min(view_.low[k], view_.high[k]),
+                 &most = std::max(view_.low[k], view_.high[k]);
+    if (!view_.is_curved(k)) return {view_.h(k, least), view_.h(k, most)};
+    const Scalar &p = std::min(view_.p[k], view_.p_high[k]), &q = std::max(view_.p[k], view_.p_high[k]);
+    const Scalar one(1), four_g = Scalar(4) * p * (one - p), other = Scalar(4) * q * (one - q);
+    const bool has_peak = p + p < one && q + q > one;
+    return {std::min(four_g, other) * least, (has_peak ? one : std::max(four_g, other)) * most};
   }
   using Stretches = SlopedStretches<Scalar>;
   [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Scalar& h0,
@@ -201,6 +251,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
   /// Most time from a start in cell k to its upper end.
   [[nodiscard]] Scalar most_from_state(std::size_t k, const Scalar& h0, const Scalar& h1) const {
+    if (view_.is_curved(k)) return infinity<Scalar>();
     if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
     return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
   }
@@ -258,7 +309,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
 
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
-    if (view_.missing[k] == 0) return pure_state(k, time);
+    if (!view_.is_curved(k) && view_.missing[k] == 0) return pure_state(k, time);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
@@ -268,7 +319,9 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (!times.may_be(t_)) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
-    if (view_.bend[k] == 0)
+    if (view_.is_curved(k))
+      curved_state(route, k, true, Scalar(0), z_, false, 0);
+    else if (view_.bend[k] == 0)
       flat_state(route, k, z_, false, 0, Scalar(0));
     else
       search_state(route, range_of(route, k, Leaves::upwards, Scalar(0)), view_.bend[k] > 0 ? -1 : 1, z_,
@@ -279,13 +332,13 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void turned_state(Route& route, std::size_t k, std::size_t j, const Scalar& lo, const Scalar& hi,
                     const Scalar& top) {
     if (view_.least_amount(k) + gained(view_.x[k + 1], top) > limit()) return;
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
-    if (four_g * std::max(view_.low[k], view_.high[k]) < lo ||
-        four_g * std::min(view_.low[k], view_.high[k]) > hi)
-      return;
+    const Range h = h_of_cell(k);
+    if (h.most < lo || h.least > hi) return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
-    if (view_.bend[k] == 0)
+    if (view_.is_curved(k))
+      curved_state(route, k, true, lo, top, true, j);
+    else if (view_.bend[k] == 0)
       flat_state(route, k, top, true, j, lo);
     else
       search_state(route, range_of(route, k, Leaves::upwards, lo), view_.bend[k] > 0 ? 1 : -1, top, true, j);
@@ -295,12 +348,14 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
     if (!has_moving_state(k) || !(view_.bend[k] < 0)) return;
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
-    if (four_g * view_.low[k] < view_.high[k]) return;
+    if (h_of_cell(k).most < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
-    search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
+    if (view_.is_curved(k))
+      curved_state(route, k, false, view_.high[k], z_, true, k);
+    else
+      search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
     route.least = kept;
   }
 

@@ -79,7 +79,10 @@ class ExactRun final : public Run {
     const std::string n = std::to_string(solution_.n_layers());
     std::string text = "exact for " + n + " layers as a staircase";
     if (solution_.form().has_pieces()) {
-      text = "exact for " + n + " pieces";
+      text = solution_.form().is_exact()
+                 ? "exact for paths from a smooth start, looked for in " +
+                       std::to_string(solution_.form().n_start_parts()) + " parts of it"
+                 : "exact for " + n + " pieces";
       if (!solution_.meets_tolerance())
         text += is_given_ ? ", as many as asked for"
                           : ", no more, although the tolerance of " + number_text(tolerance_) + " takes more";

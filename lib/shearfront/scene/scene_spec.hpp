@@ -54,7 +54,8 @@ struct SceneSpec {
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
   std::optional<Diffusion<Scalar>> diffusion;
-  std::optional<InitialState<Scalar>> initial_state;  ///< smooth; breaks and values are then empty
+  /// phi / c as a smooth function, or one with kinks; breaks and values are then empty.
+  std::optional<InitialState<Scalar>> initial_state;
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
   std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z

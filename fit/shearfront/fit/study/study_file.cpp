@@ -231,8 +231,7 @@ class StudyReader {
         i = name.ends_with(')') ? parse_count(name.substr(open + 1, name.size() - open - 2)).value_or(0) : 0;
       if ((event != "t_c" && event != "t^_c") || i < 1) {
         if (!name.empty())
-          table.add(*table.node("events"), table.path("events"),
-                    "must be of: t_0, t_1, t*, t_c(1), t^_c(1)");
+          table.add(*table.node("events"), table.path("events"), "must be of: t_0, t_1, t*, t_c(1), t^_c(1)");
         return;
       }
       output.kind = event == "t_c" ? Kind::first : Kind::last;
