@@ -52,7 +52,6 @@ Unit latin_hypercube(std::size_t n, std::size_t d, OpenUniform& uniform) {
 
 Unit sobol_sequence(std::size_t n, std::size_t d) {
   boost::random::sobol engine(d);
-  engine.discard(d);  // the first point is all 0
   Unit points(n, std::vector<double>(d));
   for (auto& point : points)
     for (double& u : point) u = (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53;

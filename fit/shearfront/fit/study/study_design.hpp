@@ -8,7 +8,7 @@
 namespace shearfront::fit {
 
 /// The points of a study: a row of values, one per variation, for each run. The same for the same specification.
-/// Sobol sequences are those of Boost.Random (Joe & Kuo), without their first point, all 0; their order is that of
+/// Sobol sequences are those of Boost.Random (Joe & Kuo), whose first point is 1/2 everywhere; their order is that of
 /// the variations. Cost: runs x variations numbers. Precondition: no design fit.
 [[nodiscard]] std::vector<std::vector<double>> study_points(const StudySpec& spec);
 
