@@ -58,7 +58,8 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
   auto medium = std::make_unique<const SlopedMedium<Scalar>>(
       std::move(pieces), Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries()),
-      form.mass());
+      form.mass(),
+      form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form)));
   if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
 }

@@ -4,36 +4,44 @@
 #include <cstddef>
 
 #include "shearfront/exact/arc.hpp"
-#include "shearfront/exact/sloped_candidates.hpp"
+#include "shearfront/exact/sloped_starts.hpp"
 
 namespace shearfront::exact {
 
 /// The best path to (z, t), heights of the view, among those that set out upwards in the view, and those inside one piece.
-template <Real Scalar>
-class SlopedSearch : private SlopedCandidates<Scalar> {
+template <Real Scalar, class Candidates>
+class SlopedSearch : private Candidates {
  public:
-  using SlopedCandidates<Scalar>::SlopedCandidates;
+  using Candidates::Candidates;
 
   void run() {
-    for (const std::size_t cell : {below_, above_}) {
-      inside(cell);
-      if (is_of_piece(above_, below_)) break;
+    if constexpr (Candidates::kKnowsPieces) {
+      for (const std::size_t cell : {below_, above_}) {
+        inside(cell);
+        if (is_of_piece(above_, below_)) break;
+      }
     }
     from_below();
     from_above();
   }
 
  private:
-  using Base = SlopedCandidates<Scalar>;
+  using Base = Candidates;
   using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::rate_above_,
-      Base::rate_below_, Base::slack_, Base::t_, Base::time_above_, Base::time_below_, Base::view_, Base::z_;
+      Base::rate_below_, Base::slack_, Base::back_above_, Base::t_, Base::time_above_, Base::time_below_,
+      Base::view_, Base::z_;
   using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
       Base::straight_fan, Base::turned_fan;
   using typename Base::Leaves;
+  using typename Base::Range;
   using typename Base::Route;
 
   [[nodiscard]] bool is_of_piece(std::size_t cell, std::size_t other) const {
     return view_.piece[cell] == view_.piece[other];
+  }
+  /// Whether what starts in one and ends in the other without leaving the piece is known without a search.
+  [[nodiscard]] bool is_known(std::size_t cell, std::size_t other) const {
+    return Candidates::kKnowsPieces && is_of_piece(cell, other);
   }
 
   /// What does not leave the piece of a cell at z, in closed form: states (in the upright view only) and fans.
@@ -105,51 +113,53 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
   }
 
-  /// Where a way begins at which a path turns: a height, its cell, r there, and the time of a pure state to the end of the cell.
+  /// Where a way begins at which a path turns: a height, its cell, r there, and the times of pure states to the end of the cell and
+  /// back.
   struct Entrance {
     Scalar z;
     std::size_t cell;
-    Scalar rate, time;
+    Scalar rate, time, back;
   };
-  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_}; }
+  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_, back_above_}; }
   [[nodiscard]] Entrance at_node(std::size_t node) const {
-    return {view_.x[node], node, view_.low[node], view_.pure_time[node]};
+    return {view_.x[node], node, view_.low[node], view_.pure_time[node], view_.pure_back[node]};
   }
 
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
-    Route route(n_);
-    if (below_ != above_) turned_states(route, below_, Scalar(0), at_z());
-    route.add(view_.form[below_], view_.bends[below_], z_ - view_.x[below_], rate_below_, view_.low[below_],
-              false);
+    Route route(Candidates::has_bounds(n_));
+    if (below_ != above_) {
+      if (!is_known(below_, below_)) state(route, below_, Scalar(0));
+      turned_states(route, below_, Scalar(0), at_z());
+    }
+    route.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
     Scalar time = time_below_;
     for (std::size_t k = below_; k-- > 0; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
       if (time > late_) return;
       if (view_.emits[node]) {
-        if (!is_of_piece(node, below_)) straight_fan(route, node, time);
+        if (!is_known(node, below_)) straight_fan(route, node, time);
         turned_fans(route, node, time, at_z());
       }
-      if (!is_of_piece(k, below_)) state(route, k, time);
+      if (!is_known(k, below_)) state(route, k, time);
       turned_states(route, k, time, at_z());
-      route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
-                false);
+      route.add(view_, k, view_.x[node] - view_.x[k], view_.high[k], view_.low[k], Passes::upwards, false);
     }
   }
 
   /// Everything that starts at or above z, sets out upwards and turns.
   void from_above() {
-    Route route(n_);
+    Route route(Candidates::has_bounds(n_));
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
       turned_fans(route, above_, Scalar(0), at_z());
     Scalar time(0);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
-      if (!is_of_piece(k, above_)) state_that_turns_at_once(route, k);
+      if (!is_known(k, above_)) state_that_turns_at_once(route, k);
       const Entrance from = k == above_ ? at_z() : at_node(k);
-      route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - from.z, from.rate, view_.high[k], false);
-      time += from.time;
+      route.add(view_, k, view_.x[k + 1] - from.z, from.rate, view_.high[k], Passes::downwards, true);
+      time += from.back;
       const std::size_t node = k + 1;
       if (node == n_ || time > late_) return;
       turned_states(route, k, time, at_node(node));
@@ -166,7 +176,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     turns(once, time, view_.M[node], node, node, from, {Scalar(0), infinity<Scalar>()},
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
-            if (!turn_times(way, j, lo, hi).may_be(t_)) return;
+            if (!this->may_turn(way, j, {lo, hi})) return;
             fill();
             turned_fan(way, node, j, lo, hi, top);
           });
@@ -177,34 +187,17 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             const Range h = h_of_cell(k);
-            const Scalar h0 = std::max(lo, h.least), h1 = std::min(hi, h.most);
-            auto times = turn_times(way, j, h0, h1);
-            times.most += most_from_state(k, h0, h1);
-            if (!times.may_be(t_)) return;
+            if (!this->may_turn_from_state(way, j, k, {std::max(lo, h.least), std::min(hi, h.most)})) return;
             fill();
             turned_state(way, k, j, lo, hi, top);
           });
   }
 
-  struct Range {
-    Scalar least, most;
-  };
   /// h of the state of cell k.
   [[nodiscard]] Range h_of_cell(std::size_t k) const {
     return {view_.h(k, std::min(view_.low[k], view_.high[k])),
             view_.h(k, std::max(view_.low[k], view_.high[k]))};
   }
-  using Stretches = SlopedStretches<Scalar>;
-  [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Scalar& h0,
-                                                     const Scalar& h1) const {
-    return way.stretches.times_with_turn(h0, h1, way.turn_rate, view_.bends[j]);
-  }
-  /// Most time from a start in cell k to its upper end.
-  [[nodiscard]] Scalar most_from_state(std::size_t k, const Scalar& h0, const Scalar& h1) const {
-    if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
-    return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
-  }
-
   /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, that of `from` and above, in which
   /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass
   /// besides, which takes pure states the time `time`.
@@ -231,10 +224,11 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const Scalar least = std::min(way.least, entry);
       if (least < range.least) return;
       if (view_.bend[j] < 0 && view_.high[j] < least && !(view_.high[j] > range.most) &&
-          !(is_of_piece(start, above_) && is_of_piece(j, above_))) {
+          !(is_known(start, above_) && is_known(j, above_))) {
         const Scalar kept = way.least;
         way.least = least;
         way.turn_form = view_.form[j];
+        way.turn_cell = j;
         way.turn_bend = -view_.bend[j];
         way.turn_rate = entry;
         const auto fill = [&] {
@@ -243,29 +237,28 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
           for (; filled < j; ++filled) {
             const Scalar d = view_.x[filled + 1] - height_of(filled);
             if (d > 0)
-              way.runs.push_back({d, entry_of(filled), view_.high[filled], view_.form[filled], true});
+              way.runs.push_back(
+                  {d, entry_of(filled), view_.high[filled], view_.form[filled], Passes::both, filled, true});
           }
         };
         found(way, j, view_.high[j], least, height, fill);
         way.least = kept;
         way.turn_bend = Scalar(0);
       }
-      way.stretches.add(view_.bends[j], Scalar(view_.x[j + 1] - height), entry, view_.high[j], true);
+      way.add_bounds(view_, j, Scalar(view_.x[j + 1] - height), entry, view_.high[j], Passes::both);
       way.least = std::min(least, view_.high[j]);
-      time += Scalar(2) * (j == first ? from.time : view_.pure_time[j]);
+      time += j == first ? Scalar(from.time + from.back) : Scalar(view_.pure_time[j] + view_.pure_back[j]);
     }
   }
 
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
-    if (view_.missing[k] == 0) return pure_state(k, time);
+    if (view_.missing[k] == 0) return this->pure_state(k, time);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
     if (h.least > route.least) return;
-    auto times = route.stretches.times(h.least, std::min(h.most, route.least));
-    times.most += most_from_state(k, h.least, std::min(h.most, route.least));
-    if (!times.may_be(t_)) return;
+    if (!this->may_come_from_state(route, k, {h.least, std::min(h.most, route.least)})) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
     if (view_.bend[k] == 0)
@@ -279,10 +272,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   void turned_state(Route& route, std::size_t k, std::size_t j, const Scalar& lo, const Scalar& hi,
                     const Scalar& top) {
     if (view_.least_amount(k) + gained(view_.x[k + 1], top) > limit()) return;
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
-    if (four_g * std::max(view_.low[k], view_.high[k]) < lo ||
-        four_g * std::min(view_.low[k], view_.high[k]) > hi)
-      return;
+    if (const Range h = h_of_cell(k); h.most < lo || h.least > hi) return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
     if (view_.bend[k] == 0)
@@ -295,8 +285,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
     if (!has_moving_state(k) || !(view_.bend[k] < 0)) return;
-    const Scalar four_g = Scalar(4) * view_.p[k] * view_.missing[k];
-    if (four_g * view_.low[k] < view_.high[k]) return;
+    if (view_.h(k, view_.low[k]) < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
@@ -304,29 +293,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     route.least = kept;
   }
 
-  /// H = 0: the time from the start is int dz / r.
-  void pure_state(std::size_t k, const Scalar& time) {
-    using std::expm1;
-    using std::log1p;
-    if (moving_only_) return;
-    const Scalar left = t_ - time;
-    // By time, as the cells beside this one: in a thin cell heights within rounding may be far away in time.
-    if (time > late_ || left - view_.pure_time[k] > late_ - t_) return;
-    const Scalar &b = view_.bend[k], x = -b * left, way = view_.high[k] * left;
-    Scalar d = way;
-    if (view_.form[k] == RateForm::exponential) {
-      const Scalar lost = b * way;
-      d = lost > Scalar(-1) ? Scalar(log1p(lost) / b) : infinity<Scalar>();
-    } else if (x != 0) {
-      d = way * (expm1(x) / x);
-    }
-    const Scalar width = view_.x[k + 1] - view_.x[k];
-    const Scalar y = view_.x[k + 1] - std::clamp(d, Scalar(0), width);
-    offer(view_.amount(k, y) + gained(y, z_), Scalar(0), PathKind::constant, true, false, k, y, 0,
-          view_.high[k], Scalar(1));
-  }
-
-  Route scratch_{n_};
+  Route scratch_{Candidates::has_bounds(n_)};
 };
 
 }  // namespace shearfront::exact
