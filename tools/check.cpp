@@ -28,9 +28,16 @@ std::string layers_text(const Scene<double>& scene) {
   return counted(scene.knots().size() + 1, "layer");
 }
 
+std::string start_text(const Scene<double>& scene) {
+  const auto& start = scene.spec().initial_state;
+  if (!start) return counted(scene.initial_breaks().size(), "jump");
+  return "smooth start (" + std::visit([](const auto& model) { return std::string(model.kName); }, *start) +
+         ")";
+}
+
 std::string summary_text(const Scene<double>& scene) {
   return fmt::format("{}, {}, {}, mass {}", quoted_text(scene.name(), 80), layers_text(scene),
-                     counted(scene.initial_breaks().size(), "jump"), number_text(scene.mass()));
+                     start_text(scene), number_text(scene.mass()));
 }
 
 /// "t 0 to 6 [s]"

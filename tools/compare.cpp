@@ -10,13 +10,13 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene.hpp"
 #include "cli/table.hpp"
 #include "compare/comparison.hpp"
 #include "plot/picture.hpp"
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/io/detail/json.hpp"
 #include "shearfront/io/output_file.hpp"
-#include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -26,7 +26,8 @@ namespace {
 constexpr Bounds kPositive{0, HUGE_VAL, true};
 
 struct CompareArguments {
-  std::string scene, output, plot;
+  SceneArgument scene;
+  std::string output, plot;
   std::optional<std::string> times, methods, cells, resolutions, budget, repeat;
   bool json = false;
 };
@@ -88,10 +89,13 @@ void note_pieces(const Scene<double>& scene, const ExactSolution<double>& exact,
       const double z = scene.bottom() + (scene.top() - scene.bottom()) * i / kHeights;
       worst = std::max(worst, exact.at(z, t).M_error);
     }
-  note(fmt::format(
-      "the bed varies smoothly: errors are measured against {} pieces of it, whose own error of M "
-      "is about {:.1e}; differences below that mean nothing",
-      exact.n_layers(), worst));
+  const std::string whose =
+      fmt::format("whose own error of M is about {:.1e}; differences below that mean nothing", worst);
+  note(exact.form().is_exact()
+           ? fmt::format("the start is smooth: errors are measured against a search in {} parts of it, {}",
+                         exact.form().n_start_parts(), whose)
+           : fmt::format("the bed varies smoothly: errors are measured against {} pieces of it, {}",
+                         exact.n_layers(), whose));
 }
 
 /// Says which methods ended early and why. Returns whether there is any result.
@@ -176,16 +180,17 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
   return picture.draw();
 }
 
-int compare(const CompareArguments& arguments) {
+int compare(CompareArguments& arguments) {
   const std::vector<double> times = times_of(arguments);
   const auto methods = compared_methods("--methods", arguments.methods);
   const auto cells = resolutions_of(arguments, "cells"), steps = resolutions_of(arguments, "resolution");
   ComparisonLimits limits = limits_of(arguments);
   check_picture_name("--plot", arguments.plot);
-  check_outputs(arguments.scene, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
-  const auto scene = with_remarks(read_scene<double>(arguments.scene));
+  check_outputs(arguments.scene.file(), {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
+  const auto scene = arguments.scene.read();
   if (const std::string reason = exact::refusal(scene); !reason.empty())
-    throw InputError(printable(arguments.scene), "", "has no exact solution to compare with: " + reason);
+    throw InputError(printable(arguments.scene.file()), "",
+                     "has no exact solution to compare with: " + reason);
   std::optional<OutputFile> output;
   if (!arguments.output.empty()) output.emplace(arguments.output);
   check_picture_target(arguments.plot);
@@ -220,7 +225,7 @@ Command add_compare(CLI::App& program) {
   CLI::App* app = program.add_subcommand("compare", "Speed against error: every method, from coarse to fine");
   std::vector<std::string> names;
   for (const ComparedMethod& method : compared_methods()) names.push_back(method.name);
-  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
+  arguments->scene.add_to(*app);
   app->add_option("--times", arguments->times, "times > 0: 0.5,6 or start:stop:count")->type_name("LIST");
   app->add_option("--methods", arguments->methods, fmt::format("of {}", fmt::join(names, ", ")))
       ->type_name("LIST");

@@ -2,22 +2,25 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/arguments.hpp"
 #include "cli/closed_form.hpp"
 #include "cli/command.hpp"
 #include "cli/method.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene.hpp"
 #include "cli/table.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/digits/exact_digits.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/io/results.hpp"
-#include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::tools {
@@ -29,10 +32,22 @@ constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
-  std::string scene, digits, plot;
+  SceneArgument scene;
+  std::string digits, plot;
   bool json = false;
   MethodArguments method;
 };
+
+std::string band_text(const fit::Interval& band) {
+  // As many digits as show how wide it is.
+  const double width = band.high - band.low, size = std::max(std::abs(band.low), std::abs(band.high));
+  const int digits =
+      std::isfinite(size) && width > 0
+          ? std::clamp(static_cast<int>(std::ceil(std::log10(size / width))) + 2, 3, kDoubleDigits)
+          : 6;
+  const auto end = [&](double t) { return std::isfinite(t) ? number_text(t, digits) : std::string("never"); };
+  return fmt::format("[{}, {}]", end(band.low), end(band.high));
+}
 
 /// Event times as they are computed and printed, beside those by another road (formula or exact solver).
 struct EventTable {
@@ -41,25 +56,28 @@ struct EventTable {
   ClosedForms forms;
   std::optional<Timeline<double>> exact;
   int digits = 0;  ///< of times by another road; 0: the shortest text that reads back
-  TextTable table{
-      {"event", "meaning", "time", exact ? "exact" : "", exact ? "relative difference" : "", "closed form"}};
+  const fit::PredictedEvents* bands = nullptr;  ///< of a fitted scene
+  TextTable table{{"event", "meaning", "time", bands ? "95 %" : "", exact ? "exact" : "",
+                   exact ? "relative difference" : "", "closed form"}};
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
-           std::optional<double> other) {
+           std::optional<double> other, const std::optional<fit::Interval>& band) {
     if (form) other = form->value;
     std::string exact_time, difference;
     if (exact && other) {
       exact_time = digits == 0 ? number_text(*other) : *other == 0 ? "0" : number_text(*other, digits);
       if (time && *other != 0) difference = fmt::format("{:.1e}", *time / *other - 1);
     }
-    table.add({event, meaning, shown.value_or("never"), exact_time, difference, form ? form->formula : ""});
+    table.add({event, meaning, shown.value_or("never"), band ? band_text(*band) : "", exact_time, difference,
+               form ? form->formula : ""});
   }
   /// `member` of TimelineText::InterfaceTimes and of its numbers.
   void add_interfaces(const char* event, const char* meaning,
                       std::optional<double> Timeline<double>::InterfaceTimes::*member,
                       std::optional<std::string> TimelineText::InterfaceTimes::*text_member,
-                      const std::optional<ClosedForm>& form) {
+                      const std::optional<ClosedForm>& form,
+                      std::optional<fit::Interval> fit::PredictedEvents::InterfaceBands::*band) {
     const std::size_t n = timeline.interfaces.size();
     for (std::size_t i = 0; i < n; ++i) {
       const auto& at = timeline.interfaces[i];
@@ -67,20 +85,23 @@ struct EventTable {
       for (const auto& same : exact.value_or(Timeline<double>{}).interfaces)
         if (same.z == at.z) other = same.*member;
       add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z), at.*member,
-          text.interfaces[i].*text_member, form, other);
+          text.interfaces[i].*text_member, form, other,
+          bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : std::nullopt);
     }
   }
   [[nodiscard]] std::string all() {
     const Timeline<double> other = exact.value_or(Timeline<double>{});
     using Times = Timeline<double>::InterfaceTimes;
     using Texts = TimelineText::InterfaceTimes;
+    using Bands = fit::PredictedEvents::InterfaceBands;
+    const fit::PredictedEvents none, &band = bands ? *bands : none;
     add_interfaces("t_c", "first wave at the interface z = ", &Times::first, &Texts::first,
-                   forms.first_interface);
-    add("t_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other.t0);
-    add("t_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other.t1);
+                   forms.first_interface, &Bands::first);
+    add("t_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other.t0, band.t0);
+    add("t_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other.t1, band.t1);
     add_interfaces("t^_c", "last change at the interface z = ", &Times::last, &Texts::last,
-                   forms.last_interface);
-    add("t*", "steady state", timeline.t_star, text.t_star, forms.t_star, other.t_star);
+                   forms.last_interface, &Bands::last);
+    add("t*", "steady state", timeline.t_star, text.t_star, forms.t_star, other.t_star, band.t_star);
     return table.text();
   }
 };
@@ -92,6 +113,15 @@ std::string summary_line(const Summary& s) {
   return line + fmt::format("{:.3g} s\n", s.wall_s);
 }
 
+EventBands bands_of(const fit::PredictedEvents& events) {
+  const auto ends = [](const std::optional<fit::Interval>& band) {
+    return band ? std::optional(std::pair(band->low, band->high)) : std::nullopt;
+  };
+  EventBands all{ends(events.t0), ends(events.t1), ends(events.t_star), {}};
+  for (const auto& at : events.interfaces) all.interfaces.push_back({ends(at.first), ends(at.last)});
+  return all;
+}
+
 /// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene.
 Timeline<double> exact_times(const Scene<double>& scene) {
   SolverRequest request;
@@ -99,17 +129,19 @@ Timeline<double> exact_times(const Scene<double>& scene) {
   return solve(scene, Method(), request).timeline.value_or(Timeline<double>{});
 }
 
-/// `text` are the times as they are printed, `digits` those of times by another road.
+/// `text` are the times as they are printed, `digits` those of times by another road, `bands` those of a fitted scene.
 void print_events(const EventsArguments& arguments, const Method& method, const Scene<double>& scene,
                   const Timeline<double>& timeline, const TimelineText& text, const Summary& summary,
-                  int digits) {
+                  int digits, const fit::PredictedEvents* bands = nullptr) {
   OutputFile out("-");
   if (arguments.json) {
-    write_events_json(out, scene.name(), method.name(), text, summary);
+    write_events_json(out, scene.name(), method.name(), text, summary,
+                      bands ? bands_of(*bands) : EventBands{});
   } else {
     const bool compare = !method.guarantees().exact;
-    EventTable table{timeline, text, closed_forms(scene),
-                     compare ? std::optional(exact_times(scene)) : std::nullopt, digits};
+    EventTable table{
+        timeline, text, closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
+        digits,   bands};
     out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
     if (table.forms.t0)
       out.write(
@@ -143,13 +175,17 @@ void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>
   settings.layers = static_cast<std::size_t>(number_of(method, "layers"));
   if (const double tolerance = number_of(method, "tolerance"); tolerance > 0) settings.tolerance = tolerance;
   const ExactSolution<double> solution(scene, settings);
+  if (!solution.is_exact() && solution.form().is_exact())
+    refuse("--digits", arguments.digits,
+           "must be left out for a smooth start where a(z) is not constant in pieces: its times are those of "
+           "a search");
   if (!solution.is_exact())
     refuse("--digits", arguments.digits,
-           fmt::format("must be left out for a bed that {} pieces stand for: its times are approximate",
-                       solution.n_layers()));
+           fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",
+                       solution.n_layers(), solution.form().has_pieces() ? "pieces" : "layers"));
 }
 
-int events(const EventsArguments& arguments) {
+int events(EventsArguments& arguments) {
   const Method method = arguments.method.method();
   const int digits = arguments.digits.empty()
                          ? 0
@@ -163,8 +199,8 @@ int events(const EventsArguments& arguments) {
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
                        method.name(), Method().name()));
   check_picture_name("--plot", arguments.plot);
-  check_outputs(arguments.scene, {{"--plot", arguments.plot}});
-  const auto scene = with_remarks(read_scene<double>(arguments.scene));
+  check_outputs(arguments.scene.file(), {{"--plot", arguments.plot}});
+  const auto scene = arguments.scene.read();
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
@@ -184,11 +220,17 @@ int events(const EventsArguments& arguments) {
   if (digits > 0 && method.guarantees().exact) refuse_unknown_digits(arguments, scene, method);
   if (digits > kDoubleDigits) {
     const auto begin = std::chrono::steady_clock::now();
-    text = exact_digits(arguments.scene, digits);
+    text = exact_digits(arguments.scene.text(), arguments.scene.file(), digits, arguments.scene.changes());
     result.summary.message = fmt::format("computed with {} digits", kComputedDigits);
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
-  print_events(arguments, method, scene, *result.timeline, text, result.summary, digits);
+  std::optional<fit::PredictedEvents> bands;
+  if (const auto& fitted = arguments.scene.fit()) {
+    bands = fit::predict_events(scene, fitted->draws, method);
+    note_draws(fitted->draws, bands->n_failed);
+  }
+  print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
+               bands ? &*bands : nullptr);
   if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
     note(result.summary.message);
   return arguments.plot.empty() ? kDone
@@ -201,7 +243,7 @@ Command add_events(CLI::App& program) {
   const auto arguments = std::make_shared<EventsArguments>();
   CLI::App* app =
       program.add_subcommand("events", "Times of the first and last waves at interfaces and walls");
-  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
+  arguments->scene.add_to(*app);
   arguments->method.add_to(*app);
   app->add_option("--digits", arguments->digits,
                   "significant digits, 1 to 100; beyond 17 (exact only) computed in multiprecision")

@@ -11,11 +11,14 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/fit_text.hpp"
+#include "cli/fitted.hpp"
 #include "cli/progress.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
+#include "shearfront/fit/rate_band.hpp"
 #include "shearfront/io/file_error.hpp"
+#include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::tools {
@@ -23,7 +26,7 @@ namespace {
 
 struct FitArguments {
   std::vector<std::string> files;
-  std::string output, plot;
+  std::string output, plot, scene_out, band, predict, times, heights;
   bool json = false;
 };
 
@@ -57,20 +60,6 @@ void check_comparable(const std::vector<std::string>& names, const std::vector<f
                           complaints.back().constraint);
   }
   if (!complaints.empty()) throw FileError(std::move(complaints), std::move(report));
-}
-
-fit::Estimate run(const fit::FitSpec& spec, const std::string& path) {
-  ProgressLine line;
-  try {
-    return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
-      line.show_search(evaluations, misfit);
-      return !InterruptGuard::is_interrupted();
-    });
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw fit::located(error, path);
-  }
 }
 
 /// Remarks on standard error; `who` tells several fits apart.
@@ -125,17 +114,63 @@ int print_several(const std::vector<std::string>& names, const std::vector<fit::
   return code;
 }
 
+/// Where a prediction is wanted.
+struct PredictionPlan {
+  std::vector<double> times, heights;
+};
+
+PredictionPlan plan_of(const FitArguments& arguments, const Scene<double>& scene) {
+  constexpr std::size_t kHeights = 101;
+  if (arguments.predict.empty()) {
+    if (!arguments.times.empty()) refuse("--times", arguments.times, "needs --predict");
+    if (!arguments.heights.empty()) refuse("--heights", arguments.heights, "needs --predict");
+    return {};
+  }
+  if (arguments.times.empty())
+    throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 0:10:21");
+  PredictionPlan plan;
+  plan.times = list_option("--times", arguments.times, {0}, ">= 0", Steady::refused);
+  plan.heights = arguments.heights.empty()
+                     ? equally_spaced(scene.bottom(), scene.top(), kHeights)
+                     : list_option("--heights", arguments.heights, {scene.bottom(), scene.top()},
+                                   fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()),
+                                               number_text(scene.top())),
+                                   Steady::refused);
+  return plan;
+}
+
+void write_prediction(OutputFile& file, const PredictionPlan& plan, const fit::FitSpec& spec,
+                      const fit::Estimate& estimate) {
+  const fit::DrawnScenes draws = fit::draw_scenes(fit::Parameters(spec.scene, spec.unknown), estimate,
+                                                  kPredictionDraws, spec.search.seed);
+  const fit::PredictedSamples samples =
+      fit::predict_samples(*estimate.scene, draws, spec.forward.method, plan.times, plan.heights);
+  note_draws(draws, samples.n_failed);
+  write_prediction_csv(file, plan.times, plan.heights, samples);
+}
+
 int fit_files(const FitArguments& arguments) {
   const bool is_one = arguments.files.size() == 1;
-  if (!is_one && !arguments.output.empty()) refuse("-o", arguments.output, "needs a single fit file");
-  if (!is_one && !arguments.plot.empty()) refuse("--plot", arguments.plot, "needs a single fit file");
+  const std::vector<Output> outputs{{"", "-"},
+                                    {"-o", arguments.output},
+                                    {"--plot", arguments.plot},
+                                    {"--scene-out", arguments.scene_out},
+                                    {"--band", arguments.band},
+                                    {"--predict", arguments.predict}};
+  for (const Output& output : outputs)
+    if (!is_one && !output.option.empty() && !output.path.empty())
+      refuse(output.option, output.path, "needs a single fit file");
   check_picture_name("--plot", arguments.plot);
   const std::vector<fit::FitFile> files = read_files(arguments.files);
   check_comparable(arguments.files, files);
   for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
-    check_outputs(input, {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
-  std::optional<OutputFile> output;
+    check_outputs(input, outputs);
+  const PredictionPlan plan = plan_of(arguments, files[0].spec.scene);
+  std::optional<OutputFile> output, scene_out, band, prediction;
   if (!arguments.output.empty()) output.emplace(arguments.output);
+  if (!arguments.scene_out.empty()) scene_out.emplace(arguments.scene_out);
+  if (!arguments.band.empty()) band.emplace(arguments.band);
+  if (!arguments.predict.empty()) prediction.emplace(arguments.predict);
   check_picture_target(arguments.plot);
   for (const fit::FitFile& file : files) {
     print_remarks(file.remarks);
@@ -144,12 +179,26 @@ int fit_files(const FitArguments& arguments) {
 
   const InterruptGuard guard;
   std::vector<fit::Estimate> estimates;
-  for (std::size_t i = 0; i < files.size(); ++i) estimates.push_back(run(files[i].spec, arguments.files[i]));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    estimates.push_back(run_fit(files[i].spec, arguments.files[i]));
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
   if (output && estimate.usable()) {
     write_residuals_csv(*output, files[0].spec.observations, estimate);
     output->commit();
+  }
+  if (scene_out && estimate.usable()) {
+    scene_out->write(scene_text(estimate.scene->spec()));
+    scene_out->commit();
+  }
+  if (band && estimate.usable()) {
+    write_band_csv(*band,
+                   fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate));
+    band->commit();
+  }
+  if (prediction && estimate.usable()) {
+    write_prediction(*prediction, plan, files[0].spec, estimate);
+    prediction->commit();
   }
   const int code = print_one(estimate, arguments.json);
   if (arguments.plot.empty()) return code;
@@ -168,6 +217,14 @@ Command add_fit(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of data, fit, shear rate and search: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  app->add_option("--scene-out", arguments->scene_out, "the fitted scene, a scene file")->type_name("FILE");
+  app->add_option("--band", arguments->band, "s a(z) with its pointwise 95 % band as CSV")->type_name("FILE");
+  app->add_option("--predict", arguments->predict,
+                  "phi and M with their 95 % bands as CSV, at --times and --heights")
+      ->type_name("FILE");
+  app->add_option("--times", arguments->times, "of --predict: 0.5,6 or start:stop:count")->type_name("LIST");
+  app->add_option("--heights", arguments->heights, "of --predict; default 101 over the whole domain")
+      ->type_name("LIST");
   app->add_flag("--json", arguments->json, "print JSON");
   app->footer(
       "Ctrl-C ends the search with the best point so far (status interrupted); a second one ends the "

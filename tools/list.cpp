@@ -125,8 +125,8 @@ int list() {
   DepthFunctionList<double>::for_each([&]<class A>() {
     rates.add({std::string(A::kName), std::string(A::kFormula), entries<A>()});
   });
-  all += indented(rates.text()) + "\nSmooth initial states, with diffusion (initial.model)\n";
-  TextTable initial({"name", "phi(z, 0)", "entries"});
+  all += indented(rates.text()) + "\nSmooth initial states (initial.model)\n";
+  TextTable initial({"name", "phi(z, 0) / c(z)", "entries"});
   InitialStateList<double>::for_each([&]<class P>() {
     initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});
   });

@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
   const std::vector<Command> commands{tools::add_events(program),  tools::add_solve(program),
                                       tools::add_observe(program), tools::add_fit(program),
                                       tools::add_compare(program), tools::add_check(program),
-                                      tools::add_list(program)};
+                                      tools::add_list(program),    tools::add_import(program)};
   for (const Command& command : commands) {
     command.app->allow_extras();
     command.app->get_formatter()->label("REQUIRED", "");

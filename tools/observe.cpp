@@ -13,10 +13,9 @@
 #include "cli/command.hpp"
 #include "cli/method.hpp"
 #include "cli/progress.hpp"
-#include "shearfront/io/detail/text_source.hpp"
+#include "cli/scene.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
-#include "shearfront/io/scene_file.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront::tools {
@@ -27,7 +26,8 @@ constexpr unsigned long long kLargestSeed = 9'223'372'036'854'775'807;  // what 
 constexpr double kLargestSigma = 1e100;                                 // far from overflow with any value
 
 struct ObserveArguments {
-  std::string scene, times, depths, quantity = "point", width, noise, seed, output;
+  SceneArgument scene;
+  std::string times, depths, quantity = "point", width, noise, seed, output;
   bool truncate = false;
   MethodArguments method;
 };
@@ -66,7 +66,7 @@ void check_plan(const ObserveArguments& arguments, const ObservationPlan& plan, 
   const Complaint& complaint = complaints.front();
   const std::string key = complaint.key.substr(0, complaint.key.find('['));
   if (key == "width") refuse("--width", complaint.value, complaint.constraint);
-  refuse("--" + key, key == "times" ? arguments.times : arguments.depths,
+  refuse(key == "times" ? "--times" : "--heights", key == "times" ? arguments.times : arguments.depths,
          fmt::format("{} (here {})", complaint.constraint, complaint.value));
 }
 
@@ -74,12 +74,12 @@ void check_arguments(const ObserveArguments& arguments) {
   constexpr std::string_view kLists = "missing; must be a list such as 0.5,6 or 0:10:21";
   if (arguments.times.empty()) throw InputError("--times", "", std::string(kLists));
   const bool has_depths = arguments.quantity != name_of(Quantity::bed_height);
-  if (has_depths && arguments.depths.empty()) throw InputError("--depths", "", std::string(kLists));
+  if (has_depths && arguments.depths.empty()) throw InputError("--heights", "", std::string(kLists));
   if (!has_depths && !arguments.depths.empty())
-    refuse("--depths", arguments.depths, "must not be given: the height of the bed has no depth");
+    refuse("--heights", arguments.depths, "must not be given: the height of the bed has no depth");
   if (arguments.noise.empty() && !arguments.seed.empty()) refuse("--seed", arguments.seed, "needs --noise");
   if (arguments.noise.empty() && arguments.truncate) throw InputError("--truncate", "", "needs --noise");
-  check_outputs(arguments.scene, {{"-o", arguments.output}});
+  check_outputs(arguments.scene.file(), {{"-o", arguments.output}});
 }
 
 Experiment experiment_of(const ObserveArguments& arguments, const Scene<double>& scene) {
@@ -98,7 +98,7 @@ Experiment experiment_of(const ObserveArguments& arguments, const Scene<double>&
       refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
   } else {
     plan.depths =
-        list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+        list_option("--heights", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
   }
   if (static_cast<double>(plan.times.size()) * static_cast<double>(plan.depths.size()) > kMostRows)
     refuse("--times", arguments.times, "must give at most 1e7 pairs of time and depth");
@@ -117,10 +117,17 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
+/// The scene with its changes.
+std::string scene_words(const SceneArgument& scene) {
+  std::string words = shell_word(scene.file());
+  for (const std::string& change : scene.set()) words += " --set " + shell_word(change);
+  return words;
+}
+
 std::string command_line(const ObserveArguments& arguments, const Method& method,
                          const Experiment& experiment) {
   std::string line = fmt::format("shearfront observe {} --times {}{} --quantity {}",
-                                 shell_word(arguments.scene), shell_word(arguments.times),
+                                 scene_words(arguments.scene), shell_word(arguments.times),
                                  arguments.depths.empty() ? "" : " --depths " + shell_word(arguments.depths),
                                  arguments.quantity);
   if (experiment.plan.width > 0) line += " --width " + number_text(experiment.plan.width);
@@ -151,11 +158,10 @@ std::vector<std::string> recipe(const ObserveArguments& arguments, const Method&
   return lines;
 }
 
-int observe_scene(const ObserveArguments& arguments) {
+int observe_scene(ObserveArguments& arguments) {
   check_arguments(arguments);
   const Method method = arguments.method.method();
-  const auto source = detail::TextSource::read(arguments.scene);
-  const auto scene = with_remarks(parse_scene<double>(source.text(), arguments.scene));
+  const auto scene = arguments.scene.read();
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
@@ -169,7 +175,7 @@ int observe_scene(const ObserveArguments& arguments) {
   Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);
   if (arguments.truncate) clip(observations, scene);
-  observations.comments = recipe(arguments, method, experiment, source.text());
+  observations.comments = recipe(arguments, method, experiment, arguments.scene.text());
   write_observations(output, observations);
   output.commit();
   return kDone;
@@ -180,10 +186,10 @@ int observe_scene(const ObserveArguments& arguments) {
 Command add_observe(CLI::App& program) {
   const auto arguments = std::make_shared<ObserveArguments>();
   CLI::App* app = program.add_subcommand("observe", "Synthetic observations of a scene, with noise");
-  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
+  arguments->scene.add_to(*app);
   app->add_option("--times", arguments->times, "times: 0.5,6 or start:stop:count, also mixed")
       ->type_name("LIST");
-  app->add_option("--depths", arguments->depths, "heights z, for bins of their middles: as --times")
+  app->add_option("--heights,--depths", arguments->depths, "heights z, for bins of their middles: as --times")
       ->type_name("LIST");
   app->add_option(
          "--quantity", arguments->quantity,

@@ -12,9 +12,9 @@
 #include "cli/command.hpp"
 #include "cli/method.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/io/results.hpp"
-#include "shearfront/io/scene_file.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -25,7 +25,8 @@ constexpr std::size_t kDefaultDepths = 101;
 constexpr double kMostSamples = 1e8;  // times x depths
 
 struct SolveArguments {
-  std::string scene, times, depths, quantity, output, fronts, plot, map;
+  SceneArgument scene;
+  std::string times, depths, quantity, output, fronts, plot, map;
   bool json = false;
   MethodArguments method;
 };
@@ -54,14 +55,14 @@ void check_arguments(const SolveArguments& arguments, const Method& method) {
   check_picture_name("--map", arguments.map);
   // Without -o the samples go to standard output.
   const bool to_stdout = arguments.output.empty();
-  check_outputs(arguments.scene,
+  check_outputs(arguments.scene.file(),
                 {{to_stdout ? "" : "-o", to_stdout ? "-" : std::string_view(arguments.output)},
                  {"--fronts", arguments.fronts},
                  {"--plot", arguments.plot},
                  {"--map", arguments.map}});
   if (quantity_of(arguments) == SolvedQuantity::concentration) return;
   if (!arguments.depths.empty())
-    refuse("--depths", arguments.depths, "must not be given: " + arguments.quantity + " has no depth");
+    refuse("--heights", arguments.depths, "must not be given: " + arguments.quantity + " has no depth");
   if (!arguments.map.empty())
     refuse("--map", arguments.map, "must not be given with --quantity " + arguments.quantity);
   if (!arguments.fronts.empty())
@@ -72,7 +73,7 @@ std::vector<double> depths_of(const SolveArguments& arguments, const Scene<doubl
   if (arguments.depths.empty()) return equally_spaced(scene.bottom(), scene.top(), kDefaultDepths);
   const std::string inside =
       fmt::format("inside the domain [{}, {}]", number_text(scene.bottom()), number_text(scene.top()));
-  return list_option("--depths", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
+  return list_option("--heights", arguments.depths, {scene.bottom(), scene.top()}, inside, Steady::refused);
 }
 
 SolverRequest request_of(const SolveArguments& arguments, const Task& task) {
@@ -136,7 +137,12 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
-  if (arguments.json)
+  if (const auto& fitted = arguments.scene.fit()) {
+    const fit::PredictedSamples samples =
+        fit::predict_samples(task.scene, fitted->draws, task.method, request.times, request.heights);
+    note_draws(fitted->draws, samples.n_failed);
+    write_prediction_csv(output, times, request.heights, samples);
+  } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary);
   else
@@ -154,10 +160,12 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   return draw_map(arguments.map, task.scene, task.method, last_time(times));
 }
 
-int solve_scene(const SolveArguments& arguments) {
+int solve_scene(SolveArguments& arguments) {
   const Method method = arguments.method.method();
   check_arguments(arguments, method);
-  const auto scene = with_remarks(read_scene<double>(arguments.scene));
+  const auto scene = arguments.scene.read();
+  if (arguments.scene.fit() && arguments.json)
+    throw InputError("--json", "", "must not be given with a fit file, whose bands are CSV");
   const Task task{scene, method, list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed)};
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);
@@ -169,10 +177,11 @@ Command add_solve(CLI::App& program) {
   const auto arguments = std::make_shared<SolveArguments>();
   CLI::App* app =
       program.add_subcommand("solve", "Concentration phi and cumulative M at given times and depths");
-  app->add_option("SCENE", arguments->scene, "scene file")->type_name("")->required();
+  arguments->scene.add_to(*app);
   app->add_option("--times", arguments->times, "times: 0.5,6 or start:stop:count or steady, also mixed")
       ->type_name("LIST");
-  app->add_option("--depths", arguments->depths, "heights z: as --times; default 101 over the whole domain")
+  app->add_option("--heights,--depths", arguments->depths,
+                  "heights z: as --times; default 101 over the whole domain")
       ->type_name("LIST");
   app->add_option("--quantity", arguments->quantity,
                   "phi and M at depths, or of the whole bed: entropy and mixing parameter, height; default "

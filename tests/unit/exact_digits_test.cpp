@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "shearfront/digits/exact_digits.hpp"
@@ -15,7 +17,9 @@ namespace {
 
 TEST(ExactDigits, BeginWithThoseOfDouble) {
   const std::string path = SHEARFRONT_SOURCE_DIR "/datasets/may-2010-piecewise/scene.toml";
-  const TimelineText text = exact_digits(path, 60);
+  std::ifstream file(path);
+  const std::string scene((std::istreambuf_iterator<char>(file)), {});
+  const TimelineText text = exact_digits(scene, path, 60);
   const auto timeline = exact_timeline(read_scene<double>(path));
   ASSERT_EQ(text.interfaces.size(), timeline.interfaces.size());
   const auto check = [](const std::optional<std::string>& digits, const std::optional<double>& x) {

@@ -34,6 +34,27 @@ TEST(ExactEvents, SteadyDataNeverMove) {
   }
 }
 
+/// A piece cut into many equal ones is the same piece: no path from between pure ones counts as grains that move.
+TEST(ExactEvents, EqualPiecesSideBySideAreOne) {
+  int n = 0;
+  for (std::uint64_t number = 0; number < 40; ++number) {
+    SceneMaker make(support::seed_of(4900 + number));
+    const std::vector<double> breaks = make.heights(1, 0.2, 0.8),
+                              rates{make.uniform(0.2, 2), make.uniform(0.2, 2)};
+    const double z = make.uniform(0.2, 0.8), state = make.uniform(0.2, 1);
+    std::vector<double> jumps{z}, values{state, 0};
+    const auto whole = exact_timeline(layered(breaks, rates, jumps, values));
+    const int parts = number % 2 == 0 ? 20 : 200;
+    for (int i = 1; i < parts; ++i, values.push_back(0)) jumps.push_back(z + (1 - z) * i / parts);
+    const auto cut = exact_timeline(layered(breaks, rates, jumps, values));
+    EXPECT_NEAR(*cut.t_star, *whole.t_star, 1e-12 * *whole.t_star) << "seed " << 4900 + number;
+    EXPECT_NEAR(*cut.interfaces[0].last, *whole.interfaces[0].last, 1e-12 * *whole.t_star)
+        << "seed " << 4900 + number;
+    ++n;
+  }
+  EXPECT_EQ(n, 40);
+}
+
 TEST(ExactEvents, UniformMixture) {
   // phi = p everywhere: the walls' shocks meet at height p, at t = 1 / (s a) whatever p is.
   for (const double p : {0.1, 0.5, 0.9, 1e-9}) {

@@ -44,7 +44,8 @@ TEST(ObservationRefusals, OneOfEachKind) {
       {"t,z,phi,sigma [mm]\n0,0.5,1,0.1\n", "must have the unit of phi"},
       {"t,z,phi\n0,0.5\n", "row[0] = (2 fields); must have 3"},
       {"t,z,phi\n0,0.5,x\n", "must be a number"},
-      {"t,z,phi\n0,0.5,nan\n", "must be a finite number"},
+      {"t,z,phi\n0,0.5,inf\n", "must be a finite number"},
+      {"t,z,phi\n0,0.5,nan\n", "missing in every row (1)"},
       {"t,z,phi\n0,0.5,1e400\n", "must be 0 or between"},
       {"t,z,phi\n-1,0.5,1\n", "t[0] = -1; must be >= 0"},
       {"t,z,phi\n0,1.5,1\n", "must be inside the domain [0, 1]"},
@@ -76,8 +77,9 @@ TEST(ObservationRefusals, OnlyTheFirstProblemsAreShown) {
 TEST(ObservationRefusals, ProblemsBetweenRowsCountInTheOrderOfTheFile) {
   const std::string twice = report("t,z,phi\n" + rows("0,0.5,1\n", 2) + rows("0,0.5,x\n", 30));
   EXPECT_TRUE(
-      twice.starts_with("data.csv:3:3: z[1] = 0.5; must differ from z of line 2, which has the same t\n"
-                        "data.csv:4:7: phi[2] = \"x\""))
+      twice.starts_with("data.csv:3:3: z[1] = 0.5; must differ from z of line 2, which has the same t; or be "
+                        "kept or averaged by "
+                        "replicates = \"keep\" or \"mean\"\ndata.csv:4:7: phi[2] = \"x\""))
       << twice;
   EXPECT_TRUE(twice.ends_with("\ndata.csv: and 11 more problems"));
 }
@@ -85,8 +87,10 @@ TEST(ObservationRefusals, ProblemsBetweenRowsCountInTheOrderOfTheFile) {
 TEST(ObservationRefusals, SamePlaceFarApartIsFound) {
   std::string text = "t,z,phi\n";
   for (int i = 1000; i > 0; --i) text += std::to_string(i) + ",0.5,1\n";
-  EXPECT_EQ(report(text + "500.0,5e-1,1\n"),
-            "data.csv:1002:7: z[1000] = 0.5; must differ from z of line 502, which has the same t");
+  EXPECT_EQ(
+      report(text + "500.0,5e-1,1\n"),
+      "data.csv:1002:7: z[1000] = 0.5; must differ from z of line 502, which has the same t; or be kept or "
+      "averaged by replicates = \"keep\" or \"mean\"");
 }
 
 TEST(ObservationRefusals, DomainOfTheScene) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "shearfront/fit/quantile.hpp"
 #include "shearfront/fit/search/nlopt_algorithm.hpp"
 #include "shearfront/solution/observe.hpp"
 
@@ -60,16 +61,6 @@ void draw(Observations& observations, const Estimate& estimate, std::uint64_t se
     Observation& o = observations.rows[k];
     o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * normal(engine);
   }
-}
-
-/// The (n + 1) p-th of n sorted numbers, interpolated.
-double quantile(const std::vector<double>& sorted, double p) {
-  const double place = p * static_cast<double>(sorted.size() + 1) - 1;
-  const double last = static_cast<double>(sorted.size() - 1);
-  const double below = std::clamp(std::floor(place), 0.0, last);
-  const auto i = static_cast<std::size_t>(below);
-  const double above = sorted[std::min(i + 1, sorted.size() - 1)];
-  return sorted[i] + std::clamp(place - below, 0.0, 1.0) * (above - sorted[i]);
 }
 
 /// Fits of all replicates, in their order; nothing where a fit failed or was not made.

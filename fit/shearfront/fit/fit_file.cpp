@@ -2,6 +2,7 @@
 #include "shearfront/fit/fit_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <filesystem>
@@ -39,6 +40,9 @@ constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'0
 constexpr double kPaperTolerance = 1e-3;
 constexpr std::size_t kPaperEvaluations = 2000;
 
+/// Only fit files have these at their top.
+constexpr std::array kFitKeys{"scene", "observations", "unknown"};
+
 template <class Names>
 std::vector<std::string> strings(const Names& names) {
   return {names.begin(), names.end()};
@@ -59,6 +63,11 @@ void add_located(const TomlSource& source, ComplaintReport& report, Complaint co
              std::move(complaint));
 }
 
+bool has_keys_of_fit(const TomlSource& source) {
+  return std::any_of(kFitKeys.begin(), kFitKeys.end(),
+                     [&](const char* key) { return source.root().contains(key); });
+}
+
 class FitReader {
  public:
   explicit FitReader(const TomlSource& source) : source_(source), report_(source.name()) {}
@@ -69,6 +78,10 @@ class FitReader {
     const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
     const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
     if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
+    if (auto table = root.table("columns", Need::optional, "must be a table of names of columns"))
+      columns(*table);
+    if (auto table = root.table("format", Need::optional, "must be a table with separator, decimal, ..."))
+      format(*table);
     if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
       unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
@@ -80,8 +93,10 @@ class FitReader {
     root.finish();
 
     if (data_path)
-      load("observations",
-           [&] { data_ = scene_ ? read_observations(*data_path, *scene_) : read_observations(*data_path); });
+      load("observations", [&] {
+        data_ = scene_ ? read_observations(*data_path, *scene_, format_)
+                       : read_observations(*data_path, -HUGE_VAL, HUGE_VAL, format_);
+      });
     check_unknown();
     check_quantity();
     throw_if_any();
@@ -101,6 +116,49 @@ class FitReader {
       return std::nullopt;
     }
     return (std::filesystem::path(source_.name()).parent_path() / *name).string();
+  }
+
+  /// Which column of the observations is which: phi = "conc".
+  void columns(TableReader& table) {
+    for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+      if (auto name = table.text(kColumnNames[c], Need::optional, "must be the name of a column"))
+        format_.columns[c].name = std::move(*name);
+    table.finish();
+  }
+
+  /// How the file of observations is written, where it is not to be found out.
+  void format(TableReader& table) {
+    const auto is_one = [&](const char* key, const std::vector<std::string>& names) -> std::optional<char> {
+      const auto name = table.choice(key, Need::optional, names);
+      return name ? std::optional(*name == "tab" ? '\t' : (*name)[0]) : std::nullopt;
+    };
+    format_.separator = is_one("separator", {",", ";", "tab"});
+    format_.decimal = is_one("decimal", {".", ","});
+    if (table.node("missing"))
+      format_.missing = table.texts("missing", Need::optional, "must be an array of words");
+    const auto chosen = [&](const char* key, const auto& names) -> std::optional<std::size_t> {
+      const auto name = table.choice(key, Need::optional, strings(names));
+      if (!name) return std::nullopt;
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), *name) - names.begin());
+    };
+    if (const auto i = chosen("layout", kTableLayoutNames)) format_.layout = static_cast<TableLayout>(*i);
+    if (const auto i = chosen("replicates", kReplicatesNames))
+      format_.replicates = static_cast<Replicates>(*i);
+    const auto positive = [&](std::string_view key, std::optional<double>& value) {
+      if (!table.node(key)) return;
+      table.number(key, Need::optional, value.emplace());
+      if (table.is_good(key) && !(*value > 0 && std::isfinite(*value)))
+        add({table.path(key), "", "must be > 0"});
+    };
+    positive("width", format_.width);
+    positive("time_step", format_.time_step);
+    if (auto units = table.table("units", Need::optional, "must be a table of units of columns")) {
+      for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+        if (auto unit = units->text(kColumnNames[c], Need::optional, "must be the name of a unit"))
+          format_.columns[c].unit = std::move(*unit);
+      units->finish();
+    }
+    table.finish();
   }
 
   void unknown(TableReader& table) {
@@ -293,6 +351,7 @@ class FitReader {
   std::vector<FileError> others_;  ///< of the scene and of the observations
   std::optional<Scene<double>> scene_;
   std::optional<Observations> data_;
+  ObservationFormat format_;
   UnknownSpec unknown_;
   ForwardSpec forward_;
   MisfitSpec misfit_;
@@ -317,9 +376,12 @@ FitSpec read_fit(const std::string& path) { return read_fit_file(path).spec; }
 std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path) {
   detail::TextSource text = detail::TextSource::read(path);
   const TomlSource source(text);
-  for (const char* key : {"scene", "observations", "unknown"})
-    if (source.root().contains(key)) return FitReader(source).read();
+  if (has_keys_of_fit(source)) return FitReader(source).read();
   return parse_scene<double>(text.text(), path);
+}
+
+bool is_fit_file(const std::string& path) {
+  return has_keys_of_fit(TomlSource(detail::TextSource::read(path)));
 }
 
 FileError located(const InputError& error, const std::string& path) {

@@ -35,6 +35,9 @@ struct FitFile {
 /// unknown. Errors: FileError.
 [[nodiscard]] std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path);
 
+/// Which of the two a file is. Errors: FileError.
+[[nodiscard]] bool is_fit_file(const std::string& path);
+
 /// A refusal of fit() with the places of its entries in the fit file it was read from.
 [[nodiscard]] FileError located(const InputError& error, const std::string& path);
 

@@ -35,9 +35,10 @@ std::vector<std::string> field_names(const std::vector<Entry>& all) {
 /// "2.5" or "(3 entries)" for the length of an array.
 std::string count_text(std::size_t n) { return "(" + std::to_string(n) + " entries)"; }
 
-/// A piece of the initial state or of what lies beyond an end.
-bool is_piece_of_state(const std::string& field) {
-  return field == "initial.values" || field == "boundary.bottom.values" || field == "boundary.top.values";
+/// A state, of the start or of what lies beyond an end, not the size of a wave.
+bool is_state(const Entry& entry) {
+  return entry.measure == Measure::state && entry.field != "initial.amplitude" &&
+         (entry.field.starts_with("initial.") || entry.field.starts_with("boundary."));
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ void Parameters::set_defaults() {
     p.start = *places[places_[i]];
     p.lower = -kInfinity;
     p.upper = kInfinity;
-    if (is_piece_of_state(p.entry.field)) {
+    if (is_state(p.entry)) {
       const StateRange<double> states = common_states(spec);
       p.lower = states.lowest, p.upper = states.highest;
     }

@@ -71,18 +71,25 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(scene_->fluxes().front().curvature() == Curvature::concave),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(),
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
+      has_pieces_(!scene_->is_layered() && (is_parabolic_ || !scene_->has_smooth_start())),
       is_exponential_(is_exponential_scene(*scene_)),
-      is_exact_(scene_->is_layered() || is_exponential_ || is_linear_scene(*scene_)),
-      has_pieces_(!scene_->is_layered()),
-      layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers)) {
+      is_exact_(scene_->is_layered() || (has_pieces_ && (is_exponential_ || is_linear_scene(*scene_)))),
+      layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers)),
+      n_start_parts_(std::max<std::size_t>(1, layers)) {
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
     set_end_rates();
+    if (scene_->has_smooth_start()) set_start();
     mass_ = scene_->mass();
     return;
   }
   set_layers();
   set_end_rates();
+  if (scene_->has_smooth_start()) {
+    set_start();
+    mass_ = std::clamp(start_->total(), Scalar(0), Scalar(y_.back() - y_.front()));
+    return;
+  }
   set_initial_data();
   mass_ = image_mass();
 }
@@ -212,6 +219,25 @@ void CanonicalForm<Scalar>::set_initial_data() {
     piece += is_jump ? 1 : 0;
     k += is_interface ? 1 : 0;
   }
+}
+
+template <Real Scalar>
+void CanonicalForm<Scalar>::set_start() {
+  std::vector<typename StartShape<Scalar>::Layer> all;
+  for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
+    typename StartShape<Scalar>::Layer layer{layers_.boundary(k), layers_.boundary(k + 1),
+                                             boundaries()[k],     boundaries()[k + 1],
+                                             stretch(k),          Scalar(0),
+                                             Scalar(1),           false};
+    if (!is_identity_) {
+      const std::size_t i = layers_.flux_index(k);
+      layer.zero = is_concave_ ? highest_[i] : lowest_[i];
+      layer.width = width_[i];
+      layer.is_reversed = is_concave_;
+    }
+    all.push_back(std::move(layer));
+  }
+  start_ = std::make_shared<const StartShape<Scalar>>(scene_, std::move(all), is_identity_);
 }
 
 /// No more than there is room for: where all of the bed is pure, that is the mass to the bit.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shearfront/exact/rate_form.hpp"
+#include "shearfront/exact/start_shape.hpp"
 #include "shearfront/scene/layer_stack.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
@@ -26,13 +27,14 @@ namespace shearfront::exact {
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
 /// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, and c and T are
 /// constant in pieces, the image is linear or exponential in pieces as well: has_pieces(). Any other smooth scene is represented by pieces through
-/// its rate s a c sqrt(T), each linear or exponential, whichever is nearer in its middle. Precondition: refusal(scene) is empty.
+/// its rate s a c sqrt(T), each linear or exponential, whichever is nearer in its middle. A smooth start in a smooth bed with a flux
+/// that is no parabola has a staircase of layers (harmonic means) instead. Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// `layers`: about how many pieces, where it does not represent the scene exactly.
+  /// `layers`: about how many pieces or layers, where it does not represent the scene exactly.
   CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers);
 
   [[nodiscard]] const Scene<Scalar>& scene() const { return *scene_; }
@@ -42,6 +44,9 @@ class CanonicalForm {
   [[nodiscard]] bool is_parabolic() const { return is_parabolic_; }
   /// Whether it represents the scene without approximation.
   [[nodiscard]] bool is_exact() const { return is_exact_; }
+  /// Whether nothing depends on the number of layers: the scene is represented exactly, and paths from a smooth start are not
+  /// looked for part by part, as they are where pieces have a sloped rate.
+  [[nodiscard]] bool is_final() const { return is_exact_ && !(start_ && has_pieces_); }
   /// Whether the layers are pieces in which the rate is not constant, of the scene itself or through its values at
   /// their ends: then rates() are their harmonic means, and these the values at their lower and upper ends.
   [[nodiscard]] bool has_pieces() const { return has_pieces_; }
@@ -50,14 +55,15 @@ class CanonicalForm {
   /// Whether u does not decrease in z but at shocks and boundaries. It may in pieces: in a linear one in a state, in any where
   /// paths come from others.
   [[nodiscard]] bool is_monotone() const {
-    return !has_pieces_ || (is_exponential_ && layers_.n_layers() == 1);
+    return !start_ && (!has_pieces_ || (is_exponential_ && layers_.n_layers() == 1));
   }
   [[nodiscard]] const std::vector<Scalar>& low_rates() const { return low_rates_; }
   [[nodiscard]] const std::vector<Scalar>& high_rates() const { return high_rates_; }
   /// Layers in the heights of the scene.
   [[nodiscard]] const LayerStack<Scalar>& layers() const { return layers_; }
 
-  /// The image: heights of bottom, interfaces and top; 4 times the capacity of each layer; initial data; int u dy.
+  /// The image: heights of bottom, interfaces and top; 4 times the capacity of each layer; initial data (empty for a smooth
+  /// start, which has a start() instead); int u dy.
   [[nodiscard]] const std::vector<Scalar>& boundaries() const {
     return is_identity_ ? layers_.boundaries() : y_;
   }
@@ -68,6 +74,10 @@ class CanonicalForm {
   [[nodiscard]] const std::vector<Scalar>& initial_values() const {
     return is_identity_ ? scene_->initial_values() : initial_values_;
   }
+  /// The image of a smooth start; null for data constant in pieces.
+  [[nodiscard]] const std::shared_ptr<const StartShape<Scalar>>& start() const { return start_; }
+  /// In how many parts of the bed paths from it are looked for where pieces have a sloped rate.
+  [[nodiscard]] std::size_t n_start_parts() const { return n_start_parts_; }
   [[nodiscard]] const Scalar& mass() const { return mass_; }
 
   /// dy / dz in layer k.
@@ -109,10 +119,11 @@ class CanonicalForm {
   void set_layers();
   void set_end_rates();
   void set_initial_data();
+  void set_start();
   [[nodiscard]] Scalar image_mass() const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
-  bool is_identity_, is_concave_, is_parabolic_, is_exponential_, is_exact_, has_pieces_;
+  bool is_identity_, is_concave_, is_parabolic_, has_pieces_, is_exponential_, is_exact_;
   LayerStack<Scalar> layers_;
   // Empty in the identity:
   std::vector<Scalar> lowest_, highest_, width_;  ///< per flux
@@ -124,6 +135,8 @@ class CanonicalForm {
 
   std::vector<Scalar> rates_, low_rates_, high_rates_;
   std::vector<RateForm> rate_forms_;
+  std::shared_ptr<const StartShape<Scalar>> start_;
+  std::size_t n_start_parts_ = 1;
   Scalar mass_{0};
 };
 

@@ -67,6 +67,7 @@ struct EntryPlaces {
 
 template <Real Scalar>
 std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
+  if (scene.has_smooth_start()) return "the start is smooth";
   const bool is_rate = entry.field.starts_with("shear_rate."), is_jump = entry.field == "initial.breaks";
   if (!is_rate && !is_jump && entry.field != "initial.values")
     return entry.field + " has no exact derivatives";

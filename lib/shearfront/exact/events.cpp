@@ -16,6 +16,7 @@ namespace shearfront {
 namespace {
 
 using exact::CanonicalForm;
+using exact::Cells;
 using exact::FinalAmount;
 using exact::Medium;
 using exact::Path;
@@ -23,21 +24,20 @@ using exact::PathKind;
 
 /// Whether the initial states equal `pure` on the whole of (from, to); decided from the data, not from sums.
 template <Real Scalar>
-bool is_pure(const CanonicalForm<Scalar>& form, const Scalar& from, const Scalar& to, int pure) {
-  const auto& jumps = form.initial_breaks();
-  for (std::size_t i = 0; i <= jumps.size(); ++i) {
-    const Scalar& lo = i == 0 ? form.boundaries().front() : jumps[i - 1];
-    const Scalar& hi = i == jumps.size() ? form.boundaries().back() : jumps[i];
-    if (lo < to && hi > from && form.initial_values()[i] != Scalar(pure)) return false;
-  }
+bool is_pure(const Cells<Scalar>& cells, const Scalar& from, const Scalar& to, int pure) {
+  for (std::size_t i = 0; i < cells.n_cells(); ++i)
+    if (cells.x[i] < to && cells.x[i + 1] > from && (cells.is_curved(i) || cells.phi[i] != Scalar(pure)))
+      return false;
   return true;
 }
 
 /// 1s below, 0s above, or only one of them.
 template <Real Scalar>
-bool is_steady(const std::vector<Scalar>& states) {
+bool is_steady(const Cells<Scalar>& cells) {
   bool seen_zero = false;
-  for (const Scalar& u : states) {
+  for (std::size_t i = 0; i < cells.n_cells(); ++i) {
+    const Scalar& u = cells.phi[i];
+    if (cells.is_curved(i)) return false;
     if (u == Scalar(0)) {
       seen_zero = true;
     } else if (u != Scalar(1) || seen_zero) {
@@ -154,7 +154,7 @@ class Events {
     Timeline<Scalar> events;
     events.t0 = at_wall(false);
     events.t1 = at_wall(true);
-    events.t_star = is_steady(form_.initial_values()) ? Scalar(0) : last_time(medium_.steady_height());
+    events.t_star = is_steady(medium_.cells()) ? Scalar(0) : last_time(medium_.steady_height());
     if (!form_.is_exact()) return events;
     for (std::size_t i = 1; i + 1 < form_.boundaries().size(); ++i)
       events.interfaces.push_back(at_interface(i));
@@ -165,14 +165,16 @@ class Events {
   /// First wave at the bottom or the top: of the nearest jump where the states really change, if the state at the wall
   /// is the one that does not stay there.
   std::optional<Scalar> at_wall(bool is_top) const {
-    const auto& states = form_.initial_values();
-    const Scalar& state = is_top ? states.back() : states.front();
+    const Cells<Scalar>& cells = medium_.cells();
+    const std::size_t n = cells.n_cells();
+    const Scalar& state = is_top ? cells.phi_high[n - 1] : cells.phi[0];
     if (state == Scalar(is_top ? 0 : 1)) return std::nullopt;
     if (state != Scalar(is_top ? 1 : 0)) return Scalar(0);
-    for (std::size_t n = 0; n + 1 < states.size(); ++n) {
-      const std::size_t i = is_top ? states.size() - 2 - n : n;
-      if (states[i] != states[i + 1])
-        return medium_.pure_travel_time(form_.initial_breaks()[i], is_top ? medium_.top() : medium_.bottom());
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t cell = is_top ? n - 1 - i : i;
+      if (!cells.is_curved(cell) && cells.phi[cell] == state) continue;
+      return medium_.pure_travel_time(cells.x[is_top ? cell + 1 : cell],
+                                      is_top ? medium_.top() : medium_.bottom());
     }
     return std::nullopt;
   }
@@ -182,7 +184,7 @@ class Events {
     typename Timeline<Scalar>::InterfaceTimes times{form_.layers().boundary(i), medium_.first_wave(i), {}};
     // Only 1 below or only 0 above: no flux ever passes y, which acts as a wall; the first wave there is the
     // last.
-    if (is_pure(form_, medium_.bottom(), y, 1) || is_pure(form_, y, medium_.top(), 0)) {
+    if (is_pure(medium_.cells(), medium_.bottom(), y, 1) || is_pure(medium_.cells(), y, medium_.top(), 0)) {
       times.last = times.first;
     } else {
       times.last = last_time(y);

@@ -44,12 +44,11 @@ class Integrand {
 class ShareIntegral {
  public:
   ShareIntegral(const ExactSolution<double>& exact, const ShareFunction& g, double t)
-      : exact_(exact), integrand_(exact.form(), g), t_(t) {}
+      : exact_(exact), integrand_(exact.form(), g), pieces_(exact, t), t_(t) {}
 
   double run() {
-    const bool is_initial = t_ == 0;
-    if (is_initial || !std::isfinite(t_)) return at_rest(exact::profile_at_rest(exact_, is_initial));
-    const exact::SmoothPieces<double> pieces(exact_, t_);
+    if (exact::is_at_rest(exact_, t_)) return at_rest(exact::profile_at_rest(exact_, t_ == 0));
+    const exact::SmoothPieces<double>& pieces = pieces_;
     const std::vector<double>& z = pieces.boundaries();
     for (std::size_t k = 0; k + 1 < z.size(); ++k) {
       integrand_.set_layer(k);
@@ -107,9 +106,7 @@ class ShareIntegral {
       add(lo, b.z);
   }
 
-  [[nodiscard]] double state_at(double y) const {
-    return exact_.image_value(exact_.medium().best_path(y, t_), y).phi;
-  }
+  [[nodiscard]] double state_at(double y) const { return pieces_.node(y).phi; }
   [[nodiscard]] double height_of(double phi, const PathNode<double>& a, const PathNode<double>& b) const {
     std::uintmax_t n = 100;
     const auto [lo, hi] = boost::math::tools::toms748_solve(
@@ -136,6 +133,7 @@ class ShareIntegral {
 
   const ExactSolution<double>& exact_;
   Integrand integrand_;
+  exact::SmoothPieces<double> pieces_;
   double t_;
   std::vector<double> kinks_;
   CompensatedSum<double> sum_;

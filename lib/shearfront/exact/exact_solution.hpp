@@ -19,6 +19,11 @@ namespace shearfront {
 /// Every scene is solved in its canonical form (exact/canonical_form.hpp) and mapped back. Value::H = dM/dt = -F is
 /// negative for concave fluxes.
 ///
+/// Smooth starts (Scene::has_smooth_start): guarantee (1) in layered scenes; elsewhere paths from them are looked for in parts of the bed,
+/// which are halved, and whose error is estimated, as (3) says. With a flux that is no parabola a smooth bed of theirs is a staircase of
+/// Options::layers layers (harmonic means), of order 3/2 (2 where no path turns), whatever the tolerance; M_error is three times the
+/// change from half as many.
+///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
 /// it, at the top the value below. Guarantees: (1) layered scenes, and a linear (tables) or exponential in pieces with c, T
@@ -40,11 +45,13 @@ template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    /// So many pieces where the scene has to be approximated; 0: as many as the tolerance takes.
+    /// So many pieces where the scene has to be approximated; 0: as many as the tolerance takes, in a staircase kDefaultLayers.
     std::size_t layers = 0;
     double tolerance = 1e-6;  ///< error of M aimed at, in heights of the bed
   };
+  static constexpr std::size_t kDefaultLayers = 128;  ///< of a staircase
   static constexpr std::size_t kFirstPieces = 32, kMostPieces = 4096;
+  static constexpr std::size_t kMostParts = 512;  ///< of a bed that is exact but for its smooth start
 
   struct Value {
     Scalar phi{0}, M{0}, H{0};
@@ -85,7 +92,7 @@ class ExactSolution {
   /// The Options::layers that give the same pieces, whatever the tolerance.
   [[nodiscard]] std::size_t resolution() const { return resolution_; }
   /// Whether pieces were refined until probed_error() was at most the tolerance: not where their number
-  /// was given or has come to kMostPieces.
+  /// was given or has come to kMostPieces, nor in a staircase.
   [[nodiscard]] bool meets_tolerance() const { return meets_tolerance_; }
   /// Largest M_error at the probe points, in heights of the bed; 0 where there is no tolerance to meet.
   [[nodiscard]] const Scalar& probed_error() const { return probed_error_; }

@@ -31,17 +31,19 @@ class Arrival {
         tie_(Scalar(64) * unit_roundoff<Scalar>() * (law_.top() - law_.bottom())) {}
 
   std::optional<Scalar> find() {
-    if (!at_rest(at_)) return Scalar(0);
+    if (cells_.is_curved(at_ - 1) || cells_.is_curved(at_) || !at_rest(at_)) return Scalar(0);
     H0_ = std::min(flux(at_ - 1), flux(at_));
     for (const bool upward : {true, false}) {
       const std::size_t end = follow(upward);
       if (!(H0_ > 0)) continue;  // nothing is slower than H = 0
+      if (cells_.shape) continue;
       fans(upward, end);
       states(upward, end);
     }
     if (H0_ > 0) {
-      waits();
+      if (!cells_.shape) waits();
       walls();
+      if (cells_.shape) look_for_shocks();
     }
     if (!is_finite(first_)) return std::nullopt;
     return first_;
@@ -62,9 +64,11 @@ class Arrival {
     const std::size_t b = point - 1, a = point;
     const Scalar &r_b = law_.rate[cells_.layer[b]], &r_a = law_.rate[cells_.layer[a]];
     const bool is_same_layer = cells_.layer[b] == cells_.layer[a] || (!Law::kMovesAtCapacity && r_b == r_a);
-    if (is_same_layer && cells_.phi[b] == cells_.phi[a]) return true;
-    const Scalar h_b = medium_.h_cell(b), h_a = medium_.h_cell(a);
-    const Scalar sent = excess(b, true) > 0 ? h_b : r_b, taken = excess(a, false) > 0 ? h_a : r_a;
+    const Scalar &phi_b = cells_.beside(point, false), &phi_a = cells_.beside(point, true);
+    if (is_same_layer && phi_b == phi_a) return true;
+    const Scalar h_b = law_.h_of(cells_.layer[b], phi_b), h_a = medium_.h_cell(a);
+    const Scalar sent = law_.excess(cells_.layer[b], phi_b, true) > 0 ? h_b : r_b,
+                 taken = excess(a, false) > 0 ? h_a : r_a;
     const Scalar passing = std::min(sent, taken);
     return is_same_flux<Scalar>(h_b, passing) && is_same_flux<Scalar>(h_a, passing);
   }
@@ -79,6 +83,10 @@ class Arrival {
     std::size_t point = at_;
     for (;;) {
       const std::size_t c = upward ? point - 1 : point;
+      if (cells_.is_curved(c)) {
+        arrive(time);
+        return point;
+      }
       const Scalar over = excess(c, upward);
       if (!(over > 0)) return point;
       time += (cells_.x[c + 1] - cells_.x[c]) / speed(c, upward, over);
@@ -178,6 +186,25 @@ class Arrival {
     arrive(std::max(Scalar(((z_ - law_.bottom()) - M0_) / H0_),
                     pure_travel_time<Scalar>(law_, law_.bottom(), z_)));
     arrive(std::max(Scalar((medium_.mass() - M0_) / H0_), pure_travel_time<Scalar>(law_, law_.top(), z_)));
+  }
+
+  /// Of paths from curved cells: where M is first less than M0 + H0 t. Some may leave again between two samples.
+  void look_for_shocks() {
+    if (!is_finite(first_)) return;
+    const auto is_changed = [&](const Scalar& t) {
+      return medium_.best_path(z_, t).value < M0_ + H0_ * t - tie_;
+    };
+    constexpr int kSamples = 200;
+    for (int n = 1; n <= kSamples; ++n) {
+      Scalar hi = first_ * (Scalar(n) / Scalar(kSamples)), lo = first_ * (Scalar(n - 1) / Scalar(kSamples));
+      if (!(hi > 0) || !is_changed(hi)) continue;
+      while (hi - lo > Scalar(4) * unit_roundoff<Scalar>() * hi) {
+        const Scalar t = lo + (hi - lo) / Scalar(2);
+        if (!(t > lo && t < hi)) break;
+        (is_changed(t) ? hi : lo) = t;
+      }
+      return arrive(hi);
+    }
   }
 
   [[nodiscard]] bool is_passable(const Scalar& x, const Scalar& H) const {

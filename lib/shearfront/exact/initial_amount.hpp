@@ -21,6 +21,10 @@ void add_final_less_initial(const Cells<Scalar>& cells, const Path<Scalar>& path
   sum += -cells.M[path.source];
   sum += -cells.M_low[path.source];
   if (path.kind != PathKind::constant && !path.is_state) return;
+  if (cells.is_curved(path.source)) {
+    sum += -cells.inside(path.source, path.foot);
+    return;
+  }
   const TwoSum<Scalar> inside(path.foot, Scalar(-cells.x[path.source]));
   const TwoProduct<Scalar> initial(inside.high, cells.phi[path.source]);
   sum += -initial.high;

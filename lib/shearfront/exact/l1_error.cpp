@@ -176,7 +176,7 @@ ProfileErrors<Scalar> errors_against(const ExactSolution<Scalar>& exact, const P
   SHEARFRONT_EXPECTS(profile.n_cells() > 0 && t >= Scalar(0), "a profile at a time");
   // |phi - exact phi| dz = |u - exact u| dy: the canonical form has the same errors.
   const Profile<Scalar> image = exact.form().image_of(profile);
-  if (t == Scalar(0) || !is_finite(t))
+  if (exact::is_at_rest(exact, t))
     return errors_at_rest(exact::profile_at_rest(exact, t == Scalar(0)), image);
   return L1Integral<Scalar>(exact, image, t).run();
 }

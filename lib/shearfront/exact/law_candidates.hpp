@@ -18,7 +18,7 @@ namespace shearfront::exact {
 template <Real Scalar>
 class LawCandidates : protected SlopedStarts<Scalar> {
  public:
-  static constexpr bool kKnowsPieces = false;
+  static constexpr bool kKnowsPieces = false, kTakesCurved = false;
 
   using SlopedStarts<Scalar>::SlopedStarts;
 
@@ -190,7 +190,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     const Sample top = fan_sample(route, Scalar(1));
     // It comes too early: it dawdles where the rate is least, in a flux with a kink. Any other rests at a throat.
     if (top.T <= t_ && has_kink(route)) return offer_fan(route, node, base, top, false, 0);
-    if (top.T < t_) return;
+    // Right then both are the path, and rounding must not drop both.
+    if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
     Sample zero;
     zero.T = time;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };

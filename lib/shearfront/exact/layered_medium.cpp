@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "shearfront/exact/curved_cell.hpp"
 #include "shearfront/exact/first_wave.hpp"
 #include "shearfront/exact/initial_amount.hpp"
 #include "shearfront/exact/layered_gradient.hpp"
@@ -19,10 +20,11 @@ Scalar bound_slack(const Geometry<Scalar>& g) {
 }
 
 template <Real Scalar, class Law>
-std::vector<Scalar> cell_fluxes(const Law& law, const Cells<Scalar>& cells) {
+std::vector<Scalar> cell_fluxes(const Law& law, const Cells<Scalar>& cells,
+                                const std::vector<Scalar>& states) {
   std::vector<Scalar> h;
   h.reserve(cells.n_cells());
-  for (std::size_t i = 0; i < cells.n_cells(); ++i) h.push_back(law.h_of(cells.layer[i], cells.phi[i]));
+  for (std::size_t i = 0; i < cells.n_cells(); ++i) h.push_back(law.h_of(cells.layer[i], states[i]));
   return h;
 }
 
@@ -32,12 +34,12 @@ template <Real Scalar, class Law>
 LayeredMedium<Scalar, Law>::LayeredMedium(Law law, Cells<Scalar> cells, Scalar mass)
     : Medium<Scalar>(std::move(cells), std::move(mass)),
       law_(std::move(law)),
-      h_cell_(cell_fluxes<Scalar>(law_, cells_)),
+      h_{cell_fluxes<Scalar>(law_, cells_, cells_.phi), cell_fluxes<Scalar>(law_, cells_, cells_.phi_high)},
       slack_(bound_slack<Scalar>(law_)),
-      waiting_(law_, cells_, h_cell_, slack_) {
+      waiting_(law_, cells_, h_, slack_) {
   emits_.assign(cells_.x.size(), 0);
   for (std::size_t i = 1; i < cells_.n_cells(); ++i) {
-    const bool is_pure = cells_.phi[i - 1] == cells_.phi[i] && h_cell_[i] == 0;
+    const bool is_pure = cells_.beside(i, false) == cells_.beside(i, true) && h_.low[i] == 0;
     if (is_pure) continue;
     if (may_emit(i, true)) emits_[i] |= 1U;
     if (may_emit(i, false)) emits_[i] |= 2U;
@@ -52,11 +54,11 @@ bool LayeredMedium<Scalar, Law>::may_emit(std::size_t i, bool upward) const {
   const Scalar slack = Scalar(1) / Scalar(1 << 20);
   const std::size_t ahead = upward ? i : i - 1, behind = upward ? i - 1 : i;
   const std::size_t k = cells_.layer[ahead], l = cells_.layer[behind];
-  const Scalar over_ahead = law_.excess(k, cells_.phi[ahead], upward);
-  const Scalar over_behind = law_.excess(l, cells_.phi[behind], upward);
+  const Scalar over_ahead = law_.excess(k, cells_.beside(i, upward), upward);
+  const Scalar over_behind = law_.excess(l, cells_.beside(i, !upward), upward);
   if (over_ahead < -Scalar(Law::kSlack)) return false;
-  const Scalar limit = over_behind > 0 ? h_cell_[behind] : law_.rate[l];
-  return h_cell_[ahead] <= limit * (Scalar(1) + slack) &&
+  const Scalar limit = over_behind > 0 ? h_.beside(i, !upward) : law_.rate[l];
+  return h_.beside(i, upward) <= limit * (Scalar(1) + slack) &&
          (over_ahead > 0 || over_behind < 0 || Law::kMovesAtCapacity);
 }
 
@@ -112,7 +114,7 @@ Path<Scalar> LayeredMedium<Scalar, Law>::search(const Query& query, Path<Scalar>
       sweep.cross(law_, law_.height[sweep.start]);
     }
   }
-  waiting_.search(law_, cells_, z, k, t, upper, best);
+  waiting_.search(law_, z, k, t, upper, best);
   return best;
 }
 
@@ -205,7 +207,8 @@ FanState<Scalar> LayeredMedium<Scalar, Law>::try_source(const Query& query, Swee
     fan = law_.solve_fan(sweep, d, query.t, base, limit);
     if (prune && !own && fan.reachable) sweep.set_dual(law_, Scalar(Scalar(4) * fan.H));
   }
-  if (!fan.reachable || fan.pruned) return fan;
+  // Without `prune` only a bound is wanted of those that emit nothing: between pure states their rounded values may be the least.
+  if (!fan.reachable || fan.pruned || !emits(i, sweep.upward)) return fan;
   Path<Scalar> path;
   path.value = base + fan.Q / Scalar(2) + fan.H * query.t;
   if (path.value > best.value) return fan;
@@ -225,12 +228,13 @@ FanState<Scalar> LayeredMedium<Scalar, Law>::try_source(const Query& query, Swee
 template <Real Scalar, class Law>
 void LayeredMedium<Scalar, Law>::try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i,
                                           Path<Scalar>& best) const {
+  if (cells_.is_curved(i)) return try_curved_cell(query, sweep, i, best);
   const Scalar& phi = cells_.phi[i];
   const bool own = sweep.start == sweep.own;
   const std::size_t j = sweep.start;
   const Scalar over = law_.excess(j, phi, sweep.upward);
   if (over < 0 || (!own && over == 0)) return;  // at the peak it rests and never leaves its cell
-  const Scalar& h = h_cell_[i];
+  const Scalar& h = h_.low[i];
   if (query.moving_only && h == 0) return;
   if (!own && !(h < sweep.r_min)) return;  // ends of the cell cover what is equal to a capacity
   const Scalar speed = over > 0 ? Scalar(law_.rate[j] * law_.steepness(j, sweep.upward, over)) : Scalar(0);
@@ -278,6 +282,55 @@ void LayeredMedium<Scalar, Law>::try_cell(const Query& query, const Sweep<Scalar
     path.p = law_.momentum(query.k, sweep.upward, q, path.H);
   }
   if (path.better_than(best)) best = path;
+}
+
+/// The characteristics of the states of a curved cell.
+template <Real Scalar, class Law>
+void LayeredMedium<Scalar, Law>::try_curved_cell(const Query& query, const Sweep<Scalar>& sweep,
+                                                 std::size_t i, Path<Scalar>& best) const {
+  const bool up = sweep.upward, own = sweep.start == sweep.own;
+  const std::size_t j = sweep.start;
+  const Scalar reach = (query.t - sweep.T0) / law_.pure_slowness(j, up);  // nothing is faster
+  if (!(reach > 0)) return;
+  const Scalar& exit = sweep.exit(law_, query.z);
+  const Scalar lo = up ? std::max(cells_.x[i], Scalar(exit - reach)) : std::max(cells_.x[i], exit);
+  const Scalar hi = up ? std::min(cells_.x[i + 1], exit) : std::min(cells_.x[i + 1], Scalar(exit + reach));
+  if (!(lo < hi)) return;
+  const Scalar limit = std::min(query.upper, best.value);
+  if (!own) {
+    const auto bound = [&](const Scalar& y) {
+      return dual_bound(law_, sweep, up ? Scalar(exit - y) : Scalar(y - exit), law_.peaks(y, query.z),
+                        query.t);
+    };
+    if (cells_.M[i] + std::min(bound(lo), bound(hi)) > limit + slack_) return;
+  }
+  using Search = CurvedCell<Scalar, Law>;
+  Search(law_, cells_, sweep, i, query.z, query.t, limit)
+      .run(lo, hi, reach, [&](const typename Search::Start& s) {
+        Path<Scalar> path;
+        path.foot = s.y;
+        path.value = s.value();
+        path.kind = PathKind::constant;
+        path.upward = up;
+        path.source = i;
+        const Scalar over = law_.excess(j, s.phi, up), h = law_.h_of(j, s.phi);
+        // The state knows H better than the distance does, but where it is about to rest.
+        if (!(over < 0) && (own || h < sweep.r_min)) {
+          path.H = h / Scalar(4);
+          path.r_reference = law_.rate[j];
+          path.x = law_.root_lack(j, up, over);
+          path.p =
+              own ? s.phi
+                  : law_.momentum(query.k, up, law_.q(query.k, up, Scalar(law_.rate[query.k] - h)), path.H);
+        } else {
+          path.H = s.fan.H;
+          path.r_reference = s.fan.r_min;
+          path.x = s.fan.x;
+          path.p = law_.momentum(query.k, up, law_.q_on(query.k, up, s.fan.r_min, s.fan.x), s.fan.H);
+        }
+        if (query.moving_only && path.H == 0) return;
+        if (path.better_than(best)) best = path;
+      });
 }
 
 /// With U the height gained by the legs of the path that go up, its cost is U + H t - sum d loss (what going up gains

@@ -16,7 +16,8 @@ namespace shearfront::exact {
 /// The Lax-Hopf formula in a stack of layers, in each of which a(z) is constant: minimum over
 ///   1. fans from initial jumps and interfaces, T(H) = t (exact/law.hpp),
 ///   2. the same resting at an interface (exact/waiting.hpp),
-///   3. constant initial states, H known, foot point from the travel time.
+///   3. constant initial states, H known, foot point from the travel time,
+///   4. curved ones, the foot point where moving it does not pay (exact/curved_cell.hpp).
 /// Walls are added by best_path().
 ///
 /// Which candidates are left out, and why the minimum stays the same:
@@ -58,8 +59,8 @@ class LayeredMedium final : public Medium<Scalar> {
 
   [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] const Waiting<Scalar, Law>& waiting() const { return waiting_; }
-  /// 4 H of the state of a cell.
-  [[nodiscard]] const Scalar& h_cell(std::size_t i) const { return h_cell_[i]; }
+  /// 4 H of the state of a cell, of a curved one at its lower end.
+  [[nodiscard]] const Scalar& h_cell(std::size_t i) const { return h_.low[i]; }
   /// Whether a fan can leave inner point i upwards (downwards): some H satisfies phi_b <= p <= phi_a.
   [[nodiscard]] bool emits(std::size_t i, bool upward) const { return (emits_[i] & (upward ? 1U : 2U)) != 0; }
 
@@ -81,10 +82,12 @@ class LayeredMedium final : public Medium<Scalar> {
                     Path<Scalar>& best) const;
   FanState<Scalar> try_source(const Query& query, Sweep<Scalar>& sweep, std::size_t i, bool prune,
                               Path<Scalar>& best) const;
+  void try_curved_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i,
+                       Path<Scalar>& best) const;
   void try_cell(const Query& query, const Sweep<Scalar>& sweep, std::size_t i, Path<Scalar>& best) const;
 
   Law law_;
-  std::vector<Scalar> h_cell_;       ///< 4 H of the state of each cell
+  CellFluxes<Scalar> h_;             ///< 4 H of the state of each cell
   std::vector<std::uint8_t> emits_;  ///< per point: bit 0 upwards, bit 1 downwards
   Scalar slack_;                     ///< rounding allowance of lower bounds
   Waiting<Scalar, Law> waiting_;

@@ -45,6 +45,27 @@ Path<Scalar> Medium<Scalar>::best_path(const Scalar& z, const Scalar& t) const {
 
 namespace {
 
+/// The knots of a smooth start, and heights between them: of the form's number of parts of the bed.
+template <Real Scalar>
+std::vector<Scalar> finer_cuts(const CanonicalForm<Scalar>& form) {
+  const Scalar &bottom = form.boundaries().front(), &top = form.boundaries().back();
+  std::vector<Scalar> ends = form.start()->knots(), cuts;
+  ends.push_back(top);
+  Scalar from = bottom;
+  for (const Scalar& to : ends) {
+    const double share = to_double(Scalar((to - from) / (top - bottom)));
+    const int n =
+        std::max(1, static_cast<int>(std::ceil(share * static_cast<double>(form.n_start_parts()) - 1e-9)));
+    for (int i = 1; i < n; ++i) {
+      const Scalar y = from + (to - from) * (Scalar(i) / Scalar(n));
+      if (y > (cuts.empty() ? bottom : cuts.back()) && y < to) cuts.push_back(y);
+    }
+    if (to < top) cuts.push_back(to);
+    from = to;
+  }
+  return cuts;
+}
+
 /// In the unit of time in which its fastest rate is about 1: closed forms multiply rates and take their roots, and results must not depend
 /// on the unit of the user's times.
 template <Real Scalar>
@@ -56,9 +77,11 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
+  Cells<Scalar> cells = form.start()
+                            ? Cells<Scalar>(form.start(), finer_cuts(form), form.boundaries())
+                            : Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries());
   auto medium = std::make_unique<const SlopedMedium<Scalar>>(
-      std::move(pieces), Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries()),
-      form.mass(),
+      std::move(pieces), std::move(cells), form.mass(),
       form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form)));
   if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
@@ -71,7 +94,8 @@ std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& f
   const auto& y = form.boundaries();
   if (form.has_pieces()) return medium_of_pieces(form);
   const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
-    Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), y);
+    Cells<Scalar> cells = form.start() ? Cells<Scalar>(form.start(), form.start()->knots(), y)
+                                       : Cells<Scalar>(form.initial_breaks(), form.initial_values(), y);
     return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());
   };
   if (form.is_parabolic()) return layered(ParabolaLaw<Scalar>(y, form.rates()));

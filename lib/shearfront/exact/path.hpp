@@ -14,7 +14,7 @@ enum class PathKind : std::uint8_t {
   top_wall,     ///< leaves the top with phi = 0, H = 0
   fan,          ///< leaves an initial jump or an interface at t = 0 and never rests
   waiting,      ///< as fan, but rests at an interface at its capacity H = s min(a_below, a_above) / 4
-  constant      ///< leaves the inside of a constant initial state
+  constant      ///< leaves the inside of an initial state that is constant, or curved
 };
 
 /// One admissible path of the Lax-Hopf formula: M(z, t) is the least value over all of them.
@@ -26,7 +26,7 @@ struct Path {
   PathKind kind = PathKind::none;
   bool upward = false;     ///< arrives from below
   bool turned = false;     ///< sloped pieces: it set out the other way and has turned
-  bool is_state = false;   ///< waiting, sloped pieces: `source` is the cell of Cells where it starts
+  bool is_state = false;   ///< waiting: `source` is the cell of Cells inside which it starts
   std::size_t source = 0;  ///< fan, waiting: point of Cells; constant: cell of Cells
   std::size_t interface =
       0;           ///< waiting: boundary index of the interface; sloped pieces: point of Cells where it

@@ -47,7 +47,7 @@ class SlopedArrival {
   /// 4 H of a state that keeps it: pure, or in a flat piece.
   [[nodiscard]] Scalar h(std::size_t cell) const { return medium_.view(false).h(cell, rate(cell, false)); }
   [[nodiscard]] bool stays(std::size_t cell) const {
-    return cells_.phi[cell] == 0 || cells_.phi[cell] == 1 || is_flat(cell);
+    return !cells_.is_curved(cell) && (cells_.phi[cell] == 0 || cells_.phi[cell] == 1 || is_flat(cell));
   }
   /// No wave leaves this inner point at t = 0, and the states beside it stay what they are.
   [[nodiscard]] bool is_at_rest(std::size_t point) const {
@@ -63,12 +63,12 @@ class SlopedArrival {
     Scalar first = infinity<Scalar>();
     if (cells_.phi[at_ - 1] == 1) {
       std::size_t c = at_ - 1;
-      while (c > 0 && cells_.phi[c - 1] == 1) --c;
+      while (c > 0 && cells_.phi[c - 1] == 1 && !cells_.is_curved(c - 1)) --c;
       if (c > 0) first = medium_.pure_travel_time(cells_.x[c], z_);
     }
     if (cells_.phi[at_] == 0) {
       std::size_t c = at_;
-      while (c + 1 < cells_.n_cells() && cells_.phi[c + 1] == 0) ++c;
+      while (c + 1 < cells_.n_cells() && cells_.phi[c + 1] == 0 && !cells_.is_curved(c + 1)) ++c;
       if (c + 1 < cells_.n_cells()) first = std::min(first, medium_.pure_travel_time(cells_.x[c + 1], z_));
     }
     return first;

@@ -10,6 +10,7 @@
 #include "shearfront/exact/law_run.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
 #include "shearfront/exact/sloped_stretches.hpp"
+#include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
@@ -73,17 +74,21 @@ struct SlopedView {
   std::vector<RateForm> form;
   std::vector<Scalar> bend;  ///< of r in each cell
   std::vector<RelativeBends<Scalar>> bends;
-  std::vector<Scalar> p, missing;                     ///< initial state of each cell, and what it lacks to 1
+  std::vector<Scalar> p,
+      missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
+  std::vector<Scalar> p_high;                         ///< at its upper end
   std::vector<Scalar> q0;                             ///< 2 p - 1, or twice the distance from the peak
   std::vector<Scalar> G0, e0;                         ///< 4 H over r, and what it lacks to 1
   std::vector<Scalar> pure_time;                      ///< of a pure state upwards through each cell
   std::vector<Scalar> pure_back;                      ///< and downwards
   std::vector<bool> emits;                            ///< a fan can leave the node upwards
+  std::shared_ptr<const StartShape<Scalar>> shape;    ///< of a smooth start, of parabolas only
   std::shared_ptr<const PieceFluxes<Scalar>> fluxes;  ///< none: all are parabolas
 
   SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored,
              std::shared_ptr<const PieceFluxes<Scalar>> of_pieces = nullptr)
-      : is_mirror(mirrored), M(cells.M), fluxes(std::move(of_pieces)) {
+      : is_mirror(mirrored), M(cells.M), shape(cells.shape), fluxes(std::move(of_pieces)) {
+    SHEARFRONT_EXPECTS(!shape || !fluxes, "a smooth start only with parabolas");
     const Scalar one(1);
     for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
     for (std::size_t i = 0; i < cells.n_cells(); ++i) {
@@ -96,13 +101,15 @@ struct SlopedView {
       piece.push_back(k);
       form.push_back(pieces.form[k]);
       bend.push_back(mirrored ? Scalar(-pieces.bend[k]) : pieces.bend[k]);
-      p.push_back(mirrored ? Scalar(one - cells.phi[i]) : cells.phi[i]);
-      missing.push_back(mirrored ? cells.phi[i] : Scalar(one - cells.phi[i]));
-      q0.push_back(mirrored ? Scalar(one - Scalar(2) * cells.phi[i])
-                            : Scalar(Scalar(2) * cells.phi[i] - one));
+      const Scalar &phi = mirrored ? cells.phi_high[i] : cells.phi[i],
+                   &phi_high = mirrored ? cells.phi[i] : cells.phi_high[i];
+      p.push_back(mirrored ? Scalar(one - phi) : phi);
+      p_high.push_back(mirrored ? Scalar(one - phi_high) : phi_high);
+      missing.push_back(mirrored ? phi : Scalar(one - phi));
+      q0.push_back(mirrored ? Scalar(one - Scalar(2) * phi) : Scalar(Scalar(2) * phi - one));
     }
     if (mirrored) {
-      for (auto* all : {&x, &M, &low, &high, &bend, &p, &missing, &q0})
+      for (auto* all : {&x, &M, &low, &high, &bend, &p, &p_high, &missing, &q0})
         std::reverse(all->begin(), all->end());
       std::reverse(form.begin(), form.end());
       std::reverse(piece.begin(), piece.end());
@@ -128,7 +135,8 @@ struct SlopedView {
     insert(view.M, cell + 1, amount(cell, z));
     insert(view.low, cell + 1, r);
     insert(view.high, cell, r);
-    for (auto* all : {&view.bend, &view.p, &view.missing, &view.q0, &view.G0, &view.e0}) twice(*all);
+    for (auto* all : {&view.bend, &view.p, &view.p_high, &view.missing, &view.q0, &view.G0, &view.e0})
+      twice(*all);
     insert(view.piece, cell, piece[cell]);
     insert(view.form, cell, form[cell]);
     insert(view.bends, cell, bends[cell]);
@@ -178,8 +186,12 @@ struct SlopedView {
                                    : rate_beyond(form[cell], bend[cell], high[cell], Scalar(-above));
     return std::clamp(r, std::min(low[cell], high[cell]), std::max(low[cell], high[cell]));
   }
+  [[nodiscard]] bool is_curved(std::size_t cell) const { return shape && p[cell] != p_high[cell]; }
   /// Initial amount below a height of a cell, in the true orientation.
   [[nodiscard]] Scalar amount(std::size_t cell, const Scalar& z) const {
+    if (is_curved(cell))
+      return M[cell] + (is_mirror ? Scalar(-shape->amount(piece[cell], Scalar(-z), Scalar(-x[cell])))
+                                  : shape->amount(piece[cell], x[cell], z));
     return is_mirror ? Scalar(M[cell] - missing[cell] * (z - x[cell]))
                      : Scalar(M[cell] + p[cell] * (z - x[cell]));
   }
@@ -199,6 +211,11 @@ struct SlopedView {
   [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
 
  private:
+  /// What a curved cell can send upwards through its upper end.
+  [[nodiscard]] Scalar most_at_top(std::size_t cell) const {
+    const Scalar one(1), &u = p_high[cell];
+    return u + u > one ? Scalar(Scalar(4) * u * (one - u) * high[cell]) : high[cell];
+  }
   void set_fluxes() {
     for (std::size_t i = 0; i < n_cells(); ++i) {
       const Scalar half(0.5), one(1);
@@ -224,10 +241,10 @@ struct SlopedView {
   [[nodiscard]] bool may_emit(std::size_t node) const {
     const Scalar slack = Scalar(1) / Scalar(1 << 20), one(1);
     const std::size_t b = node - 1, a = node;
-    if (!(p[b] < p[a]) && !is_jump(node)) return false;
+    if (!(p_high[b] < p[a]) && !is_jump(node)) return false;
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
-    const Scalar most = std::min(low[a], q0[b] > 0 ? h(b, high[b]) : high[b]);
+    const Scalar most = std::min(low[a], is_curved(b) ? most_at_top(b) : q0[b] > 0 ? h(b, high[b]) : high[b]);
     // Between pure states a fan is no more than the path of the state, which is no moving one.
     return most > 0 && least <= most * (one + slack);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "shearfront/exact/sloped_curved.hpp"
 #include "shearfront/exact/sloped_starts.hpp"
 
 namespace shearfront::exact {
@@ -14,6 +15,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
  public:
   /// Paths inside one piece have closed forms.
   static constexpr bool kKnowsPieces = true;
+  /// Cells of a smooth start.
+  static constexpr bool kTakesCurved = true;
 
   using SlopedStarts<Scalar>::SlopedStarts;
 
@@ -62,7 +65,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     if (base > limit()) return;  // L >= max(0, v)
     const Sample top = fan_sample(route, Scalar(1));
     if (is_finite(top.T)) {
-      if (top.T < t_) return;
+      // Later it rests at the least rate on its way. Right then both are the path, and rounding must not drop both.
+      if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
       if (base + top.X + top.h / Scalar(4) * (t_ - top.T) > limit()) return;
     }
     Sample zero;
@@ -123,6 +127,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
   }
   /// Most time from a start in cell k to its upper end.
   [[nodiscard]] Scalar most_from_state(std::size_t k, const Range& h) const {
+    if (view_.is_curved(k)) return infinity<Scalar>();
     if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
     return Stretches::most_from_state(h.least, h.most, view_.q0[k], view_.high[k], view_.bends[k]);
   }
@@ -219,6 +224,41 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Scalar value =
         view_.amount(k, y) + gained(y, top) + (s.X + c.X) + s.h / Scalar(4) * (t_ - (s.T + c.T));
     offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+  }
+
+  // Cells of a smooth start.
+  [[nodiscard]] Range h_of_curved(std::size_t k) const {
+    const Scalar &least = std::min(view_.low[k], view_.high[k]),
+                 &most = std::max(view_.low[k], view_.high[k]);
+    const Scalar &p = std::min(view_.p[k], view_.p_high[k]), &q = std::max(view_.p[k], view_.p_high[k]);
+    const Scalar one(1), four_g = Scalar(4) * p * (one - p), other = Scalar(4) * q * (one - q);
+    const bool has_peak = p + p < one && q + q > one;
+    return {std::min(four_g, other) * least, (has_peak ? one : std::max(four_g, other)) * most};
+  }
+  /// From the height of a curved cell whose path comes along the route at the time t.
+  void search_curved(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
+                     bool turned, std::size_t turn) {
+    Scalar lo = view_.x[k], hi = view_.x[k + 1];
+    const auto h = [&](const Scalar& y) {
+      const CurvedState<Scalar> state(view_, k, y);
+      return Scalar(Scalar(4) * state.p * state.missing * view_.rate(k, y));
+    };
+    if (!keep_where<Scalar>([&](const Scalar& y) { return CurvedState<Scalar>(view_, k, y).q0; }, lo, hi) ||
+        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(route.least - h(y)); }, lo, hi) ||
+        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
+      return;
+    const auto late = [&](const Scalar& y) -> std::optional<Scalar> {
+      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
+      return start ? std::optional(Scalar(start->s.T - t_)) : std::nullopt;
+    };
+    sign_changes<Scalar>(late, lo, hi, [&](const Scalar& y) {
+      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
+      if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
+      const SlopedSample<Scalar>& s = start->s;
+      const Scalar value =
+          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s.X + s.h / Scalar(4) * (t_ - s.T);
+      offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+    });
   }
 };
 

@@ -43,7 +43,8 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
                                           bool moving_only) const {
   using std::sqrt;
   if (fluxes_) return search_for_law(SlopedPlace<Scalar>(up_, z), t, upper, moving_only);
-  if (pieces_.size() == 1) return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
+  if (pieces_.size() == 1 && !cells_.shape)
+    return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);
   const std::size_t above = place.above;
@@ -62,8 +63,12 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
   // A state that has not left its cell knows p itself: after no time it is what it was, to the bit.
   const bool is_inside =
       best.kind == PathKind::constant && best.source == above && (!best.turned || best.interface == above);
-  if (is_inside)
+  if (is_inside && up_.is_curved(above)) {
+    const CurvedState<Scalar> state(up_, above, best.foot);
+    best.p = arc_from_state(up_.form[above], up_.bend[above], t, state.p, state.missing, r).p;
+  } else if (is_inside) {
     best.p = arc_from_state(up_.form[above], up_.bend[above], t, up_.p[above], up_.missing[above], r).p;
+  }
   return best;
 }
 

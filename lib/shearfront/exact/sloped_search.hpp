@@ -36,6 +36,14 @@ class SlopedSearch : private Candidates {
   using typename Base::Range;
   using typename Base::Route;
 
+  [[nodiscard]] bool is_curved(std::size_t cell) const {
+    return Candidates::kTakesCurved && view_.is_curved(cell);
+  }
+  void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
+                    bool turned, std::size_t turn) {
+    if constexpr (Candidates::kTakesCurved)
+      Candidates::search_curved(route, k, leaves_up, h_low, top, turned, turn);
+  }
   [[nodiscard]] bool is_of_piece(std::size_t cell, std::size_t other) const {
     return view_.piece[cell] == view_.piece[other];
   }
@@ -50,8 +58,8 @@ class SlopedSearch : private Candidates {
     while (first > 0 && is_of_piece(first - 1, cell)) --first;
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
-      if (!view_.is_mirror && !(moving_only_ && (view_.p[k] == 0 || view_.missing[k] == 0)))
-        state_inside(cell, k, first, last);
+      const bool is_pure = !is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
+      if (!view_.is_mirror && !(moving_only_ && is_pure)) state_inside(cell, k, first, last);
     };
     const auto fan = [&](std::size_t k) {
       if (k > 0 && view_.emits[k]) fan_inside(cell, k, first, last);
@@ -75,6 +83,7 @@ class SlopedSearch : private Candidates {
   }
   /// From cell k; `first` and `last` are the outermost cells of the piece.
   void state_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
+    if (is_curved(k)) return curved_inside(cell, k, first, last);
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
@@ -85,6 +94,23 @@ class SlopedSearch : private Candidates {
     const Scalar y = z_ - arc.rise;
     accept(cell, arc, std::clamp(y, view_.x[k], view_.x[k + 1]), PathKind::constant, k, view_.amount(k, y),
            first, last);
+  }
+  /// From the height of a curved cell whose state comes to z.
+  void curved_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
+    const auto arc_from = [&](const Scalar& y) {
+      const CurvedState<Scalar> state(view_, k, y);
+      return arc_from_state(view_.form[cell], view_.bend[cell], t_, state.p, state.missing,
+                            rate_beside(cell));
+    };
+    const auto gap = [&](const Scalar& y) -> std::optional<Scalar> {
+      const auto arc = arc_from(y);
+      return arc.exists ? std::optional(Scalar(y + arc.rise - z_)) : std::nullopt;
+    };
+    sign_changes<Scalar>(gap, view_.x[k], view_.x[k + 1], [&](const Scalar& y) {
+      const auto arc = arc_from(y);
+      if (moving_only_ && (arc.p == 0 || arc.missing == 0)) return;
+      accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y), first, last);
+    });
   }
   /// From the lower node of cell k.
   void fan_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
@@ -168,6 +194,7 @@ class SlopedSearch : private Candidates {
   }
 
   [[nodiscard]] bool has_moving_state(std::size_t k) const {
+    if (is_curved(k)) return std::max(view_.p[k], view_.p_high[k]) > Scalar(0.5);
     return view_.p[k] > 0 && view_.missing[k] > 0 &&
            (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
   }
@@ -195,9 +222,12 @@ class SlopedSearch : private Candidates {
 
   /// h of the state of cell k.
   [[nodiscard]] Range h_of_cell(std::size_t k) const {
+    if constexpr (Candidates::kTakesCurved)
+      if (is_curved(k)) return this->h_of_curved(k);
     return {view_.h(k, std::min(view_.low[k], view_.high[k])),
             view_.h(k, std::max(view_.low[k], view_.high[k]))};
   }
+
   /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, that of `from` and above, in which
   /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass
   /// besides, which takes pure states the time `time`.
@@ -253,7 +283,7 @@ class SlopedSearch : private Candidates {
 
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
-    if (view_.missing[k] == 0) return this->pure_state(k, time);
+    if (!is_curved(k) && view_.missing[k] == 0) return this->pure_state(k, time);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
@@ -261,7 +291,9 @@ class SlopedSearch : private Candidates {
     if (!this->may_come_from_state(route, k, {h.least, std::min(h.most, route.least)})) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
-    if (view_.bend[k] == 0)
+    if (is_curved(k))
+      curved_state(route, k, true, Scalar(0), z_, false, 0);
+    else if (view_.bend[k] == 0)
       flat_state(route, k, z_, false, 0, Scalar(0));
     else
       search_state(route, range_of(route, k, Leaves::upwards, Scalar(0)), view_.bend[k] > 0 ? -1 : 1, z_,
@@ -272,10 +304,13 @@ class SlopedSearch : private Candidates {
   void turned_state(Route& route, std::size_t k, std::size_t j, const Scalar& lo, const Scalar& hi,
                     const Scalar& top) {
     if (view_.least_amount(k) + gained(view_.x[k + 1], top) > limit()) return;
-    if (const Range h = h_of_cell(k); h.most < lo || h.least > hi) return;
+    const Range h = h_of_cell(k);
+    if (h.most < lo || h.least > hi) return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
-    if (view_.bend[k] == 0)
+    if (is_curved(k))
+      curved_state(route, k, true, lo, top, true, j);
+    else if (view_.bend[k] == 0)
       flat_state(route, k, top, true, j, lo);
     else
       search_state(route, range_of(route, k, Leaves::upwards, lo), view_.bend[k] > 0 ? 1 : -1, top, true, j);
@@ -285,11 +320,14 @@ class SlopedSearch : private Candidates {
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
     if (!has_moving_state(k) || !(view_.bend[k] < 0)) return;
-    if (view_.h(k, view_.low[k]) < view_.high[k]) return;
+    if (h_of_cell(k).most < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
-    search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
+    if (is_curved(k))
+      curved_state(route, k, false, view_.high[k], z_, true, k);
+    else
+      search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
     route.least = kept;
   }
 

@@ -7,6 +7,7 @@
 
 #include "shearfront/exact/path.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_curved.hpp"
 #include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
@@ -161,8 +162,26 @@ class SlopedThroats {
         start.source = is_state ? cell : view.is_mirror ? n - k : k;
         throat.starts.push_back(start);
       };
-      const Scalar& G0 = view.G0[k];
+      const Scalar G0 = view.is_curved(k) ? Scalar(0) : view.G0[k];
       const Scalar excess = is_new_piece(view, k, false, node) ? Scalar(view.high[k] - h) : way.excess;
+      if (view.is_curved(k)) {
+        // The start whose state has the h of the throat.
+        Scalar lo = view.x[k], hi = view.x[k + 1];
+        const auto over = [&](const Scalar& y) { return CurvedState<Scalar>(view, k, y).q0; };
+        const auto more = [&](const Scalar& y) -> std::optional<Scalar> {
+          const CurvedState<Scalar> state(view, k, y);
+          return Scalar(Scalar(4) * state.p * state.missing * view.rate(k, y) - h);
+        };
+        if (keep_where<Scalar>(over, lo, hi))
+          if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
+            const Scalar q0 = CurvedState<Scalar>(view, k, *y).q0;
+            SlopedWay<Scalar> to = way;
+            to.add_run(view, k, true, Scalar(-view.bend[k]), Scalar(view.x[k + 1] - *y), view.high[k],
+                       Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y), Scalar(q0 * q0),
+                       h);
+            add(*y, to, true);
+          }
+      }
       if (view.q0[k] > 0 && G0 > 0 && view.bend[k] != 0) {
         // Its start, from the end where r is least.
         const Scalar r = h / G0, q2 = view.e0[k], width = view.x[k + 1] - view.x[k];

@@ -31,7 +31,7 @@ struct PathNode {
 /// served by one source in one way are an interval, and its ends are found by bisection (where phi jumps
 /// down, sped up by intersecting the values of M of both sides). Between the cuts phi is smooth; it does not decrease,
 /// save in some beds of sloped pieces (is_monotone()).
-/// Precondition: 0 < t < +infinity. Cost of a cut: about 20 queries
+/// Precondition: 0 < t < +infinity, or t = 0 for a smooth start. Cost of a cut: about 20 queries
 /// for a shock, 50 for a kink.
 template <Real Scalar>
 class SmoothPieces {
@@ -50,10 +50,14 @@ class SmoothPieces {
   [[nodiscard]] const std::vector<Scalar>& boundaries() const { return exact_->medium().boundaries(); }
 
   [[nodiscard]] Node node(const Scalar& z) const {
-    const auto path = exact_->medium().best_path(z, t_);
+    if (t_ == 0) return initial_node(z);
+    const Medium<Scalar>& medium = exact_->medium();
+    const auto path = medium.best_path(z, t_);
     const auto value = exact_->image_value(path, z);
-    return {z,           value.M,        value.phi,   path.kind,    path.upward,
-            path.source, path.interface, path.turned, path.is_state};
+    Node n{z,           value.M,        value.phi,   path.kind,    path.upward,
+           path.source, path.interface, path.turned, path.is_state};
+    if (medium.cells().shape) name_stretches(medium.cells(), n);
+    return n;
   }
   /// The limit from below at an interface.
   [[nodiscard]] Node below(const Scalar& z) const {
@@ -99,6 +103,24 @@ class SmoothPieces {
   }
 
  private:
+  /// Cells of one stretch of a smooth start, in one layer, are one source.
+  static void name_stretches(const Cells<Scalar>& cells, Node& n) {
+    const auto name = [&](std::size_t cell) {
+      const auto& knots = cells.shape->knots();
+      const auto stretch = std::upper_bound(knots.begin(), knots.end(), cells.x[cell]) - knots.begin();
+      return static_cast<std::size_t>(stretch) * cells.first.size() + cells.layer[cell];
+    };
+    const bool is_inside = n.kind == PathKind::constant || n.is_state;
+    if (is_inside && cells.is_curved(n.source)) n.source = name(n.source);
+    if (n.turned) n.interface = cells.layer[n.interface];
+  }
+  /// The data of a smooth start.
+  [[nodiscard]] Node initial_node(const Scalar& z) const {
+    const Cells<Scalar>& cells = exact_->medium().cells();
+    const std::size_t i = cells.cell_at(z);
+    const Scalar M = z == exact_->medium().top() ? exact_->medium().mass() : cells.cumulative(z);
+    return {z, M, cells.state(i, z), PathKind::constant, false, i, 0, false, false};
+  }
   /// Where the lines of M through both ends cross, as a part of the way; 1/2 if phi does not jump down.
   static Scalar intersection(const Node& a, const Node& b) {
     const Scalar jump = a.phi - b.phi, width = b.z - a.z;
@@ -119,7 +141,13 @@ class SmoothPieces {
   Scalar t_, narrow_;
 };
 
-/// The image of the exact solution where it is constant in pieces: at t = 0 and in the steady state.
+/// Whether the image of the exact solution is constant in pieces at time t: in the steady state, and at t = 0 but for a smooth
+/// start.
+template <Real Scalar>
+[[nodiscard]] bool is_at_rest(const ExactSolution<Scalar>& exact, const Scalar& t) {
+  return !is_finite(t) || (t == Scalar(0) && !exact.form().start());
+}
+/// The image of the exact solution where it is.
 template <Real Scalar>
 [[nodiscard]] Profile<Scalar> profile_at_rest(const ExactSolution<Scalar>& exact, bool is_initial) {
   const CanonicalForm<Scalar>& form = exact.form();

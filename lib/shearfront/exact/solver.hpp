@@ -8,7 +8,8 @@ namespace shearfront {
 struct ExactSolver {
   static constexpr std::string_view kName = "exact";
   static constexpr std::string_view kDescription =
-      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces";
+      "Lax-Hopf formula, exact to rounding where a is constant, linear or exponential in pieces; from smooth "
+      "starts where it is constant";
   static constexpr std::string_view kScenes = "convex or concave fluxes, walls";
 
   struct Options {
@@ -17,18 +18,23 @@ struct ExactSolver {
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
-      visit(OptionInfo{"tolerance",
-                       "aim for the error of M, in heights of the bed, where pieces stand for a smooth bed",
-                       {0, 1, true},
-                       {},
-                       "1e-6"},
-            self.tolerance);
-      visit(OptionInfo{"layers",
-                       "so many pieces for a smooth bed instead of the tolerance",
-                       {1, 1e6},
-                       {},
-                       "as the tolerance asks"},
-            self.layers);
+      visit(
+          OptionInfo{"tolerance",
+                     "aim for the error of M, in heights of the bed, where pieces stand for a smooth bed or "
+                     "a smooth start is searched by parts",
+                     {0, 1, true},
+                     {},
+                     "1e-6"},
+          self.tolerance);
+      visit(
+          OptionInfo{
+              "layers",
+              "so many pieces for a smooth bed instead of the tolerance; layers (128) from a smooth start "
+              "with a flux that is no parabola",
+              {1, 1e6},
+              {},
+              "as the tolerance asks"},
+          self.layers);
     }
   };
 

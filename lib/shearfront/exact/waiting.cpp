@@ -24,23 +24,36 @@ std::vector<std::size_t> next_slower(const std::vector<Scalar>& rate, bool upwar
   return next;
 }
 
+/// Where phi(z, 0), which rises in the cell, is p.
+template <Real Scalar>
+Scalar height_of_state(const Cells<Scalar>& cells, std::size_t cell, const Scalar& p) {
+  Scalar lo = cells.x[cell], hi = cells.x[cell + 1];
+  for (;;) {
+    const Scalar z = lo + (hi - lo) / Scalar(2);
+    if (!(z > lo && z < hi)) return lo;
+    (cells.state(cell, z) < p ? lo : hi) = z;
+  }
+}
+
 /// Whether an optimal path with 4 H = h can start at the point: phi_below <= p <= phi_above for the momenta p
 /// on its two sides; a relative slack of 2^-20 keeps rounding from dropping a borderline source.
 template <Real Scalar, class Law>
-bool may_start(const Law& law, const Cells<Scalar>& cells, const std::vector<Scalar>& h_cell,
+bool may_start(const Law& law, const Cells<Scalar>& cells, const CellFluxes<Scalar>& h_cell,
                std::size_t point, bool upward, const Scalar& h) {
   const Scalar slack = Scalar(1) / Scalar(1 << 20);
   const std::size_t from = upward ? point : point - 1, beyond = upward ? point - 1 : point;
-  const auto over = [&](std::size_t cell) { return law.excess(cells.layer[cell], cells.phi[cell], upward); };
-  if (over(from) < -Scalar(Law::kSlack)) return false;
-  if (h < h_cell[from] * (Scalar(1) - slack)) return false;
-  return !(over(beyond) > 0) || h <= h_cell[beyond] * (Scalar(1) + slack);
+  const auto over = [&](std::size_t cell, bool is_above) {
+    return law.excess(cells.layer[cell], cells.beside(point, is_above), upward);
+  };
+  if (over(from, upward) < -Scalar(Law::kSlack)) return false;
+  if (h < h_cell.beside(point, upward) * (Scalar(1) - slack)) return false;
+  return !(over(beyond, !upward) > 0) || h <= h_cell.beside(point, !upward) * (Scalar(1) + slack);
 }
 
 }  // namespace
 
 template <Real Scalar, class Law>
-Waiting<Scalar, Law>::Waiting(const Law& law, const Cells<Scalar>& cells, const std::vector<Scalar>& h_cell,
+Waiting<Scalar, Law>::Waiting(const Law& law, const Cells<Scalar>& cells, const CellFluxes<Scalar>& h_cell,
                               const Scalar& slack)
     : basins_(law.n_layers() + 1), slack_(slack) {
   if constexpr (!Law::kMovesAtCapacity) {
@@ -51,12 +64,13 @@ Waiting<Scalar, Law>::Waiting(const Law& law, const Cells<Scalar>& cells, const 
 }
 
 template <Real Scalar, class Law>
-void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells,
-                                 const std::vector<Scalar>& h_cell, std::size_t i, Basin& basin) {
+void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells, const CellFluxes<Scalar>& h_cell,
+                                 std::size_t i, Basin& basin) {
   basin.h = std::min(law.rate[i - 1], law.rate[i]);
   const std::size_t at = cells.first[i];
-  const bool is_pure = cells.phi[at - 1] == cells.phi[at] && h_cell[at - 1] == 0 && h_cell[at] == 0;
-  if (!is_pure) basin.entries.push_back({Scalar(0), cells.M[at], at});
+  const bool is_pure = cells.beside(at, false) == cells.beside(at, true) && h_cell.beside(at, false) == 0 &&
+                       h_cell.beside(at, true) == 0;
+  if (!is_pure) basin.entries.push_back({Scalar(0), cells.M[at], at, cells.x[at]});
   const auto prune = [](std::vector<Entry>& kept, const Entry& entry) {
     if (kept.empty() || entry.A < kept.back().A) kept.push_back(entry);
   };
@@ -91,12 +105,30 @@ void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells,
         const Scalar& x = cells.x[point];
         const Scalar d = above ? x - law.boundary(k) : law.boundary(k + 1) - x;
         prune(basin.entries, {in.time + d * slowness,
-                              cells.M[point] + (law.peaks(x, z_i) + (in.Q + d * q) / Scalar(2)), point});
+                              cells.M[point] + (law.peaks(x, z_i) + (in.Q + d * q) / Scalar(2)), point, x});
+      };
+      // The state of the path inside a curved cell: it pays to start there.
+      const auto add_inside = [&](std::size_t cell) {
+        if (!cells.is_curved(cell) || !(cells.phi[cell] < cells.phi_high[cell])) return;
+        const Scalar p = law.momentum(k, !above, q, Scalar(basin.h / Scalar(4)));
+        if (!(cells.phi[cell] < p && p < cells.phi_high[cell])) return;
+        const Scalar y = height_of_state(cells, cell, p);
+        const Scalar d = above ? y - law.boundary(k) : law.boundary(k + 1) - y;
+        prune(basin.entries,
+              {in.time + d * slowness,
+               cells.M[cell] + cells.inside(cell, y) + (law.peaks(y, z_i) + (in.Q + d * q) / Scalar(2)), cell,
+               y, true});
       };
       if (above) {
-        for (std::size_t point = cells.first[k] + 1; point <= cells.first[k + 1]; ++point) add(point);
+        for (std::size_t point = cells.first[k] + 1; point <= cells.first[k + 1]; ++point) {
+          add_inside(point - 1);
+          add(point);
+        }
       } else {
-        for (std::size_t point = cells.first[k + 1]; point-- > cells.first[k];) add(point);
+        for (std::size_t point = cells.first[k + 1]; point-- > cells.first[k];) {
+          add_inside(point);
+          add(point);
+        }
       }
       in.time += law.height[k] * slowness;
       in.Q += law.height[k] * q;
@@ -116,9 +148,9 @@ void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells,
 }
 
 template <Real Scalar, class Law>
-void Waiting<Scalar, Law>::try_interface(const Law& law, const Cells<Scalar>& cells, std::size_t i,
-                                         const Scalar& z, std::size_t k, const Scalar& t, const Scalar& upper,
-                                         Scalar& Q_floor, Path<Scalar>& best) const {
+void Waiting<Scalar, Law>::try_interface(const Law& law, std::size_t i, const Scalar& z, std::size_t k,
+                                         const Scalar& t, const Scalar& upper, Scalar& Q_floor,
+                                         Path<Scalar>& best) const {
   const Basin& basin = basins_[i];
   if (basin.entries.empty()) return;
   const Scalar H = basin.h / Scalar(4);
@@ -161,25 +193,26 @@ void Waiting<Scalar, Law>::try_interface(const Law& law, const Cells<Scalar>& ce
   path.kind = PathKind::waiting;
   path.upward = upward;
   path.source = entry.source;
+  path.is_state = entry.is_state;
   path.interface = i;
-  path.foot = cells.x[entry.source];
+  path.foot = entry.foot;
   path.p = law.momentum(k, upward, law.q(k, upward, Scalar(law.rate[k] - basin.h)), H);
   if (path.better_than(best)) best = path;
 }
 
 template <Real Scalar, class Law>
-void Waiting<Scalar, Law>::search(const Law& law, const Cells<Scalar>& cells, const Scalar& z, std::size_t k,
-                                  const Scalar& t, const Scalar& upper, Path<Scalar>& best) const {
+void Waiting<Scalar, Law>::search(const Law& law, const Scalar& z, std::size_t k, const Scalar& t,
+                                  const Scalar& upper, Path<Scalar>& best) const {
   if constexpr (Law::kMovesAtCapacity) {
     // A way leads through layers of no less capacity than H_i.
     Scalar least = law.rate[k], none(0);
     for (std::size_t i = k + 1; i < law.n_layers(); ++i) {
-      if (!(least < basins_[i].h)) try_interface(law, cells, i, z, k, t, upper, none = Scalar(0), best);
+      if (!(least < basins_[i].h)) try_interface(law, i, z, k, t, upper, none = Scalar(0), best);
       least = std::min(least, law.rate[i]);
     }
     least = law.rate[k];
     for (std::size_t i = k; i > 0; --i) {
-      if (!(least < basins_[i].h)) try_interface(law, cells, i, z, k, t, upper, none = Scalar(0), best);
+      if (!(least < basins_[i].h)) try_interface(law, i, z, k, t, upper, none = Scalar(0), best);
       least = std::min(least, law.rate[i - 1]);
     }
     return;
@@ -189,12 +222,12 @@ void Waiting<Scalar, Law>::search(const Law& law, const Cells<Scalar>& cells, co
   // from below.
   Scalar above(0), below(0), here(0);
   for (std::size_t l = slower_above_[k]; l != kNone; l = slower_above_[l])
-    try_interface(law, cells, l, z, k, t, upper, above, best);
+    try_interface(law, l, z, k, t, upper, above, best);
   for (std::size_t l = slower_below_[k]; l != kNone; l = slower_below_[l])
-    try_interface(law, cells, l + 1, z, k, t, upper, below, best);
+    try_interface(law, l + 1, z, k, t, upper, below, best);
   // On an interface whose basin is not above, the path may end where it rests.
   if (k > 0 && z == law.boundary(k) && !(law.rate[k - 1] < law.rate[k]))
-    try_interface(law, cells, k, z, k, t, upper, here, best);
+    try_interface(law, k, z, k, t, upper, here, best);
 }
 
 template class Waiting<Instantiated, ParabolaLaw<Instantiated>>;

@@ -9,6 +9,17 @@
 
 namespace shearfront::exact {
 
+/// 4 H of the states of all cells, at their lower and upper ends.
+template <Real Scalar>
+struct CellFluxes {
+  std::vector<Scalar> low, high;
+
+  /// Next to an inner point.
+  [[nodiscard]] const Scalar& beside(std::size_t point, bool is_above) const {
+    return is_above ? low[point] : high[point - 1];
+  }
+};
+
 /// Paths that rest at an interface.
 ///
 /// At interface i the rest costs H_i = min(r_below, r_above) / 4 per unit time, and the whole path has H = H_i: it comes
@@ -28,15 +39,16 @@ class Waiting {
  public:
   struct Entry {
     Scalar tau, A;
-    std::size_t source;  ///< point of Cells
+    std::size_t source;  ///< point of Cells; of a state the cell
+    Scalar foot;
+    bool is_state = false;  ///< it starts inside a curved cell
   };
 
-  /// `h_cell`: 4 H of the state of each cell.
-  Waiting(const Law& law, const Cells<Scalar>& cells, const std::vector<Scalar>& h_cell, const Scalar& slack);
+  Waiting(const Law& law, const Cells<Scalar>& cells, const CellFluxes<Scalar>& h, const Scalar& slack);
 
   /// Improves `best` by every waiting path that ends in (z, t), z in layer k.
-  void search(const Law& law, const Cells<Scalar>& cells, const Scalar& z, std::size_t k, const Scalar& t,
-              const Scalar& upper, Path<Scalar>& best) const;
+  void search(const Law& law, const Scalar& z, std::size_t k, const Scalar& t, const Scalar& upper,
+              Path<Scalar>& best) const;
   /// Sources that may wait at boundary i, nearest first.
   [[nodiscard]] const std::vector<Entry>& entries(std::size_t i) const { return basins_[i].entries; }
 
@@ -53,11 +65,10 @@ class Waiting {
     Side above, below;
     std::vector<Entry> entries;
   };
-  void build(const Law& law, const Cells<Scalar>& cells, const std::vector<Scalar>& h_cell, std::size_t i,
+  void build(const Law& law, const Cells<Scalar>& cells, const CellFluxes<Scalar>& h, std::size_t i,
              Basin& basin);
-  void try_interface(const Law& law, const Cells<Scalar>& cells, std::size_t i, const Scalar& z,
-                     std::size_t k, const Scalar& t, const Scalar& upper, Scalar& Q_floor,
-                     Path<Scalar>& best) const;
+  void try_interface(const Law& law, std::size_t i, const Scalar& z, std::size_t k, const Scalar& t,
+                     const Scalar& upper, Scalar& Q_floor, Path<Scalar>& best) const;
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<Basin> basins_;                             ///< per boundary; walls stay empty

@@ -82,6 +82,14 @@ std::vector<double> capacities(const Scene<double>& scene, const Grid& grid) {
 
 std::vector<double> initial_shares(const Scene<double>& scene, const Grid& grid) {
   std::vector<double> shares(grid.n_cells());
+  if (scene.has_smooth_start()) {
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      const double lo = grid.edges[j], hi = grid.edges[j + 1];
+      const StateRange<double> range = scene.flux_at(lo).range();
+      shares[j] = std::clamp(scene.initial_amount(lo, hi) / scene.solid(lo, hi), range.lowest, range.highest);
+    }
+    return shares;
+  }
   const Means means(scene);
   for (std::size_t j = 0; j < shares.size(); ++j) {
     CompensatedSum<double> sum, solid;

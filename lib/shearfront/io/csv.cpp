@@ -8,8 +8,17 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-std::size_t skip_blanks(std::string_view line, std::size_t i) {
-  return std::min(line.find_first_not_of(kBlanks, i), line.size());
+std::size_t skip_blanks(std::string_view line, std::size_t i, std::string_view blanks = kBlanks) {
+  return std::min(line.find_first_not_of(blanks, i), line.size());
+}
+
+void split_at_blanks(std::string_view line, std::vector<CsvField>& fields) {
+  for (std::size_t i = skip_blanks(line, 0); i < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(kBlanks, i), line.size());
+    fields.push_back({line.substr(i, end - i), i});
+    i = skip_blanks(line, end);
+  }
+  if (fields.empty()) fields.push_back({line.substr(0, 0), 0});
 }
 
 /// Where the quotes that open at `open` close; npos if they do not.
@@ -26,18 +35,23 @@ std::string_view trimmed(std::string_view text) {
   return last == std::string_view::npos ? std::string_view() : text.substr(begin, last + 1 - begin);
 }
 
-std::optional<std::size_t> split_csv(std::string_view line, std::vector<CsvField>& fields) {
+std::optional<std::size_t> split_csv(std::string_view line, std::vector<CsvField>& fields, char separator) {
   fields.clear();
+  if (separator == ' ') {
+    split_at_blanks(line, fields);
+    return std::nullopt;
+  }
+  const std::string_view blanks = separator == '\t' ? std::string_view(" \r") : kBlanks;
   for (std::size_t i = 0;;) {
-    std::size_t begin = skip_blanks(line, i), end = 0;
+    std::size_t begin = skip_blanks(line, i, blanks), end = 0;
     if (begin < line.size() && line[begin] == '"') {
       const std::size_t close = closing_quote(line, begin);
       if (close == std::string_view::npos) return begin;
-      end = skip_blanks(line, close + 1);
-      if (end < line.size() && line[end] != ',') return begin;
+      end = skip_blanks(line, close + 1, blanks);
+      if (end < line.size() && line[end] != separator) return begin;
       fields.push_back({line.substr(begin + 1, close - begin - 1), begin});
     } else {
-      end = std::min(line.find(',', i), line.size());
+      end = std::min(line.find(separator, i), line.size());
       begin = std::min(begin, end);
       fields.push_back({trimmed(line.substr(begin, end - begin)), begin});
     }

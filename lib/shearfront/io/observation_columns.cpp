@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "shearfront/io/detail/unit.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::detail {
 namespace {
@@ -35,7 +37,7 @@ bool is_number_or_missing(const CsvField& field) {
   return field.text.empty() || field.text == "NA" || parse_number(field.text).has_value();
 }
 
-/// What separates the columns of a header that has no commas.
+/// What separates the columns of a header in which no usual separator does.
 std::string_view other_separator(std::string_view header) {
   if (header.find(';') != std::string_view::npos) return "semicolons";
   if (header.find('\t') != std::string_view::npos) return "tabs";
@@ -45,24 +47,119 @@ std::string_view other_separator(std::string_view header) {
              : "";
 }
 
+/// Names that can only mean this column. "conc" is not among those of phi: of which grains?
+std::vector<std::string_view> usual_names(Column column) {
+  switch (column) {
+    case Column::t:
+      return {"time"};
+    case Column::z:
+      return {"height"};
+    case Column::sigma:
+      return {"std", "sd", "stderr"};
+    default:
+      return {};
+  }
+}
+
+std::string_view without_brackets(std::string_view text) {
+  const bool is_square = text.starts_with('[') && text.ends_with(']');
+  const bool is_round = text.starts_with('(') && text.ends_with(')');
+  return is_square || is_round ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+/// The one number in a name, and what stands behind it.
+std::optional<std::pair<double, std::string>> number_in(const Heading& heading) {
+  constexpr std::string_view kDigits = "0123456789";
+  std::string text = heading.name;
+  if (text.find('.') == std::string::npos)
+    std::replace(text.begin(), text.end(), ',', '.');  // a decimal comma
+  const std::size_t digit = text.find_first_of(kDigits);
+  if (digit == std::string::npos) return std::nullopt;
+  std::size_t begin = digit;
+  if (begin > 0 && text[begin - 1] == '.') --begin;
+  if (begin > 0 && text[begin - 1] == '-' && (begin == 1 || text[begin - 2] == ' ' || text[begin - 2] == '='))
+    --begin;
+  std::size_t end = std::min(text.find_first_not_of("0123456789.", digit), text.size());
+  // An exponent, unless it is a word.
+  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    const std::size_t sign = end + 1 < text.size() && (text[end + 1] == '-' || text[end + 1] == '+') ? 1 : 0;
+    const std::size_t after = std::min(text.find_first_not_of(kDigits, end + 1 + sign), text.size());
+    if (after > end + 1 + sign) end = after;
+  }
+  const auto number = parse_number(text.substr(begin, end - begin));
+  if (!number || text.find_first_of(kDigits, end) != std::string::npos) return std::nullopt;
+  const std::string behind(trimmed(std::string_view(text).substr(end)));
+  return std::pair(*number, behind.empty() ? heading.unit : behind);
+}
+
 }  // namespace
 
 Heading heading_of(std::string_view field) {
   const std::size_t open = field.find_first_of("[(");
   if (open == std::string_view::npos || field.back() != (field[open] == '[' ? ']' : ')'))
-    return {std::string(trimmed(field)), ""};
+    return {std::string(trimmed(field)), "", std::string(field)};
   return {std::string(trimmed(field.substr(0, open))),
-          std::string(trimmed(field.substr(open + 1, field.size() - open - 2)))};
+          std::string(trimmed(field.substr(open + 1, field.size() - open - 2))), std::string(field)};
 }
 
 std::string heading_text(std::string_view name, std::string_view unit) {
   return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
 }
 
+bool HeaderMatch::is_complete() const {
+  const bool has_phi = has(Column::phi) || has(Column::phi_large) || has(Column::M);
+  return has(Column::t) && (has(Column::H) || (has(Column::z) && has_phi));
+}
+
+HeaderMatch match(const std::vector<Heading>& headings, const ObservationFormat& format) {
+  HeaderMatch result;
+  std::vector<bool> is_taken(headings.size(), false);
+  const auto find = [&](std::size_t c, const auto& fits) {
+    for (std::size_t i = 0; i < headings.size(); ++i)
+      if (!is_taken[i] && fits(headings[i])) result.fields[c].push_back(i);
+    for (const std::size_t i : result.fields[c]) is_taken[i] = true;
+  };
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+    if (const std::string& name = format.columns[c].name; !name.empty())
+      find(c, [&](const Heading& h) { return h.name == name || h.text == name; });
+  const auto unnamed = [&](std::size_t c) {
+    return format.columns[c].name.empty() && result.fields[c].empty() &&
+           static_cast<Column>(c) != Column::phi_large;
+  };
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+    if (unnamed(c)) find(c, [&](const Heading& h) { return h.name == kColumnNames[c]; });
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+    for (const std::string_view usual : usual_names(static_cast<Column>(c)))
+      if (unnamed(c)) {
+        find(c, [&](const Heading& h) { return lower_case(h.name) == usual; });
+        if (result.fields[c].size() > 1) result.fields[c].resize(1);
+      }
+  return result;
+}
+
+std::optional<std::vector<PlaceColumn>> places_in(const std::vector<Heading>& headings, std::string& unit) {
+  std::vector<PlaceColumn> places;
+  std::optional<std::string> common;
+  for (std::size_t i = 1; i < headings.size(); ++i) {
+    if (headings[i].text.empty()) continue;  // columns without a name are not used
+    const auto number = number_in(headings[i]);
+    if (!number) return std::nullopt;
+    places.push_back({i, number->first});
+    if (common && *common != number->second) return std::nullopt;
+    common = number->second;
+  }
+  if (places.size() < 2) return std::nullopt;
+  if (!common->empty()) unit = *common;
+  return places;
+}
+
 ObservationColumns::ObservationColumns(const TextSource& source, std::size_t offset,
-                                       const std::vector<CsvField>& fields, ComplaintReport& report)
-    : file_(source.name()), report_(&report) {
-  if (fields.size() > kMostColumns) {
+                                       const std::vector<CsvField>& fields,
+                                       const std::vector<CsvField>& units, const ObservationFormat& format,
+                                       TableLayout layout, const Target& target, ComplaintReport& report)
+    : file_(source.name()), report_(&report), layout_(layout) {
+  factors_.fill(1);
+  if (fields.size() > kMostColumns && layout == TableLayout::rows) {
     report.add(source.position(offset), {"header", fmt::format("({} columns)", fields.size()),
                                          fmt::format("must have at most {}", kMostColumns)});
     return;
@@ -71,33 +168,79 @@ ObservationColumns::ObservationColumns(const TextSource& source, std::size_t off
     headings_.push_back(heading_of(without_doubled_quotes(field.text)));
     positions_.push_back(source.position(offset + field.offset));
   }
+  for (std::size_t i = 0; i < std::min(units.size(), headings_.size()); ++i)
+    if (headings_[i].unit.empty()) headings_[i].unit = without_brackets(units[i].text);
   const auto separator = fields.size() == 1 ? other_separator(fields[0].text) : std::string_view();
   if (!separator.empty()) {
-    refuse_header(fmt::format("must separate the columns by commas, not by {}", separator));
+    refuse_header(fmt::format("must separate the columns by commas, semicolons or tabs, not by {}",
+                              format.separator ? fmt::format("{}, where the format says otherwise", separator)
+                                               : std::string(separator)));
+  } else if (layout != TableLayout::rows) {
+    read_wide(format);
+    check_units(target);
   } else if (std::all_of(fields.begin(), fields.end(), is_number_or_missing)) {
     refuse_header(
         "missing; the first line that is no comment must name the columns, such as t,z,phi (lines that start "
         "with # are comments)");
   } else {
-    read_known();
+    read_known(match(headings_, format), format);
     read_unknown();
     find_missing();
-    check_units();
+    check_units(target);
   }
 }
 
-void ObservationColumns::read_known() {
-  for (std::size_t i = 0; i < headings_.size(); ++i) {
-    const auto known = std::find(kColumnNames.begin(), kColumnNames.end(), headings_[i].name);
-    if (known == kColumnNames.end()) continue;
-    auto& at = at_[static_cast<std::size_t>(known - kColumnNames.begin())];
-    if (at)
-      refuse(i, "must not occur twice");
-    else
-      at = i;
+void ObservationColumns::read_wide(const ObservationFormat& format) {
+  const bool by_height = layout_ == TableLayout::heights;
+  const Column first = by_height ? Column::t : Column::z, other = by_height ? Column::z : Column::t;
+  at_[index(first)] = 0;
+  // "t [s]\z [mm]": both names in the corner.
+  const std::string& corner = headings_[0].text;
+  const std::size_t stroke = corner.find_first_of("\\/|");
+  if (stroke != std::string::npos) {
+    const std::array<Heading, 2> both{heading_of(trimmed(std::string_view(corner).substr(0, stroke))),
+                                      heading_of(trimmed(std::string_view(corner).substr(stroke + 1)))};
+    const std::size_t of_first = both[0].name == name_of(other) ? 1 : 0;
+    column_units_[index(first)] = both[of_first].unit;
+    column_units_[index(other)] = both[1 - of_first].unit;
+  } else {
+    column_units_[index(first)] = headings_[0].unit;
+  }
+  auto places = places_in(headings_, column_units_[index(other)]);
+  if (!places) {
+    refuse_header(fmt::format("must have one number, {}, in the name of each column but the first",
+                              by_height ? "the height z" : "the time t"));
+    return;
+  }
+  places_ = std::move(*places);
+  std::size_t n_values = 0;
+  for (const Column value : {Column::phi, Column::phi_large, Column::M})
+    if (value == Column::phi ? !format[value].unit.empty() : !format[value].name.empty()) {
+      at_[index(value)] = places_.front().field;
+      ++n_values;
+    }
+  if (n_values == 0) at_[index(Column::phi)] = places_.front().field;
+  if (has(Column::phi) && n_values > 1) at_[index(Column::phi)].reset();
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+    if (!format.columns[c].unit.empty()) column_units_[c] = format.columns[c].unit;
+}
+
+void ObservationColumns::read_known(const HeaderMatch& found, const ObservationFormat& format) {
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
+    const std::vector<std::size_t>& fields = found.fields[c];
+    const ObservationFormat::ColumnFormat& asked = format.columns[c];
+    if (fields.empty()) {
+      if (!asked.name.empty())
+        refuse_header(fmt::format("must have a column {}, which is said to hold {}; it has {}",
+                                  quoted_text(asked.name), kColumnNames[c], names()));
+      continue;
+    }
+    at_[c] = fields[0];
+    for (std::size_t i = 1; i < fields.size(); ++i) refuse(fields[i], "must not occur twice");
+    column_units_[c] = asked.unit.empty() ? headings_[fields[0]].unit : asked.unit;
   }
   std::vector<Column> values;
-  for (const Column column : {Column::phi, Column::M, Column::H})
+  for (const Column column : {Column::phi, Column::phi_large, Column::M, Column::H})
     if (has(column)) values.push_back(column);
   std::sort(values.begin(), values.end(), [&](Column a, Column b) { return field(a) < field(b); });
   if (values.size() > 1)
@@ -115,7 +258,11 @@ void ObservationColumns::read_known() {
 void ObservationColumns::read_unknown() {
   for (std::size_t i = 0; i < headings_.size(); ++i) {
     const std::string& name = headings_[i].name;
-    if (std::find(kColumnNames.begin(), kColumnNames.end(), name) != kColumnNames.end()) continue;
+    if (std::find(at_.begin(), at_.end(), i) != at_.end()) continue;
+    if (std::find(kColumnNames.begin(), kColumnNames.end(), name) != kColumnNames.end() &&
+        has(static_cast<Column>(std::find(kColumnNames.begin(), kColumnNames.end(), name) -
+                                kColumnNames.begin())))
+      continue;  // twice, and refused
     bool is_refused = false;
     for (const Column optional : {Column::width, Column::sigma}) {
       if (has(optional) || !resembles(name, name_of(optional))) continue;
@@ -124,7 +271,7 @@ void ObservationColumns::read_unknown() {
       is_refused = true;
       break;
     }
-    if (is_refused) continue;
+    if (is_refused || (name.empty() && i + 1 == headings_.size() && headings_.size() > 1)) continue;
     notes_.push_back(fmt::format("{}:{}:{}: {}", printable(file_), positions_[i].line, positions_[i].column,
                                  name.empty() ? std::string("column without a name is not used")
                                               : "column " + quoted_text(name) + " is not used"));
@@ -140,27 +287,66 @@ void ObservationColumns::find_missing() {
         : column == Column::z
             ? "must have a column z (height)"
             : "must have a column phi (concentration), M (cumulative) or H (height of the bed)";
-    if (const auto meant = misspelt(column)) constraint += "; rename " + *meant + " if that is meant";
+    const auto is_large = [](const Heading& h) { return h.name == name_of(Column::phi_large); };
+    if (column == Column::phi && std::any_of(headings_.begin(), headings_.end(), is_large))
+      constraint +=
+          "; phi_large is the concentration of the large grains if phi_large = \"phi_large\" is said in "
+          "[columns] or --columns";
+    else if (const auto meant = misspelt(column))
+      constraint += "; rename " + *meant + " if that is meant";
+    else if (const std::string unused = unused_names(); !unused.empty())
+      constraint += fmt::format("; say in [columns] or --columns if it is {}", unused);
     refuse_header(std::move(constraint));
   }
 }
 
-void ObservationColumns::check_units() {
-  const auto same = [&](Column column, Column as) {
-    if (!has(column) || !has(as) || unit(column).empty() || unit(column) == unit(as)) return;
+void ObservationColumns::check_units(const Target& target) {
+  const auto agree = [&](Column column, Column as) {
+    if (!has(column) || !has(as)) return;
+    if (unit(column).empty()) column_units_[index(column)] = unit(as);
+    if (unit_factor(unit(column), unit(as))) return;
     refuse(field(column), fmt::format("must have the unit of {}, {}", name_of(as),
                                       unit(as).empty() ? std::string("which has none")
                                                        : "[" + printable(unit(as), kLongestName) + "]"));
   };
-  same(Column::width, Column::z);
-  same(Column::sigma, value());
-  if (has(Column::phi) &&
-      (unit(Column::phi) == "percent" || unit(Column::phi).find('%') != std::string::npos))
-    refuse(field(Column::phi), "must be a fraction, 1 where all grains are small, not in percent");
+  agree(Column::width, Column::z);
+  agree(Column::sigma, value());
+  const auto own = [&](Column column, const std::string& scene) {
+    return scene.empty() || unit(column).empty() ? unit(column) : scene;
+  };
+  const std::string t = own(Column::t, target.t), z = own(Column::z, target.z);
+  const bool is_length = value() == Column::M || value() == Column::H;
+  std::string of_value = unit(value());
+  if (is_length) {
+    if (unit_of(of_value) && unit_factor(of_value, z.empty() ? target.z : z))
+      of_value = z.empty() ? target.z : z;
+  } else if (const auto kind = unit_of(of_value); kind && kind->kind == UnitKind::fraction) {
+    if (!target.are_parts && kind->size != 1)
+      refuse(field(value()), "must be in the unit of the flux, whose states are no fractions of 1");
+    if (kind->size != 1 && !unit(value()).empty()) of_value = "1";
+  }
+  convert(Column::t, t);
+  convert(Column::z, z);
+  convert(Column::width, z);
+  convert(value(), of_value);
+  convert(Column::sigma, of_value);
+  const auto as_scene = [](const std::string& own_unit, const std::string& scene) {
+    return own_unit.empty() ? scene : own_unit;
+  };
+  units_ = {as_scene(t, target.t), has(Column::z) ? as_scene(z, target.z) : z,
+            of_value == "1" ? "" : of_value};
 }
 
-std::string ObservationColumns::unit(Column column) const {
-  return has(column) ? headings_[field(column)].unit : std::string();
+void ObservationColumns::convert(Column column, const std::string& to) {
+  const bool is_place = layout_ != TableLayout::rows && (column == Column::t || column == Column::z);
+  if (!report_->is_empty()) return;
+  if ((!has(column) && !is_place) || unit(column).empty()) return;
+  if (const auto factor = unit_factor(unit(column), to))
+    factors_[index(column)] = *factor;
+  else
+    refuse(has(column) ? field(column) : 1,
+           fmt::format("must be in a unit that can be converted to [{}], that of the scene",
+                       printable(to, kLongestName)));
 }
 
 std::optional<std::string> ObservationColumns::misspelt(Column column) const {
@@ -181,14 +367,16 @@ void ObservationColumns::refuse_header(std::string constraint) {
   report_->add(positions_[0], {"header", "", std::move(constraint)});
 }
 
+Column ObservationColumns::value() const {
+  for (const Column column : {Column::H, Column::M, Column::phi_large})
+    if (has(column)) return column;
+  return Column::phi;
+}
+
 Quantity ObservationColumns::quantity() const {
   if (has(Column::H)) return Quantity::bed_height;
   if (has(Column::M)) return Quantity::cumulative;
   return has(Column::width) ? Quantity::bin : Quantity::point;
-}
-
-ObservationUnits ObservationColumns::units() const {
-  return {unit(Column::t), unit(Column::z), unit(value())};
 }
 
 std::string ObservationColumns::names() const {
@@ -196,6 +384,51 @@ std::string ObservationColumns::names() const {
   for (const Heading& heading : headings_)
     all += (all.empty() ? "" : ", ") + printable(heading.name, kLongestName);
   return all;
+}
+
+std::string ObservationColumns::unused_names() const {
+  std::string all;
+  for (std::size_t i = 0; i < headings_.size(); ++i)
+    if (std::find(at_.begin(), at_.end(), i) == at_.end() && !headings_[i].name.empty())
+      all += (all.empty() ? "" : " or ") + quoted_text(headings_[i].name, kLongestName);
+  return all;
+}
+
+std::string ObservationColumns::understood() const {
+  std::string text;
+  const auto in_unit = [&](Column column) {
+    const std::string& from = unit(column);
+    if (from.empty()) return std::string();
+    if (factor(column) == 1) return fmt::format(" in {}", printable(from, kLongestName));
+    const bool is_place = column == Column::t || column == Column::z || column == Column::width;
+    const std::string to = column == Column::t ? units_.t : is_place ? units_.z : units_.value;
+    return fmt::format(" in {}, times {}{}", printable(from, kLongestName), number_text(factor(column)),
+                       to.empty() ? "" : " to " + printable(to, kLongestName));
+  };
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
+    const auto column = static_cast<Column>(c);
+    const bool is_place =
+        layout_ != TableLayout::rows && !has(column) && (column == Column::t || column == Column::z);
+    if (!has(column) && !is_place) continue;
+    const bool is_value = layout_ != TableLayout::rows && column == value();
+    std::string_view what = is_place || is_value ? std::string_view() : headings_[field(column)].text;
+    text += fmt::format(
+        "{}{} from {}{}", text.empty() ? "" : "; ",
+        column == Column::phi_large ? std::string_view("1 - phi") : name_of(column),
+        is_place   ? fmt::format("the names of {} columns, {} to {}", places_.size(),
+                                 number_text(places_.front().place), number_text(places_.back().place))
+        : is_value ? std::string("those columns")
+                   : quoted_text(what),
+        in_unit(column));
+  }
+  return text;
+}
+
+bool ObservationColumns::is_plain() const {
+  if (layout_ != TableLayout::rows || has(Column::phi_large)) return false;
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
+    if (at_[c] && (headings_[*at_[c]].name != kColumnNames[c] || factors_[c] != 1)) return false;
+  return true;
 }
 
 }  // namespace shearfront::detail

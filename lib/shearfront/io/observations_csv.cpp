@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "shearfront/io/detail/dialect.hpp"
 #include "shearfront/io/detail/observation_columns.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -19,9 +21,10 @@
 namespace shearfront {
 namespace {
 
-using detail::Column;
 using detail::ComplaintReport;
 using detail::CsvField;
+using detail::Dialect;
+using detail::name_of;
 using detail::ObservationColumns;
 using detail::Position;
 using detail::TextSource;
@@ -30,7 +33,8 @@ constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise,
 /// A value this many times farther off than any that is possible is no measurement with noise.
 constexpr double kImpossible = 1000;
 
-bool is_missing(std::string_view text) { return text.empty() || text == "NA"; }
+constexpr std::array<std::string_view, 9> kMissing{"NA",  "N/A",  "n/a",  "na", "NaN",
+                                                   "nan", "#N/A", "NULL", "-"};
 
 /// Why parse_number() refuses the text.
 std::string_view why_no_number(std::string_view text) {
@@ -47,25 +51,31 @@ auto place_of(const Observation& o) { return std::tie(o.t, o.z, o.width); }
 
 class ObservationsReader {
  public:
-  ObservationsReader(const TextSource& source, double bottom, double top)
-      : source_(source), report_(source.name(), kMostComplaints), bottom_(bottom), top_(top) {}
-  ObservationsReader(const TextSource& source, const Scene<double>& scene)
-      : ObservationsReader(source, scene.bottom(), scene.top()) {
+  ObservationsReader(const TextSource& source, double bottom, double top, const ObservationFormat& format)
+      : source_(source),
+        dialect_(dialect_of(source, format)),
+        format_(dialect_.are_chunks ? detail::format_of_chunks(format) : format),
+        report_(source.name(), kMostComplaints),
+        bottom_(bottom),
+        top_(top) {}
+  ObservationsReader(const TextSource& source, const Scene<double>& scene, const ObservationFormat& format)
+      : ObservationsReader(source, scene.bottom(), scene.top(), format) {
     phi_ = phi_range(scene);
+    target_ = {scene.spec().units.z, scene.spec().units.t, phi_->lowest == 0 && phi_->highest <= 1};
   }
 
   Observations read() {
     const std::string_view text = source_.text();
     for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      read_line(begin, text.substr(begin, end - begin));
-      begin = end + 1;
+      const std::string_view line = detail::line_at(text, begin);
+      read_line(begin, line);
+      begin += line.size() + 1;
     }
     if (!columns_) {
       report_.add({1, 1}, {"header", "", "missing; must name the columns, such as t,z,phi"});
     } else if (n_rows_ == 0) {
       report_.add({1, 1}, {"rows", "", "missing; must follow the header"});
-    } else if (result_.n_missing == n_rows_) {
+    } else if (result_.rows.empty() && result_.n_missing > 0 && report_.is_empty()) {
       report_.add(columns_->position(columns_->value()),
                   {std::string(name_of(columns_->value())), "",
                    fmt::format("missing in every row ({}); must be there in one at least", n_rows_)});
@@ -75,37 +85,92 @@ class ObservationsReader {
     check_sizes();
     report_.throw_if_any();
     note_range();
+    say_what_was_understood();
     return std::move(result_);
   }
 
  private:
-  /// A row of the result: where it came from.
+  /// A number of the result: where it came from.
   struct Origin {
-    std::size_t row, offset;
+    std::size_t row, offset, field;
   };
 
   void read_line(std::size_t offset, std::string_view line) {
     const std::string_view content = detail::trimmed(line);
-    if (content.empty()) return;
-    if (content[0] == '#') {
-      result_.comments.emplace_back(content.substr(content.starts_with("# ") ? 2 : 1));
+    if (content.empty() || offset == dialect_.units) return;
+    const bool is_header_of_chunks = dialect_.are_chunks && offset == dialect_.header,
+               is_comment = content[0] == '#' && !is_header_of_chunks;
+    if (is_comment || offset < dialect_.header) {
+      const std::size_t mark = !is_comment ? 0 : content.starts_with("# ") ? 2 : 1;
+      result_.comments.emplace_back(content.substr(mark));
+      if (!is_comment) ++n_preamble_;
       return;
     }
-    const auto bad_quotes = detail::split_csv(line, fields_);
+    const auto bad_quotes = take_apart(line, fields_);
+    if (dialect_.are_chunks && !is_header_of_chunks && is_start_of_block(offset, line)) return;
     if (bad_quotes)
       report_.add(source_.position(offset + *bad_quotes),
                   {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
-                   "must close its quotes on the same line, before a comma"});
+                   fmt::format("must close its quotes on the same line, before a {}", separator())});
     if (columns_) {
+      // Spreadsheets end in rows of separators.
+      const auto is_blank = [](const CsvField& field) { return field.text.empty(); };
+      if (!bad_quotes && fields_.size() > 1 && std::all_of(fields_.begin(), fields_.end(), is_blank)) return;
       if (!bad_quotes) read_row(offset);
       ++n_rows_;
       return;
     }
-    if (!bad_quotes) columns_.emplace(source_, offset, fields_, report_);
+    if (!bad_quotes) {
+      std::vector<CsvField> units;
+      if (dialect_.units)
+        (void)detail::split_csv(detail::line_at(source_.text(), *dialect_.units), units, dialect_.separator);
+      columns_.emplace(source_, offset, fields_, units, format_, dialect_.layout, target_, report_);
+      if (dialect_.are_chunks && !format_.time_step)
+        report_.add(source_.position(offset),
+                    {"Timestep", "", "needs time_step in [format] or --time-step, the time of one step"});
+    }
     report_.throw_if_any();  // without a header nothing is known about the rows
     result_.quantity = columns_->quantity();
+    if (format_.width) {
+      if (result_.quantity != Quantity::point)
+        report_.add(
+            columns_->position(columns_->value()),
+            {"width", number_text(*format_.width), "must not be given beside a column that says it, M or H"});
+      result_.quantity = Quantity::bin;
+      width_ = *format_.width * columns_->factor(Column::z);
+    }
     result_.units = columns_->units();
     result_.notes = columns_->notes();
+  }
+
+  /// The fields of a line; those of chunks begin with the step, which stands above them.
+  std::optional<std::size_t> take_apart(std::string_view line, std::vector<CsvField>& fields) const {
+    const auto bad_quotes = detail::split_csv(line, fields, dialect_.separator);
+    if (!dialect_.are_chunks) return bad_quotes;
+    const bool is_header = !fields.empty() && fields[0].text.starts_with('#');
+    if (is_header && fields[0].text == "#")
+      fields[0].text = "Timestep";
+    else
+      fields.insert(fields.begin(), {is_header ? std::string_view("Timestep") : step_, 0});
+    return bad_quotes;
+  }
+  /// A line that begins the chunks of a time; then what they are is remembered.
+  bool is_start_of_block(std::size_t offset, std::string_view line) {
+    if (n_chunks_left_ > 0) {
+      --n_chunks_left_;
+      return false;
+    }
+    std::vector<CsvField> fields;
+    (void)detail::split_csv(line, fields, ' ');
+    const auto n = fields.size() >= 2 ? parse_count(fields[1].text) : std::nullopt;
+    if (!n || fields.size() > 3) {
+      report_.add(source_.position(offset),
+                  {"block", quoted_text(line), "must be a step, a number of chunks and their count"});
+      return true;
+    }
+    step_ = fields[0].text;
+    n_chunks_left_ = *n;
+    return true;
   }
 
   void read_row(std::size_t offset) {
@@ -115,13 +180,41 @@ class ObservationsReader {
       return;
     }
     Observation o;
-    bool is_good = read_number(offset, Column::t, o.t, "");
-    if (is_good && !(o.t >= 0)) is_good = refuse(offset, Column::t, "must be >= 0");
-    if (columns_->has(Column::z)) is_good = read_place(offset, o) && is_good;
-    const bool has_value = !is_missing(fields_[columns_->field(columns_->value())].text);
+    if (columns_->layout() == TableLayout::rows) {
+      const bool has_place = !columns_->has(Column::z) || read_place(offset, o);
+      const bool is_good = read_time(offset, o) && has_place;
+      read_value(offset, columns_->field(columns_->value()), o, is_good);
+      return;
+    }
+    const bool by_height = columns_->layout() == TableLayout::heights;
+    bool is_good = by_height ? read_time(offset, o) : read_place(offset, o);
+    for (const auto& [field, place] : columns_->places()) {
+      if (by_height) {
+        o.z = place * columns_->factor(Column::z);
+        if (!set_width(offset, o)) continue;
+        if (n_rows_ == 0 && !(o.z >= bottom_ && o.z <= top_))
+          is_good = refuse_place(field, Column::z, place, "must be inside the domain " + domain());
+      } else {
+        o.t = place * columns_->factor(Column::t);
+        if (n_rows_ == 0 && !(o.t >= 0)) is_good = refuse_place(field, Column::t, place, "must be >= 0");
+      }
+      read_value(offset, field, o, is_good);
+    }
+  }
+
+  bool read_time(std::size_t offset, Observation& o) {
+    if (!read_number(offset, Column::t, o.t, "")) return false;
+    if (dialect_.are_chunks) o.t *= format_.time_step.value_or(1);
+    return o.t >= 0 || refuse(offset, Column::t, "must be >= 0");
+  }
+
+  /// The value of an observation whose place is read; `is_good`: and is right.
+  void read_value(std::size_t offset, std::size_t field, Observation o, bool is_good) {
+    const Column column = columns_->value();
+    const bool has_value = !is_missing(fields_[field].text);
     if (has_value)
-      is_good =
-          read_number(offset, columns_->value(), o.value, ", or empty or NA if it is missing") && is_good;
+      is_good = read_number(offset, column, field, o.value, ", or empty or NA if it is missing") && is_good;
+    if (column == Column::phi_large) o.value = 1 - o.value;
     if (has_value && is_good && columns_->has(Column::H) && !(o.value > 0))
       is_good = refuse(offset, Column::H, "must be > 0");
     is_good = read_sigma(offset, o) && is_good;
@@ -129,7 +222,7 @@ class ObservationsReader {
       ++result_.n_missing;
     } else if (is_good) {
       result_.rows.push_back(o);
-      origins_.push_back({n_rows_, offset});
+      origins_.push_back({n_rows_, offset, field});
     }
   }
 
@@ -137,7 +230,7 @@ class ObservationsReader {
     bool is_good = read_number(offset, Column::z, o.z, "");
     if (is_good && !(o.z >= bottom_ && o.z <= top_))
       is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
-    if (!columns_->has(Column::width)) return is_good;
+    if (!columns_->has(Column::width)) return is_good && set_width(offset, o);
     if (!read_number(offset, Column::width, o.width, "")) return false;
     if (!(o.width > 0)) return refuse(offset, Column::width, "must be > 0");
     if (is_good && !is_bin_resolved(o.z, o.width))
@@ -149,6 +242,16 @@ class ObservationsReader {
                               number_text(o.z - o.width / 2), number_text(o.z + o.width / 2), domain()));
   }
 
+  /// The width that the format gives to all bins.
+  bool set_width(std::size_t offset, Observation& o) {
+    o.width = width_;
+    if (width_ == 0 || (is_bin_resolved(o.z, width_) && is_bin_inside(o.z, width_, bottom_, top_)))
+      return true;
+    add(offset, "z", number_text(o.z),
+        fmt::format("must leave its bin of width {} inside the domain {}", number_text(width_), domain()));
+    return false;
+  }
+
   bool read_sigma(std::size_t offset, Observation& o) {
     if (!columns_->has(Column::sigma) || is_missing(fields_[columns_->field(Column::sigma)].text))
       return true;
@@ -157,20 +260,41 @@ class ObservationsReader {
   }
 
   bool read_number(std::size_t offset, Column column, double& x, std::string_view alternative) {
-    const std::string_view text = fields_[columns_->field(column)].text;
-    if (const auto number = parse_number(text)) {
-      x = *number;
+    return read_number(offset, column, columns_->field(column), x, alternative);
+  }
+  bool read_number(std::size_t offset, Column column, std::size_t field, double& x,
+                   std::string_view alternative) {
+    const std::string_view text = fields_[field].text;
+    if (const auto number = detail::number_with_mark(text, dialect_.decimal)) {
+      x = *number * columns_->factor(column);
       return true;
     }
-    return refuse(offset, column,
-                  std::string(text.empty() ? "missing; " : "") + std::string(why_no_number(text)) +
+    const bool is_other_mark = dialect_.decimal == ',' && parse_number(text);
+    return refuse(offset, column, field,
+                  std::string(text.empty() ? "missing; " : "") +
+                      (is_other_mark ? "must have a decimal comma, as other numbers of the file do"
+                                     : std::string(why_no_number(text))) +
                       std::string(alternative));
+  }
+
+  [[nodiscard]] bool is_missing(std::string_view text) const {
+    return text.empty() || std::find(kMissing.begin(), kMissing.end(), text) != kMissing.end() ||
+           std::find(format_.missing.begin(), format_.missing.end(), text) != format_.missing.end();
   }
 
   /// Notes what is wrong with a field of the row that is being read; false for convenience.
   bool refuse(std::size_t offset, Column column, std::string constraint) {
-    const CsvField& field = fields_[columns_->field(column)];
+    return refuse(offset, column, columns_->field(column), std::move(constraint));
+  }
+  bool refuse(std::size_t offset, Column column, std::size_t at, std::string constraint) {
+    const CsvField& field = fields_[at];
     add(offset + field.offset, std::string(name_of(column)), shown(field.text), std::move(constraint));
+    return false;
+  }
+  /// The same for a place that stands in the header of a wide table.
+  bool refuse_place(std::size_t field, Column column, double place, std::string constraint) {
+    report_.add(position_in(dialect_.header, field),
+                {std::string(name_of(column)), number_text(place), std::move(constraint)});
     return false;
   }
 
@@ -188,12 +312,19 @@ class ObservationsReader {
     return fmt::format("[{}, {}]", number_text(bottom_), number_text(top_));
   }
 
+  [[nodiscard]] std::string_view separator() const {
+    return dialect_.separator == ';' ? "semicolon" : dialect_.separator == '\t' ? "tab" : "comma";
+  }
+
   /// Where a field of a row of the result stands.
   [[nodiscard]] Position position_of(const Origin& origin, Column column) {
-    const std::string_view text = source_.text();
-    const std::size_t end = std::min(text.find('\n', origin.offset), text.size());
-    (void)detail::split_csv(text.substr(origin.offset, end - origin.offset), fields_);
-    return source_.position(origin.offset + fields_[columns_->field(column)].offset);
+    const bool is_of_row = columns_->has(column) && column != columns_->value();
+    return position_in(origin.offset, is_of_row ? columns_->field(column) : origin.field);
+  }
+  [[nodiscard]] Position position_in(std::size_t line, std::size_t field) const {
+    std::vector<CsvField> fields;
+    (void)take_apart(detail::line_at(source_.text(), line), fields);
+    return source_.position(line + fields[field].offset);
   }
 
   void check_sigma() {
@@ -209,6 +340,7 @@ class ObservationsReader {
 
   /// Finds places that occur twice; a file in ascending order needs no sorting.
   void check_places() {
+    if (format_.replicates == Replicates::kept) return;
     const std::vector<Observation>& rows = result_.rows;
     const auto is_descent = [&](const Observation& a, const Observation& b) {
       return !(place_of(a) < place_of(b));
@@ -220,6 +352,8 @@ class ObservationsReader {
       if (place_of(rows[a]) == place_of(rows[b])) return a < b;
       return place_of(rows[a]) < place_of(rows[b]);
     });
+    if (format_.replicates == Replicates::averaged) return average(order);
+    bool is_first = true;
     for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
       if (place_of(rows[order[i]]) != place_of(rows[order[first]])) {
         first = i;
@@ -235,8 +369,65 @@ class ObservationsReader {
                        source_.position(origins_[order[first]].offset).line,
                        !has_place                     ? ""
                        : columns_->has(Column::width) ? ", which has the same t and width"
-                                                      : ", which has the same t")});
+                                                      : ", which has the same t") +
+               (std::exchange(is_first, false)
+                    ? "; or be kept or averaged by replicates = \"keep\" or \"mean\""
+                    : "")});
     }
+  }
+
+  /// The means of the values at one place, where the first of them stood. Their spread, pooled over all places, is that
+  /// of one value: at one place there are too few to tell.
+  void average(const std::vector<std::size_t>& order) {
+    std::vector<Observation>& rows = result_.rows;
+    std::vector<std::size_t> counts(rows.size(), 0);  // of the values a kept row stands for
+    double sum_of_squares = 0;
+    std::size_t n_free = 0;
+    for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+      for (end = first; end < order.size() && place_of(rows[order[end]]) == place_of(rows[order[first]]);)
+        ++end;
+      const auto n = static_cast<double>(end - first);
+      double mean = 0;
+      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n;
+      for (std::size_t i = first; i < end; ++i)
+        sum_of_squares += (rows[order[i]].value - mean) * (rows[order[i]].value - mean);
+      n_free += end - first - 1;
+      rows[order[first]].value = mean;
+      counts[order[first]] = end - first;
+    }
+    const double spread = n_free > 0 ? std::sqrt(sum_of_squares / static_cast<double>(n_free)) : 0;
+    const std::size_t n_values = rows.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < n_values; ++i) {
+      if (counts[i] == 0) continue;
+      rows[kept] = rows[i];
+      origins_[kept] = origins_[i];
+      if (spread > 0) rows[kept].sigma = spread / std::sqrt(static_cast<double>(counts[i]));
+      ++kept;
+    }
+    rows.resize(kept);
+    origins_.resize(kept);
+    averaged_ = fmt::format("means of {} values at {} places, which scatter by {}", n_values, kept,
+                            number_text(spread, 3));
+  }
+
+  void say_what_was_understood() {
+    std::vector<std::string> parts;
+    if (!source_.encoding().empty()) parts.push_back(std::string(source_.encoding()) + " text");
+    if (const std::string dialect = dialect_.text(); !dialect.empty()) parts.push_back(dialect);
+    if (n_preamble_ > 0)
+      parts.push_back(fmt::format("{} line{} before the header", n_preamble_, n_preamble_ == 1 ? "" : "s"));
+    if (dialect_.units) parts.emplace_back("a row of units");
+    const bool is_plain = parts.empty() && columns_->is_plain() && averaged_.empty() && width_ == 0;
+    std::string text =
+        fmt::format("{}: {} row{}", printable(source_.name()), n_rows_, n_rows_ == 1 ? "" : "s");
+    for (const std::string& part : parts) text += ", " + part;
+    text += "; " + columns_->understood();
+    if (width_ > 0) text += fmt::format("; means over bins of width {}", number_text(width_));
+    if (result_.n_missing > 0) text += fmt::format("; {} missing", result_.n_missing);
+    if (!averaged_.empty()) text += "; " + averaged_;
+    if (!is_plain) result_.notes.insert(result_.notes.begin(), text);
+    result_.understood = std::move(text);
   }
 
   void check_sizes() {
@@ -258,6 +449,19 @@ class ObservationsReader {
           {fmt::format("{}[{}]", name_of(column), origins_[i].row), number_text(value),
            fmt::format("must lie near what the scene allows, {} to {}",
                        number_text(height * possible.lowest, 6), number_text(height * possible.highest, 6))});
+    }
+    if (!is_sum && result_.quantity != Quantity::bed_height && target_.are_parts && report_.is_empty())
+      refuse_percent();
+  }
+
+  void refuse_percent() {
+    for (std::size_t i = 0; i < result_.rows.size(); ++i) {
+      const double value = result_.rows[i].value;
+      if (std::abs(value) <= kPlausiblePhi) continue;
+      report_.add(position_of(origins_[i], columns_->value()),
+                  {fmt::format("{}[{}]", name_of(columns_->value()), origins_[i].row), number_text(value),
+                   "must be a fraction of 1; what is in percent must say so: phi [%] in the header"});
+      return;  // the others are as wrong
     }
   }
 
@@ -305,28 +509,39 @@ class ObservationsReader {
   static constexpr std::size_t kLongestShown = 40;
 
   const TextSource& source_;
+  Dialect dialect_;
+  ObservationFormat format_;
   ComplaintReport report_;
   double bottom_, top_;
+  ObservationColumns::Target target_;
   std::optional<StateRange<double>> phi_;  ///< that the scene allows, if there is one
   std::optional<ObservationColumns> columns_;
   std::vector<CsvField> fields_;  ///< of the line that is being read
   std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
+  double width_ = 0;              ///< of every bin, from the format; 0: from a column or none
+  std::string_view step_;         ///< of the chunks that are being read
+  unsigned long long n_chunks_left_ = 0;
+  std::size_t n_preamble_ = 0;  ///< lines before the header that are no comments
+  std::string averaged_;        ///< what was averaged, in words
   Observations result_;
   std::vector<Origin> origins_;  ///< of result_.rows
 };
 
 }  // namespace
 
-Observations read_observations(const std::string& path, double bottom, double top) {
-  return ObservationsReader(TextSource::read(path), bottom, top).read();
+Observations read_observations(const std::string& path, double bottom, double top,
+                               const ObservationFormat& format) {
+  return ObservationsReader(TextSource::read_decoded(path), bottom, top, format).read();
 }
 
-Observations read_observations(const std::string& path, const Scene<double>& scene) {
-  return ObservationsReader(TextSource::read(path), scene).read();
+Observations read_observations(const std::string& path, const Scene<double>& scene,
+                               const ObservationFormat& format) {
+  return ObservationsReader(TextSource::read_decoded(path), scene, format).read();
 }
 
-Observations parse_observations(std::string text, const std::string& file, double bottom, double top) {
-  return ObservationsReader(TextSource(file, std::move(text)), bottom, top).read();
+Observations parse_observations(std::string text, const std::string& file, double bottom, double top,
+                                const ObservationFormat& format) {
+  return ObservationsReader(TextSource::decode(file, std::move(text)), bottom, top, format).read();
 }
 
 }  // namespace shearfront

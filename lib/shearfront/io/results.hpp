@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,9 +47,20 @@ struct NamedNumbers {
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
                            const TimeTable& table, const NamedNumbers& extra, const Summary& summary);
 
+/// Between which event times lie with 95 %; infinity: never.
+struct EventBands {
+  using Ends = std::optional<std::pair<double, double>>;
+  struct InterfaceBands {
+    Ends first, last;
+  };
+  Ends t0, t1, t_star;
+  std::vector<InterfaceBands> interfaces;
+};
+
 /// {"scene","method","mass","steady_height","t0","t1","t_star","interfaces":[{"z","first","last"}],"summary"}.
-/// A time that never comes is null; numbers have the digits that they have in `timeline`.
+/// A time that never comes is null; numbers have the digits that they have in `timeline`. With bands also
+/// "ci95":{"t0":[low,high],"t1","t_star","interfaces":[{"first","last"}]}.
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
-                       const TimelineText& timeline, const Summary& summary);
+                       const TimelineText& timeline, const Summary& summary, const EventBands& bands = {});
 
 }  // namespace shearfront

@@ -64,7 +64,7 @@ void write_time_table_json(OutputFile& file, std::string_view scene, std::string
 }
 
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
-                       const TimelineText& timeline, const Summary& summary) {
+                       const TimelineText& timeline, const Summary& summary, const EventBands& bands) {
   const auto time = [](const std::optional<std::string>& t) { return t ? json_digits(*t) : Json(); };
   Json all = document(scene, method);
   all["mass"] = json_digits(timeline.mass);
@@ -75,6 +75,18 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
   Json& interfaces = all["interfaces"] = Json::array();
   for (const auto& at : timeline.interfaces)
     interfaces.push_back({{"z", json_digits(at.z)}, {"first", time(at.first)}, {"last", time(at.last)}});
+  if (bands.t_star) {
+    const auto ends = [](const EventBands::Ends& band) {
+      return band ? Json::array({band->first, band->second}) : Json();
+    };
+    Json& ci95 = all["ci95"];
+    ci95 = {{"t0", ends(bands.t0)},
+            {"t1", ends(bands.t1)},
+            {"t_star", ends(bands.t_star)},
+            {"interfaces", Json::array()}};
+    for (const auto& at : bands.interfaces)
+      ci95["interfaces"].push_back({{"first", ends(at.first)}, {"last", ends(at.last)}});
+  }
   all["summary"] = to_json(summary);
   file.write(detail::json_document(all));
 }

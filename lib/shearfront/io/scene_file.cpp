@@ -33,7 +33,8 @@ std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.
 template <Real S>
 class SceneReader {
  public:
-  explicit SceneReader(const TomlSource& source) : source_(source), report_(source.name()) {}
+  SceneReader(const TomlSource& source, const SceneChanges& changes)
+      : source_(source), changes_(changes), report_(source.name()) {}
 
   Scene<S> read() {
     TableReader root(source_, report_, "", source_.root());
@@ -54,7 +55,13 @@ class SceneReader {
       table->finish();
     }
     if (auto table = root.table("boundary", Need::optional, "must be a table")) boundary(*table);
+    if (auto table = root.table("units", Need::optional, "must be a table with z and t")) {
+      spec_.units.z = table->text("z", Need::optional, "must be the name of a unit of length").value_or("");
+      spec_.units.t = table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
+      table->finish();
+    }
     root.finish();
+    for (const SceneChange& change : changes_) apply(change);
     std::variant<Scene<S>, Complaints> scene = Scene<S>::make(std::move(spec_));
     if (auto* complaints = std::get_if<Complaints>(&scene)) add(std::move(*complaints));
     report_.throw_if_any();
@@ -204,6 +211,50 @@ class SceneReader {
     return is_known;
   }
 
+  /// Puts a number in its place. Errors: InputError if there is none, or no number.
+  void apply(const SceneChange& change) {
+    const std::size_t bracket = change.key.find('[', change.key.rfind('.'));
+    const std::string name = change.key.substr(0, bracket);
+    const auto decimal = detail::parse_decimal(change.value);
+    const auto refuse = [&](const std::string& constraint) {
+      throw InputError("--set " + printable(change.key, 60), quoted_text(change.value), constraint);
+    };
+    if (!decimal || !detail::fits_double(*decimal)) refuse("must be a number");
+    std::optional<unsigned long long> i;
+    if (bracket != std::string::npos && change.key.ends_with(']'))
+      i = parse_count(std::string_view(change.key).substr(bracket + 1, change.key.size() - bracket - 2));
+    std::vector<std::string> names;
+    bool is_done = false;
+    visit_fields(spec_, [&](const std::string& key, const FieldInfo&, auto& member) {
+      names.push_back(key);
+      if (key != name || is_done) return;
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>, S>) {
+        if (bracket != std::string::npos) refuse("must be without [...]: the entry is one number");
+        member = detail::value_of<S>(*decimal);
+        is_done = true;
+      } else {
+        if (!i || *i >= member.size())
+          refuse(member.empty() ? std::string("must be an entry that has numbers")
+                                : "must name one of its numbers, " + key + "[0] to " + key + "[" +
+                                      std::to_string(member.size() - 1) + "]");
+        member[static_cast<std::size_t>(*i)] = detail::value_of<S>(*decimal);
+        is_done = true;
+      }
+    });
+    if (is_done) return;
+    const auto meant = nearest_name(name, names);
+    std::string all;
+    for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
+    throw InputError(
+        "--set " + printable(change.key, 60), "",
+        "unknown entry; must be one of: " + all + (meant ? " (did you mean " + *meant + "?)" : ""));
+  }
+  /// The change of the entry a complaint is about, if there is one.
+  [[nodiscard]] bool is_changed(const std::string& key) const {
+    return std::any_of(changes_.begin(), changes_.end(),
+                       [&](const SceneChange& change) { return change.key == key; });
+  }
+
   /// Adds what is wrong with the values, unless it only repeats or follows from what is reported already.
   void add(Complaints complaints) {
     for (Complaint& complaint : complaints) {
@@ -212,6 +263,8 @@ class SceneReader {
       if (report_.is_spoiled(complaint.key)) continue;
       if (complaint.kind == Complaint::Kind::wrong_length && report_.is_spoiled(TableReader::lengths(table)))
         continue;
+      if (is_changed(complaint.key))
+        throw InputError("--set " + complaint.key, complaint.value, complaint.constraint);
       const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
       if (is_unknown && complaint.key != "shear_rate.scale") continue;
       const TomlSource::Found found = source_.find(complaint.key);
@@ -223,6 +276,7 @@ class SceneReader {
   }
 
   const TomlSource& source_;
+  const SceneChanges& changes_;
   ComplaintReport report_;
   SceneSpec<S> spec_;
   std::string solid_fraction_table_ = "solid_fraction";  ///< as the file calls it
@@ -232,16 +286,16 @@ class SceneReader {
 }  // namespace
 
 template <Real S>
-Scene<S> parse_scene(std::string text, const std::string& file) {
-  return SceneReader<S>(TomlSource(detail::TextSource(file, std::move(text)))).read();
+Scene<S> parse_scene(std::string text, const std::string& file, const SceneChanges& changes) {
+  return SceneReader<S>(TomlSource(detail::TextSource(file, std::move(text))), changes).read();
 }
 
 template <Real S>
-Scene<S> read_scene(const std::string& path) {
-  return SceneReader<S>(TomlSource(detail::TextSource::read(path))).read();
+Scene<S> read_scene(const std::string& path, const SceneChanges& changes) {
+  return SceneReader<S>(TomlSource(detail::TextSource::read(path)), changes).read();
 }
 
-template Scene<Instantiated> read_scene(const std::string&);
-template Scene<Instantiated> parse_scene(std::string, const std::string&);
+template Scene<Instantiated> read_scene(const std::string&, const SceneChanges&);
+template Scene<Instantiated> parse_scene(std::string, const std::string&, const SceneChanges&);
 
 }  // namespace shearfront

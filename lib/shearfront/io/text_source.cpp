@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "shearfront/io/detail/encoding.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/text.hpp"
 
@@ -16,6 +17,24 @@ namespace shearfront::detail {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{256} << 20;  // endless devices must not fill the memory
+
+std::string read_bytes(const std::string& path) {
+  const auto fail = [&](int error) {
+    throw_file_error(path, "cannot be read: " + std::generic_category().message(error));
+  };
+  const auto close = [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
+                                                         close);
+  if (!file) fail(errno);
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
+    text.append(block.data(), n);
+    if (text.size() > kLargestFile) throw_file_error(path, "is larger than 256 MiB");
+  }
+  if (std::ferror(file.get()) != 0) fail(errno);
+  return text;
+}
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
@@ -48,20 +67,15 @@ TextSource::TextSource(std::string name, std::string text) : name_(std::move(nam
   report.throw_if_any();
 }
 
-TextSource TextSource::read(const std::string& path) {
-  const auto fail = [&](int error) {
-    throw_file_error(path, "cannot be read: " + std::generic_category().message(error));
-  };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) fail(errno);
-  std::string text;
-  std::array<char, 1 << 16> block;
-  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
-    text.append(block.data(), n);
-    if (text.size() > kLargestFile) throw_file_error(path, "is larger than 256 MiB");
-  }
-  if (std::ferror(file.get()) != 0) fail(errno);
-  return {path, std::move(text)};
+TextSource TextSource::read(const std::string& path) { return {path, read_bytes(path)}; }
+
+TextSource TextSource::read_decoded(const std::string& path) { return decode(path, read_bytes(path)); }
+
+TextSource TextSource::decode(std::string name, std::string bytes) {
+  DecodedText decoded_text = decoded(std::move(bytes));
+  TextSource source(std::move(name), std::move(decoded_text.text));
+  source.encoding_ = decoded_text.encoding;
+  return source;
 }
 
 std::size_t TextSource::offset(Position position) const {

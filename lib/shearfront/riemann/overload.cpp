@@ -55,8 +55,9 @@ Stretch stretch_of(const Scene<double>& scene, double lo, double hi) {
     stretch.starting.take(most * flux.value(share));
   };
   start(scene.initial_share(lo));
-  for (const double z : scene.initial_breaks())
+  for (const double z : scene.initial_knots())
     if (z > lo && z < hi) start(scene.initial_share(z));
+  start(scene.initial_share(std::nextafter(hi, lo)));
   const double at_lowest = flux.value(flux.range().lowest), at_highest = flux.value(flux.range().highest);
   const double low = std::min(at_lowest, at_highest), high = std::max(at_lowest, at_highest);
   stretch.room = {std::max(least * low, most * low), std::min(least * high, most * high)};

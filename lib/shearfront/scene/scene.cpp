@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/scene/scene.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +36,40 @@ S mean_of(const Function& f, const S& lo, const S& hi) {
   return boost::math::quadrature::gauss<S, 7>::integrate([&](const S& x) { return f(S(middle + half * x)); },
                                                          S(-1), S(1)) /
          S(2);
+}
+
+/// int c share dz of a smooth start, no more than there is room for its least and largest value: by its own integral where c is
+/// constant, by quadrature between the knots of both where it is not.
+template <Real S, class Model>
+S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S& hi) {
+  CompensatedSum<S> sum;
+  const auto& c = scene.spec().solid_fraction;
+  const auto bounded = [&](const S& amount, const S& room) {
+    return std::clamp(amount, S(model.lowest() * room), S(model.highest() * room));
+  };
+  if (!c) return bounded(S(model.integral(lo, hi)), S(hi - lo));
+  std::vector<S> cuts = std::visit([](const auto& function) { return function.knots(); }, *c);
+  const bool is_layered = is_constant_in_pieces<S>(*c);
+  if (!is_layered) {
+    const std::vector<S> knots = model.knots(lo, hi);
+    cuts.insert(cuts.end(), knots.begin(), knots.end());
+    std::sort(cuts.begin(), cuts.end());
+  }
+  S from = lo;
+  const auto add = [&](const S& to) {
+    if (!(to > from)) return;
+    if (is_layered)
+      sum += value(*c, from) * S(model.integral(from, to));
+    else
+      sum += boost::math::quadrature::gauss_kronrod<S, 15>::integrate(
+          [&](const S& z) { return S(value(*c, z) * model.value(z)); }, from, to, 12u,
+          S(4) * std::numeric_limits<S>::epsilon());
+    from = to;
+  };
+  for (const S& z : cuts)
+    if (z < hi) add(z);
+  add(hi);
+  return bounded(sum.value(), scene.solid(lo, hi));
 }
 
 }  // namespace
@@ -143,9 +179,7 @@ S Scene<S>::mean_solid_fraction(const S& lo, const S& hi) const {
 
 template <Real S>
 S Scene<S>::initial_phi(const S& z) const {
-  if (spec_.initial_state)
-    return std::visit([&](const auto& model) { return S(model.value(z)); }, *spec_.initial_state);
-  const S& share = initial_share(z);
+  const S share = initial_share(z);
   return spec_.solid_fraction ? S(solid_fraction_at(z) * share) : share;
 }
 
@@ -169,7 +203,8 @@ S Scene<S>::mass() const {
 template <Real S>
 S Scene<S>::initial_amount(const S& lo, const S& hi) const {
   if (spec_.initial_state)
-    return std::visit([&](const auto& model) { return S(model.integral(lo, hi)); }, *spec_.initial_state);
+    return std::visit([&](const auto& model) { return smooth_amount(*this, model, lo, hi); },
+                      *spec_.initial_state);
   CompensatedSum<S> sum;
   S from = lo;
   for (const S& z : initial_breaks()) {

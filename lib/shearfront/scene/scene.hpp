@@ -23,7 +23,7 @@ template <Real Scalar>
 ///     phi_t + (s a(z) sqrt(T(z)) c(z) f(phi / c(z)))_z = 0 on bottom < z < top.
 ///
 /// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. With diffusion the right side
-/// is (D(z) phi_z)_z, and the initial data may be smooth. The ends are walls (no flux),
+/// is (D(z) phi_z)_z. The initial phi / c is constant in pieces, or smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction, and checked there once.
 template <Real Scalar = double>
@@ -44,7 +44,7 @@ class Scene {
   [[nodiscard]] const Scalar& bottom() const { return spec_.bottom; }
   [[nodiscard]] const Scalar& top() const { return spec_.top; }
   [[nodiscard]] const std::vector<Scalar>& initial_breaks() const { return spec_.initial_breaks; }
-  /// Of phi / c.
+  /// Of phi / c; both empty for a smooth start.
   [[nodiscard]] const std::vector<Scalar>& initial_values() const { return spec_.initial_values; }
 
   /// Which flux holds at z; at a break the one above.
@@ -88,11 +88,22 @@ class Scene {
   /// Mean of c over [lo, hi], which must not contain a knot inside.
   [[nodiscard]] Scalar mean_solid_fraction(const Scalar& lo, const Scalar& hi) const;
 
-  /// phi(z, 0) / c(z) of data that are constant in pieces; at a jump the value above it. Cost: O(log jumps).
-  [[nodiscard]] const Scalar& initial_share(const Scalar& z) const {
+  /// Whether phi(z, 0) / c(z) is an InitialState: continuous, not constant in pieces.
+  [[nodiscard]] bool has_smooth_start() const { return spec_.initial_state.has_value(); }
+  /// phi(z, 0) / c(z); at a jump the value above it. Cost: O(log jumps).
+  [[nodiscard]] Scalar initial_share(const Scalar& z) const {
+    if (spec_.initial_state)
+      return std::visit([&](const auto& model) { return Scalar(model.value(z)); }, *spec_.initial_state);
     const auto& breaks = spec_.initial_breaks;
     const auto k = std::upper_bound(breaks.begin(), breaks.end(), z) - breaks.begin();
     return spec_.initial_values[static_cast<std::size_t>(k)];
+  }
+  /// Heights inside the domain between which phi(z, 0) / c(z) is constant (the initial jumps), or it and its slope are monotone
+  /// (of a smooth start); ascending.
+  [[nodiscard]] std::vector<Scalar> initial_knots() const {
+    if (!spec_.initial_state) return spec_.initial_breaks;
+    return std::visit([&](const auto& model) { return model.knots(spec_.bottom, spec_.top); },
+                      *spec_.initial_state);
   }
   /// phi(z, 0); at a jump the value above it. Cost: O(log jumps).
   [[nodiscard]] Scalar initial_phi(const Scalar& z) const;

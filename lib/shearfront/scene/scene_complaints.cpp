@@ -127,9 +127,6 @@ class Checker {
           }
         },
         *spec_.initial_state);
-    if (!has_diffusion())
-      add("initial.model", "",
-          "must not be given for a bed without diffusion: its data are constant in pieces");
   }
 
   void close_packing() {

@@ -31,12 +31,20 @@ struct Diffusion {
   bool follows_shear_rate = false;                 ///< variation(z) = a(z), without the scale s
 };
 
+/// The units in which the numbers of a scene are, empty where its file does not say: carried to axes, tables and files,
+/// and what observations are converted to. A rate s a is then in units.z / units.t.
+struct SceneUnits {
+  std::string z, t;
+  friend bool operator==(const SceneUnits&, const SceneUnits&) = default;
+};
+
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
 template <Real Scalar = double>
 struct SceneSpec {
   std::string name;
   /// What the reader of its file has to say, one line each; for the user, not part of the model.
   std::vector<std::string> remarks;
+  SceneUnits units;
   std::vector<Flux<Scalar>> fluxes{Quadratic<Scalar>{}};  ///< bottom to top
   std::vector<Scalar> flux_breaks;                        ///< heights between them; one less
   DepthFunction<Scalar> shear_rate;
@@ -46,7 +54,8 @@ struct SceneSpec {
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
   std::optional<Diffusion<Scalar>> diffusion;
-  std::optional<InitialState<Scalar>> initial_state;  ///< smooth; breaks and values are then empty
+  /// phi / c as a smooth function, or one with kinks; breaks and values are then empty.
+  std::optional<InitialState<Scalar>> initial_state;
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
   std::vector<Scalar> initial_values;  ///< phi / c between them, bottom to top; one more than breaks
   Scalar bottom{0}, top{1};            ///< the domain, same unit as z

@@ -74,8 +74,8 @@ inline constexpr double kLeastBinWidth = 1e-8;
   return {std::max(z - width / 2, bottom), std::min(z + width / 2, top)};
 }
 
-/// Units as they stand in the header of a file, empty where none is given. They are kept, not converted:
-/// everything is in the units of the scene. A width has the unit of z, a sigma that of the value.
+/// Units of the numbers, empty where none is given. A file read for a scene with units is converted to them; otherwise
+/// they are kept as they stand in its header. A width has the unit of z, a sigma that of the value.
 struct ObservationUnits {
   std::string t, z, value;
   friend bool operator==(const ObservationUnits&, const ObservationUnits&) = default;
@@ -88,6 +88,7 @@ struct Observations {
   std::size_t n_missing = 0;          ///< rows of the file without a value, left out here
   std::vector<std::string> comments;  ///< comment lines of the file without their #
   ObservationUnits units;
+  std::string understood;          ///< how the file was read, in one line; empty for what comes from no file
   std::vector<std::string> notes;  ///< what a user should be told about the file, one line each
 
   /// Whether every row has its sigma (a file gives it for all rows or for none).

@@ -15,6 +15,7 @@
 #include "shearfront/track/level_grid.hpp"
 #include "shearfront/track/pieces.hpp"
 #include "shearfront/track/slowest_arrival.hpp"
+#include "shearfront/track/smooth_start.hpp"
 #include "shearfront/track/track.hpp"
 #include "shearfront/track/tracker.hpp"
 
@@ -51,13 +52,6 @@ template <Real Scalar>
   if (scene.is_layered()) return exact_layers(scene);
   return staircase(scene, layers > 0 ? layers : staircase_layers(scene, resolution));
 }
-
-/// The initial state of a scene cut at jumps and interfaces: for each piece its layer, its top and phi / c.
-template <Real Scalar>
-struct InitialPieces {
-  std::vector<LayerState<Scalar>> states;  ///< one per piece, bottom to top
-  std::vector<Scalar> tops;
-};
 
 /// Cuts the initial data of `scene` by the layers of `stack`. A jump on an interface makes one cut, not two.
 /// Cost: O(jumps + layers).
@@ -99,8 +93,10 @@ template <Real Scalar, class Grid = LevelGrid<Scalar>>
 struct TrackingSetup {
   LayerStack<Scalar> stack;
   Grid grid;
+  InitialPieces<Scalar> initial;
   std::vector<Piece<Scalar>> pieces;
   Ends<Scalar> ends;
+  Scalar start_distance{0};  ///< L1 distance of a smooth start from the steps that stand for it
 
   TrackingSetup(const Scene<Scalar>& scene, const Scalar& resolution, GridKind kind = GridKind::levels,
                 std::size_t layers = 0)
@@ -110,8 +106,10 @@ struct TrackingSetup {
                 GridKind kind)
       : stack(std::move(layers)) {
     if (std::string why = refusal(resolution); !why.empty()) throw InputError("flux", "", why);
-    const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
-    std::vector<LayerState<Scalar>> states = initial.states;
+    if (!scene.has_smooth_start()) initial = initial_pieces(scene, stack);
+    std::vector<LayerState<Scalar>> states =
+        scene.has_smooth_start() ? plateaus(scene, stack) : initial.states;
+    const std::size_t n_inside = states.size();
     const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
     for (std::size_t end = 0; end < 2; ++end)
       if (*outside[end])
@@ -119,9 +117,16 @@ struct TrackingSetup {
           states.push_back({end == 0 ? 0 : stack.n_layers() - 1, share});
     auto built = build(kind, resolution, states);
     grid = std::move(built.grid);
-    pieces = on_grid(initial, built.states);
+    if (scene.has_smooth_start()) {
+      StartSteps<Scalar> steps = StartStepper<Scalar, Grid>(scene, stack, grid).run();
+      pieces = std::move(steps.pieces);
+      initial = std::move(steps.initial);
+      start_distance = steps.distance;
+    } else {
+      pieces = on_grid(initial, built.states);
+    }
     ends.is_periodic = scene.spec().is_periodic;
-    auto next = built.states.begin() + static_cast<std::ptrdiff_t>(pieces.size());
+    auto next = built.states.begin() + static_cast<std::ptrdiff_t>(n_inside);
     for (std::size_t end = 0; end < 2; ++end) {
       if (!*outside[end]) continue;
       ends.outside[end] = *next++;
@@ -147,17 +152,29 @@ struct TrackingSetup {
   }
 };
 
+template <class AnyTracker, Real Scalar>
+[[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
+                                                const LayerStack<Scalar>& stack,
+                                                const InitialPieces<Scalar>& initial);
+
+/// The same for data that are constant in pieces.
+template <class AnyTracker, Real Scalar>
+[[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
+                                                const LayerStack<Scalar>& stack) {
+  return tracked_timeline(tracker, scene, stack, initial_pieces(scene, stack));
+}
+
 /// Event times of a tracker that has reached its steady state. The last fronts of a polygon can meet long before the bed
 /// rests, or in a bed that never does: what it cannot see is bounded by SlowestArrival.
 template <class AnyTracker, Real Scalar>
 [[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
-                                                const LayerStack<Scalar>& stack) {
+                                                const LayerStack<Scalar>& stack,
+                                                const InitialPieces<Scalar>& initial) {
   Timeline<Scalar> timeline;
   timeline.mass = scene.mass();
   timeline.steady_height = scene.steady_height();
   timeline.t0 = tracker.first_wave(0);
   timeline.t1 = tracker.first_wave(stack.n_layers());
-  const InitialPieces<Scalar> initial = initial_pieces(scene, stack);
   const SlowestArrival<Scalar> slowest(stack, initial.states, initial.tops);
   const auto later = [](std::optional<Scalar> tracked, const Scalar& least) {
     if (tracked) *tracked = std::max(*tracked, least);

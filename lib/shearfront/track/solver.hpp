@@ -11,7 +11,8 @@ namespace shearfront {
 /// scenes between walls; +infinity asks for the steady state, which a periodic bed does not have.
 struct FrontTrackingSolver {
   static constexpr std::string_view kName = "front-tracking";
-  static constexpr std::string_view kDescription = "event-driven front tracking, exact for a polygonal flux";
+  static constexpr std::string_view kDescription =
+      "event-driven front tracking, exact for a polygonal flux and smooth starts in steps";
   static constexpr std::string_view kScenes =
       "any flux in a uniform bed, else with one extremum or none, open ends";
 

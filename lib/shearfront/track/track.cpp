@@ -191,7 +191,8 @@ class TrackingOn final : public AnyTracking {
     }
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
-    const Timeline<double> timeline = tracked_timeline(tracker_, bed_->scene, bed_->setup.stack);
+    const Timeline<double> timeline =
+        tracked_timeline(tracker_, bed_->scene, bed_->setup.stack, bed_->setup.initial);
     rests_never_ = tracker_.is_steady() && !timeline.t_star;
     return timeline;
   }
@@ -218,7 +219,12 @@ class TrackingOn final : public AnyTracking {
              "meet "
              "at t = " +
              number_text(tracker_.last_collision());
-    return message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+    std::string text = message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+    if (bed_->scene.has_smooth_start())
+      text += "; " + std::to_string(bed_->setup.pieces.size()) +
+              " steps stand for the smooth start, an L1 distance of " +
+              number_text(bed_->setup.start_distance, 2);
+    return text;
   }
 
   /// What never changes; the tracker refers to it.

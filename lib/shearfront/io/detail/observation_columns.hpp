@@ -9,12 +9,9 @@
 
 #include "shearfront/io/detail/csv.hpp"
 #include "shearfront/io/detail/text_source.hpp"
-#include "shearfront/solution/observation.hpp"
+#include "shearfront/io/observations_csv.hpp"
 
 namespace shearfront::detail {
-
-enum class Column { t, z, phi, M, H, width, sigma };
-inline constexpr std::array<std::string_view, 7> kColumnNames{"t", "z", "phi", "M", "H", "width", "sigma"};
 
 [[nodiscard]] constexpr std::string_view name_of(Column column) {
   return kColumnNames[static_cast<std::size_t>(column)];
@@ -23,50 +20,93 @@ inline constexpr std::array<std::string_view, 7> kColumnNames{"t", "z", "phi", "
 /// A field of a header: "z [mm]" and "z (mm)" are z in mm.
 struct Heading {
   std::string name, unit;
+  std::string text;  ///< as it stands in the file
 };
 [[nodiscard]] Heading heading_of(std::string_view field);
 /// The other way round: "z [mm]", "z" without a unit.
 [[nodiscard]] std::string heading_text(std::string_view name, std::string_view unit);
 
+/// Which columns a header has, by the names of the format and the usual ones; quietly, for the search for it.
+struct HeaderMatch {
+  std::array<std::vector<std::size_t>, kColumnNames.size()> fields;  ///< that can be each column
+
+  [[nodiscard]] bool has(Column column) const { return !fields[static_cast<std::size_t>(column)].empty(); }
+  /// Whether the columns make observations: a time, a place unless H, a value.
+  [[nodiscard]] bool is_complete() const;
+};
+[[nodiscard]] HeaderMatch match(const std::vector<Heading>& headings, const ObservationFormat& format);
+
+/// The place of a column of a wide table: its time or its height.
+struct PlaceColumn {
+  std::size_t field;
+  double place;
+};
+/// The numbers in the names of all columns but the first ("3", "z = 3 mm", "phi_3mm"); nothing unless each has
+/// exactly one. Takes their unit, if they all have the same.
+[[nodiscard]] std::optional<std::vector<PlaceColumn>> places_in(const std::vector<Heading>& headings,
+                                                                std::string& unit);
+
 /// What the header of a file of observations says.
 class ObservationColumns {
  public:
-  /// Complaints go into the report; with any, the result must not be used. `offset` is that of the line.
+  struct Target {
+    std::string z, t;       ///< units of the scene; empty if it does not say
+    bool are_parts = true;  ///< whether the states of the flux are fractions of 1
+  };
+  /// Complaints go into the report; with any, the result must not be used. `offset` is that of the line; `units` is the
+  /// row below it, or empty.
   ObservationColumns(const TextSource& source, std::size_t offset, const std::vector<CsvField>& fields,
-                     ComplaintReport& report);
+                     const std::vector<CsvField>& units, const ObservationFormat& format, TableLayout layout,
+                     const Target& target, ComplaintReport& report);
 
   [[nodiscard]] bool has(Column column) const { return at_[index(column)].has_value(); }
-  /// The number of the field. Precondition: has(column).
+  /// The number of the field. Precondition: has(column), and it is no column of places of a wide table.
   [[nodiscard]] std::size_t field(Column column) const { return *at_[index(column)]; }
   [[nodiscard]] std::size_t n_fields() const { return headings_.size(); }
-  [[nodiscard]] Column value() const {
-    return has(Column::H) ? Column::H : has(Column::M) ? Column::M : Column::phi;
-  }
+  /// phi, phi_large, M or H.
+  [[nodiscard]] Column value() const;
   [[nodiscard]] Quantity quantity() const;
-  [[nodiscard]] ObservationUnits units() const;
+  [[nodiscard]] TableLayout layout() const { return layout_; }
+  [[nodiscard]] const std::vector<PlaceColumn>& places() const { return places_; }  ///< of a wide table
+  /// By what a number of the column is multiplied.
+  [[nodiscard]] double factor(Column column) const { return factors_[index(column)]; }
+  /// Of the numbers after that.
+  [[nodiscard]] const ObservationUnits& units() const { return units_; }
   /// One line per column that is not used.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// The names of all columns for messages.
   [[nodiscard]] std::string names() const;
   /// Where a column stands in the header.
   [[nodiscard]] Position position(Column column) const { return positions_[field(column)]; }
+  /// `t from "time [s]" in s; z from "height (mm)" in mm; phi from "conc" in percent`
+  [[nodiscard]] std::string understood() const;
+  /// Whether the header is this project's own: every column by its own name, nothing converted.
+  [[nodiscard]] bool is_plain() const;
 
  private:
   static std::size_t index(Column column) { return static_cast<std::size_t>(column); }
-  void read_known();
+  void read_wide(const ObservationFormat& format);
+  void read_known(const HeaderMatch& found, const ObservationFormat& format);
   void read_unknown();
   void find_missing();
-  void check_units();
-  [[nodiscard]] std::string unit(Column column) const;
+  void check_units(const Target& target);
+  void convert(Column column, const std::string& to);
+  [[nodiscard]] const std::string& unit(Column column) const { return column_units_[index(column)]; }
+  [[nodiscard]] std::string unused_names() const;
   [[nodiscard]] std::optional<std::string> misspelt(Column column) const;
   void refuse(std::size_t i, std::string constraint);
   void refuse_header(std::string constraint);
 
   std::string file_;
   ComplaintReport* report_;
+  TableLayout layout_;
   std::vector<Heading> headings_;
   std::vector<Position> positions_;
   std::array<std::optional<std::size_t>, kColumnNames.size()> at_;
+  std::array<std::string, kColumnNames.size()> column_units_;
+  std::array<double, kColumnNames.size()> factors_;
+  std::vector<PlaceColumn> places_;
+  ObservationUnits units_;
   std::vector<std::string> notes_;
 };
 

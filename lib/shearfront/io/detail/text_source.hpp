@@ -26,8 +26,13 @@ class TextSource {
  public:
   /// Errors: FileError if the text is not UTF-8 or contains NUL bytes.
   TextSource(std::string name, std::string text);
-  /// Errors: FileError if the file cannot be read, too.
+  /// "-" is standard input. Errors: FileError if the file cannot be read, too.
   static TextSource read(const std::string& path);
+  /// The same of a file in any encoding that decoded() knows; the text is then UTF-8.
+  static TextSource read_decoded(const std::string& path);
+  [[nodiscard]] static TextSource decode(std::string name, std::string bytes);
+  /// What a decoded text was; empty: UTF-8.
+  [[nodiscard]] std::string_view encoding() const { return encoding_; }
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -38,6 +43,7 @@ class TextSource {
 
  private:
   std::string name_, text_;
+  std::string_view encoding_;
   std::vector<std::size_t> line_starts_;
   bool is_ascii_ = true;
   mutable Position last_{1, 1};  ///< where the last search ended

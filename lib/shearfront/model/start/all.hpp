@@ -7,8 +7,7 @@
 
 namespace shearfront {
 
-/// Every smooth initial state phi(z, 0), for beds with diffusion. To add one: copy skeleton.hpp, include it
-/// here, and name it in the list.
+/// Every smooth initial state phi(z, 0) / c(z). To add one: copy skeleton.hpp, include it here, and name it in the list.
 template <Real Scalar>
 using InitialStateList = TypeList<KinkInitial<Scalar>, SineInitial<Scalar>, TableInitial<Scalar>>;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shearfront/model/field.hpp"
 #include "shearfront/model/start/model.hpp"
@@ -43,6 +44,11 @@ struct KinkInitial {
   /// int_lo^hi phi dz: width ln(1 + e^x) is the primitive of the step.
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
     return below * (hi - lo) + (above - below) * width * (softplus(hi) - softplus(lo));
+  }
+  /// Where it is steepest.
+  [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
+    if (centre > lo && centre < hi) return {centre};
+    return {};
   }
 
   static std::vector<KinkInitial> samples() {

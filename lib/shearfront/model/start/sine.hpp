@@ -11,11 +11,13 @@
 
 namespace shearfront {
 
-/// A wave: phi = mean + amplitude sin(2 pi (z - origin) / wavelength). Domain: wavelength > 0.
+/// A wave: phi = mean + amplitude sin(2 pi (z - origin) / wavelength). Domain: wavelength > 0, no more than 1e5 waves in the bed.
 template <Real Scalar>
 struct SineInitial {
   static constexpr std::string_view kName = "sine";
   static constexpr std::string_view kFormula = "mean + amplitude sin(2 pi (z - origin) / wavelength)";
+
+  static constexpr double kMostWaves = 1e5;
 
   Scalar mean{0}, amplitude{1}, wavelength{1}, origin{0};
 
@@ -26,8 +28,15 @@ struct SineInitial {
     visit(FieldInfo{"wavelength", Range::positive}, self.wavelength);
     visit(FieldInfo{"origin", Range::any, true, Measure::height}, self.origin);
   }
-  static void check(const std::string& /*prefix*/, const Scalar& /*bottom*/, const Scalar& /*top*/,
-                    Complaints&) {}
+  /// So short a wave is not seen by any grid, and each is a piece of its own to those without one.
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
+    const Scalar least = (top - bottom) / Scalar(kMostWaves);
+    if (wavelength < least && wavelength > 0)
+      complaints.push_back(
+          {prefix + "wavelength", number_text(wavelength),
+           "must be at least " + number_text(least) + ", which makes " + number_text(kMostWaves) + " waves"});
+  }
   [[nodiscard]] Scalar lowest() const { return mean - size(); }
   [[nodiscard]] Scalar highest() const { return mean + size(); }
 
@@ -42,6 +51,20 @@ struct SineInitial {
     const Scalar half = (angle(hi) - angle(lo)) / Scalar(2), middle = angle(lo) + half;
     const Scalar sinc = half == 0 ? Scalar(1) : Scalar(sin(half) / half);
     return (hi - lo) * (mean + amplitude * (sin(middle) * sinc));
+  }
+  /// Crests, troughs, and what is half way between them.
+  [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
+    using std::floor;
+    std::vector<Scalar> all;
+    if (amplitude == 0) return all;
+    const Scalar quarter = wavelength / Scalar(4);
+    Scalar n = floor(Scalar((lo - origin) / quarter));
+    for (;; n += Scalar(1)) {
+      const Scalar z = origin + n * quarter;
+      if (!(z < hi)) return all;
+      if (z > lo && (all.empty() || z > all.back())) all.push_back(z);
+      if (n + Scalar(1) == n) return all;  // an origin so far away that waves cannot be told apart
+    }
   }
 
   static std::vector<SineInitial> samples() {

@@ -36,6 +36,10 @@ struct SkeletonInitial {
   /// int_lo^hi phi dz.
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const { return level * (hi - lo); }
 
+  /// Heights inside (lo, hi), ascending, between which phi and its slope are monotone: where phi turns, bends the other way, or
+  /// has a kink.
+  [[nodiscard]] std::vector<Scalar> knots(const Scalar& /*lo*/, const Scalar& /*hi*/) const { return {}; }
+
   static std::vector<SkeletonInitial> samples() { return {{Scalar(0.5)}}; }
 };
 

@@ -36,7 +36,8 @@ struct TableInitial {
   [[nodiscard]] Scalar value(const Scalar& height) const {
     const std::size_t i = segment(height);
     const Scalar w = (height - z[i]) / (z[i + 1] - z[i]);
-    return values[i] + w * (values[i + 1] - values[i]);
+    const auto [low, high] = std::minmax(values[i], values[i + 1]);
+    return std::clamp(Scalar(values[i] + w * (values[i + 1] - values[i])), Scalar(low), Scalar(high));
   }
   /// int_lo^hi phi dz. Cost: O(points in between).
   [[nodiscard]] Scalar integral(const Scalar& lo, const Scalar& hi) const {
@@ -46,6 +47,9 @@ struct TableInitial {
       from = z[i];
     }
     return sum + (hi - from) * ((value(from) + value(hi)) / Scalar(2));
+  }
+  [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
+    return {std::upper_bound(z.begin(), z.end(), lo), std::lower_bound(z.begin(), z.end(), hi)};
   }
 
   static std::vector<TableInitial> samples() {

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/io/detail/dialect.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/detail/unit.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::detail {
+namespace {
+
+constexpr std::size_t kMostLines = 200;     // of text before the header, and of rows for the decimal mark
+constexpr std::size_t kMostFields = 20000;  // of a header that is looked at
+
+/// The first lines with content that are no comments, by their offsets.
+std::vector<std::size_t> lines_of_content(std::string_view text, std::size_t from = 0) {
+  std::vector<std::size_t> lines;
+  for (std::size_t begin = from; begin < text.size() && lines.size() < kMostLines;) {
+    const std::string_view line = line_at(text, begin), content = trimmed(line);
+    if (!content.empty() && content[0] != '#') lines.push_back(begin);
+    begin += line.size() + 1;
+  }
+  return lines;
+}
+
+std::vector<Heading> headings_of(const std::vector<CsvField>& fields) {
+  std::vector<Heading> headings;
+  for (const CsvField& field : fields) headings.push_back(heading_of(without_doubled_quotes(field.text)));
+  return headings;
+}
+
+/// What the corner of a wide table says its first column is.
+std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const ObservationFormat& format) {
+  std::string unit;
+  if (headings.size() < 3 || !places_in(headings, unit)) return std::nullopt;
+  const std::string& corner = headings[0].text;
+  const std::size_t stroke = corner.find_first_of("\\/|");
+  const Heading first = stroke == std::string::npos
+                            ? headings[0]
+                            : heading_of(trimmed(std::string_view(corner).substr(0, stroke)));
+  const HeaderMatch found = match({first}, format);
+  if (found.has(Column::t)) return TableLayout::heights;
+  if (found.has(Column::z)) return TableLayout::times;
+  return std::nullopt;
+}
+
+/// Offset of the line that names the columns of averages over chunks.
+std::optional<std::size_t> header_of_chunks(std::string_view text) {
+  std::size_t begin = 0;
+  for (int i = 0; i < 3 && begin < text.size(); ++i) {
+    const std::string_view line = line_at(text, begin), content = trimmed(line);
+    if (!content.starts_with('#')) return std::nullopt;
+    if (i == 2) return trimmed(content.substr(1)).starts_with("Chunk ") ? std::optional(begin) : std::nullopt;
+    begin += line.size() + 1;
+  }
+  return std::nullopt;
+}
+
+bool is_units_row(const std::vector<CsvField>& fields) {
+  bool has_unit = false;
+  for (const CsvField& field : fields) {
+    if (field.text.empty()) continue;
+    if (shearfront::parse_number(field.text)) return false;
+    const bool is_bracketed = (field.text.starts_with('[') && field.text.ends_with(']')) ||
+                              (field.text.starts_with('(') && field.text.ends_with(')'));
+    if (!is_bracketed && !unit_of(field.text)) return false;
+    has_unit = true;
+  }
+  return has_unit;
+}
+
+char decimal_below(std::string_view text, std::size_t from, char separator) {
+  std::vector<CsvField> fields;
+  bool has_comma = false;
+  for (const std::size_t line : lines_of_content(text, from)) {
+    if (split_csv(line_at(text, line), fields, separator)) continue;
+    for (const CsvField& field : fields) {
+      if (field.text.find('.') != std::string_view::npos && shearfront::parse_number(field.text)) return '.';
+      has_comma =
+          has_comma || (field.text.find(',') != std::string_view::npos && number_with_mark(field.text, ','));
+    }
+  }
+  return has_comma ? ',' : '.';
+}
+
+}  // namespace
+
+std::string_view line_at(std::string_view text, std::size_t offset) {
+  return text.substr(offset, std::min(text.find('\n', offset), text.size()) - offset);
+}
+
+std::optional<double> number_with_mark(std::string_view text, char decimal) {
+  if (decimal == '.') return shearfront::parse_number(text);
+  if (text.find('.') != std::string_view::npos) return std::nullopt;
+  std::string with_point(text);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return shearfront::parse_number(with_point);
+}
+
+ObservationFormat format_of_chunks(ObservationFormat format) {
+  if (format[Column::t].name.empty()) format[Column::t].name = "Timestep";
+  if (format[Column::z].name.empty()) format[Column::z].name = "Coord1";
+  return format;
+}
+
+std::string Dialect::text() const {
+  if (are_chunks) return "averages over chunks";
+  std::string text = separator == ';'    ? "separated by semicolons"
+                     : separator == '\t' ? "separated by tabs"
+                                         : "";
+  if (decimal == ',') text += text.empty() ? "decimal commas" : ", decimal commas";
+  return text;
+}
+
+Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {
+  const std::string_view text = source.text();
+  const std::vector<std::size_t> lines = lines_of_content(text);
+  std::vector<char> separators{',', ';', '\t'};
+  if (format.separator) separators = {*format.separator};
+  Dialect found;
+  found.separator = format.separator.value_or(',');
+  found.layout = format.layout.value_or(TableLayout::rows);
+  found.header = lines.empty() ? text.size() : lines[0];
+  std::vector<CsvField> fields;
+  const auto search = [&](const auto& is_header) {
+    for (const std::size_t line : lines)
+      for (const char separator : separators) {
+        if (split_csv(line_at(text, line), fields, separator) || fields.size() > kMostFields) continue;
+        if (!is_header(headings_of(fields))) continue;
+        found.separator = separator;
+        found.header = line;
+        return true;
+      }
+    return false;
+  };
+  const auto is_header_of_rows = [&](const std::vector<Heading>& headings) {
+    return match(headings, format).is_complete();
+  };
+  const auto is_wide = [&](const std::vector<Heading>& headings) {
+    if (format.layout) {
+      std::string unit;
+      return headings.size() >= 3 && !headings[0].text.empty() && places_in(headings, unit).has_value();
+    }
+    const auto layout = layout_of(headings, format);
+    if (layout) found.layout = *layout;
+    return layout.has_value();
+  };
+  const bool is_asked_wide = format.layout && *format.layout != TableLayout::rows;
+  const bool is_asked_rows = format.layout && !is_asked_wide;
+  if (const auto chunks = header_of_chunks(text)) {
+    found.are_chunks = true;
+    found.header = *chunks;
+    found.separator = ' ';
+    return found;
+  }
+  if (is_asked_wide || !search(is_header_of_rows)) {
+    if (!is_asked_rows) (void)search(is_wide);
+  }
+  if (lines.empty()) return found;
+  const std::size_t below = found.header + line_at(text, found.header).size() + 1;
+  const std::vector<std::size_t> next =
+      below < text.size() ? lines_of_content(text, below) : std::vector<std::size_t>();
+  if (!next.empty() && !split_csv(line_at(text, next[0]), fields, found.separator) && is_units_row(fields))
+    found.units = next[0];
+  found.decimal =
+      format.decimal.value_or(below < text.size() ? decimal_below(text, below, found.separator) : '.');
+  return found;
+}
+
+}  // namespace shearfront::detail

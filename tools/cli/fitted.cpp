@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/fitted.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "cli/command.hpp"
+#include "cli/fit_text.hpp"
+#include "cli/progress.hpp"
+#include "shearfront/fit.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::tools {
+bool is_fit_file(const std::string& path) {
+  if (path == "-") return false;
+  return fit::is_fit_file(path);
+}
+
+fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path) {
+  ProgressLine line;
+  try {
+    return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
+      line.show_search(evaluations, misfit);
+      return !InterruptGuard::is_interrupted();
+    });
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw fit::located(error, path);
+  }
+}
+
+Fitted fitted(const std::string& path) {
+  fit::FitFile file = fit::read_fit_file(path);
+  print_remarks(file.remarks);
+  print_remarks(file.spec.observations.notes);
+  const InterruptGuard guard;
+  fit::Estimate estimate = run_fit(file.spec, path);
+  if (!estimate.usable())
+    throw InputError(printable(path), "",
+                     fmt::format("has no estimate ({}): {}", name_of(estimate.status), estimate.message));
+  for (const fit::ParameterEstimate& p : estimate.parameters)
+    note(fmt::format("{} = {}{}", p.name, number_text(p.estimate, 6),
+                     p.std_error ? " +- " + number_text(*p.std_error, 2) : ""));
+  for (const std::string& warning : estimate.warnings) note(printable(warning, 500));
+  const fit::Parameters parameters(file.spec.scene, file.spec.unknown);
+  fit::DrawnScenes draws = fit::draw_scenes(parameters, estimate, kPredictionDraws, file.spec.search.seed);
+  return {std::move(file), std::move(estimate), std::move(draws)};
+}
+
+void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
+                          const std::vector<double>& heights, const fit::PredictedSamples& samples) {
+  file.write("t,z,phi,lower,upper,M,M_lower,M_upper\n");
+  const auto low = [](const fit::PredictedNumber& n) { return n.band ? n.band->low : HUGE_VAL; };
+  const auto high = [](const fit::PredictedNumber& n) { return n.band ? n.band->high : HUGE_VAL; };
+  for (std::size_t i = 0; i < times.size(); ++i)
+    for (std::size_t j = 0; j < heights.size(); ++j) {
+      const fit::PredictedNumber &phi = samples.phi[i * heights.size() + j],
+                                 &M = samples.M[i * heights.size() + j];
+      file.write(csv_row({times[i], heights[j], phi.value, low(phi), high(phi), M.value, low(M), high(M)}));
+    }
+}
+
+void write_band_csv(OutputFile& file, const fit::RateBand& band) {
+  file.write("z,a,lower,upper\n");
+  for (const fit::RateRow& row : band.rows)
+    file.write(
+        csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
+}
+
+void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed) {
+  if (!draws.why_none.empty()) note("no bands: " + printable(draws.why_none));
+  if (n_failed > 0)
+    note(fmt::format(
+        "{} of {} scenes drawn from the error bars have no solution and are left out of the bands", n_failed,
+        draws.scenes.size()));
+}
+
+}  // namespace shearfront::tools

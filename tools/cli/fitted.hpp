@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/fit_file.hpp"
+#include "shearfront/fit/prediction.hpp"
+#include "shearfront/fit/rate_band.hpp"
+#include "shearfront/io/output_file.hpp"
+
+namespace shearfront::tools {
+
+/// Scenes behind a band: its ends are then right to about a twentieth of its width.
+inline constexpr std::size_t kPredictionDraws = 1000;
+
+/// A fit file that was fitted: what commands use as a scene, with the uncertainty of its unknowns.
+struct Fitted {
+  fit::FitFile file;
+  fit::Estimate estimate;
+  fit::DrawnScenes draws;
+};
+
+/// Whether a file is a fit file. Errors: FileError if it cannot be read or is no TOML.
+[[nodiscard]] bool is_fit_file(const std::string& path);
+
+/// Reads a fit file, fits it, says on standard error what there is to say, and draws scenes from the estimate.
+/// Errors: FileError; InputError if the fit has no usable estimate.
+[[nodiscard]] Fitted fitted(const std::string& path);
+
+/// One fit with the line of its progress; Ctrl-C ends the search with what it has. Errors: FileError.
+[[nodiscard]] fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path);
+
+/// Header t,z,phi,lower,upper,M,M_lower,M_upper: 95 % bands, empty without error bars. One row per time and height.
+void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
+                          const std::vector<double>& heights, const fit::PredictedSamples& samples);
+/// Header z,a,lower,upper: s a(z) with its pointwise 95 % band; layers have a row at each end.
+void write_band_csv(OutputFile& file, const fit::RateBand& band);
+
+/// Says what keeps a prediction from having bands, or that some draws had no solution.
+void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed);
+
+}  // namespace shearfront::tools

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/fitted.hpp"
+#include "shearfront/io/scene_file.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace shearfront::tools {
+
+/// The scene a command works on: SCENE, a file or "-" for standard input, and --set for numbers in it. A fit file
+/// stands for the scene with its estimates in place.
+class SceneArgument {
+ public:
+  void add_to(CLI::App& app);
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  /// Reads the file, once, and prints the remarks on it; a fit file is fitted. Errors: FileError, InputError.
+  [[nodiscard]] Scene<double> read();
+  /// The fit behind the scene, if it came from a fit file.
+  [[nodiscard]] const std::optional<Fitted>& fit() const { return fit_; }
+  /// What was read. Precondition: read().
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const std::vector<std::string>& set() const { return set_; }
+  /// Errors: InputError for one without "=".
+  [[nodiscard]] SceneChanges changes() const;
+
+ private:
+  std::string file_, text_;
+  std::vector<std::string> set_;
+  std::optional<Fitted> fit_;
+};
+
+}  // namespace shearfront::tools
