@@ -186,7 +186,11 @@ int compare(CompareArguments& arguments) {
   const auto cells = resolutions_of(arguments, "cells"), steps = resolutions_of(arguments, "resolution");
   ComparisonLimits limits = limits_of(arguments);
   check_picture_name("--plot", arguments.plot);
-  check_outputs(arguments.scene.file(), {{"", "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
+  const bool is_csv = arguments.output == "-";  // instead of the table
+  if (is_csv && arguments.json)
+    refuse("-o", arguments.output, "must not be standard output, which --json takes");
+  check_outputs(arguments.scene.file(),
+                {{"", is_csv ? "" : "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
   const auto scene = arguments.scene.read();
   if (const std::string reason = exact::refusal(scene); !reason.empty())
     throw InputError(printable(arguments.scene.file()), "",
@@ -198,19 +202,22 @@ int compare(CompareArguments& arguments) {
   const InterruptGuard guard;
   const ExactSolution<double> exact(scene);
   note_pieces(scene, exact, times);
-  ProgressLine line;
-  limits.progress = line.callback();
-  std::vector<Course> courses;
-  for (const double t : times)
-    for (const ComparedMethod& method : methods) {
-      const bool has_cells = method.method.has_option("cells");
-      courses.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
-    }
+  const std::vector<Course> courses = with_progress([&](const Progress& progress) {
+    limits.progress = progress;
+    std::vector<Course> all;
+    for (const double t : times)
+      for (const ComparedMethod& method : methods) {
+        const bool has_cells = method.method.has_option("cells");
+        all.push_back(compare_method(scene, exact, t, method, has_cells ? cells : steps, limits));
+      }
+    return all;
+  });
   if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
     output->write(csv_of(courses));
     output->commit();
   }
+  if (is_csv) return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses);
   OutputFile out("-");
   out.write(arguments.json ? json_of(scene.name(), courses)
                            : printable(scene.name(), 100) + "\n" + text_of(courses));
@@ -241,7 +248,7 @@ Command add_compare(CLI::App& program) {
   app->add_option("--repeat", arguments->repeat,
                   "runs per resolution, of which the median time counts; default at least 3 and 20 ms in all")
       ->type_name("N");
-  app->add_option("-o", arguments->output, "all rows as CSV")->type_name("FILE");
+  app->add_option("-o", arguments->output, "all rows as CSV; - instead of the table")->type_name("FILE");
   app->add_option("--plot", arguments->plot, "picture of error against time: FILE.svg, .png or .pdf")
       ->type_name("FILE");
   app->add_flag("--json", arguments->json, "print JSON");

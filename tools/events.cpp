@@ -27,6 +27,8 @@ namespace shearfront::tools {
 namespace {
 
 constexpr int kDoubleDigits = 17;
+/// Layers whose exact event times are computed only to stand beside others: some seconds.
+constexpr std::size_t kMostCompared = 5000;
 // Few enough fronts to be told apart.
 constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
@@ -57,8 +59,10 @@ struct EventTable {
   std::optional<Timeline<double>> exact;
   int digits = 0;  ///< of times by another road; 0: the shortest text that reads back
   const fit::PredictedEvents* bands = nullptr;  ///< of a fitted scene
-  TextTable table{{"event", "meaning", "time", bands ? "95 %" : "", exact ? "exact" : "",
-                   exact ? "relative difference" : "", "closed form"}};
+  SceneUnits units;
+  TextTable table{{"event", "meaning", units.t.empty() ? "time" : "time [" + printable(units.t, 20) + "]",
+                   bands ? "95 %" : "", exact ? "exact" : "", exact ? "relative difference" : "",
+                   "closed form"}};
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
@@ -79,13 +83,14 @@ struct EventTable {
                       const std::optional<ClosedForm>& form,
                       std::optional<fit::Interval> fit::PredictedEvents::InterfaceBands::*band) {
     const std::size_t n = timeline.interfaces.size();
+    const std::string in_unit = units.z.empty() ? "" : " " + printable(units.z, 20);
     for (std::size_t i = 0; i < n; ++i) {
       const auto& at = timeline.interfaces[i];
       std::optional<double> other;
       for (const auto& same : exact.value_or(Timeline<double>{}).interfaces)
         if (same.z == at.z) other = same.*member;
-      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z), at.*member,
-          text.interfaces[i].*text_member, form, other,
+      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z) + in_unit,
+          at.*member, text.interfaces[i].*text_member, form, other,
           bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : std::nullopt);
     }
   }
@@ -122,11 +127,20 @@ EventBands bands_of(const fit::PredictedEvents& events) {
   return all;
 }
 
-/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene.
+/// Event times computed elsewhere, to compare with; none if the exact solver cannot do this scene, or would take much longer.
 Timeline<double> exact_times(const Scene<double>& scene) {
+  if (scene.knots().size() > kMostCompared) {
+    note(
+        fmt::format("no exact times beside these, of more than {} layers: --method {} takes a time that "
+                    "grows like the square of "
+                    "their number",
+                    kMostCompared, Method().name()));
+    return {};
+  }
   SolverRequest request;
   request.timeline = true;
-  return solve(scene, Method(), request).timeline.value_or(Timeline<double>{});
+  return with_progress([&](const Progress& progress) { return solve(scene, Method(), request, progress); })
+      .timeline.value_or(Timeline<double>{});
 }
 
 /// `text` are the times as they are printed, `digits` those of times by another road, `bands` those of a fitted scene.
@@ -136,12 +150,12 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
   OutputFile out("-");
   if (arguments.json) {
     write_events_json(out, scene.name(), method.name(), text, summary,
-                      bands ? bands_of(*bands) : EventBands{});
+                      bands ? bands_of(*bands) : EventBands{}, scene.spec().units);
   } else {
     const bool compare = !method.guarantees().exact;
     EventTable table{
-        timeline, text, closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
-        digits,   bands};
+        timeline, text,  closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
+        digits,   bands, scene.spec().units};
     out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
     if (table.forms.t0)
       out.write(
@@ -156,14 +170,15 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
 
 /// Fronts for the picture, by the first solver that has fronts.
 int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
-                const Timeline<double>& timeline, const Progress& progress) {
+                const Timeline<double>& timeline) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
   if (!arguments.method.has("resolution")) method.set("resolution", kPictureResolution);
   if (!arguments.method.has("layers")) method.set("layers", kPictureLayers);
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.fronts = true;
-  const SolverResult result = solve(scene, method, request, progress);
+  const SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) return report_unusable(result.summary);
   return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
 }
@@ -204,10 +219,10 @@ int events(EventsArguments& arguments) {
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, scene);
 
-  ProgressLine progress;
   SolverRequest request;
   request.timeline = true;
-  SolverResult result = solve(scene, method, request, progress.callback());
+  SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) {
     Timeline<double> unknown;
     unknown.mass = scene.mass();
@@ -233,8 +248,7 @@ int events(EventsArguments& arguments) {
                bands ? &*bands : nullptr);
   if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
     note(result.summary.message);
-  return arguments.plot.empty() ? kDone
-                                : draw_events(arguments, scene, *result.timeline, progress.callback());
+  return arguments.plot.empty() ? kDone : draw_events(arguments, scene, *result.timeline);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ std::string described(const Guarantees& g, std::string_view scenes) {
   };
   say(g.exact, "exact");
   say(g.order_phi > 0, fmt::format("phi of order {}", g.order_phi));
-  say(g.order_M > 0, fmt::format("M of order {}", g.order_M));
+  say(g.order_M > 0 && g.least_order_M == 0, fmt::format("M of order {}", g.order_M));
+  say(g.least_order_M > 0, fmt::format("M of order {} ({} {})", g.order_M, g.least_order_M, g.where_least));
   say(g.conservative, "conservative");
   say(g.bounded, "bounded");
   say(true, std::string(scenes));

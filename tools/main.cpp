@@ -83,10 +83,10 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "shearfront " SHEARFRONT_VERSION, "Print the version and exit");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{tools::add_events(program),  tools::add_solve(program),
-                                      tools::add_observe(program), tools::add_fit(program),
-                                      tools::add_compare(program), tools::add_check(program),
-                                      tools::add_list(program),    tools::add_import(program)};
+  const std::vector<Command> commands{
+      tools::add_events(program), tools::add_solve(program),   tools::add_observe(program),
+      tools::add_fit(program),    tools::add_compare(program), tools::add_check(program),
+      tools::add_list(program),   tools::add_import(program),  tools::add_study(program)};
   for (const Command& command : commands) {
     command.app->allow_extras();
     command.app->get_formatter()->label("REQUIRED", "");

@@ -167,8 +167,8 @@ int observe_scene(ObserveArguments& arguments) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   note_unused_layers(arguments.method, scene);
 
-  ProgressLine progress;
-  const SolverResult result = solve(scene, method, request, progress.callback());
+  const SolverResult result =
+      with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
 

@@ -101,9 +101,9 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, task.scene);
-  ProgressLine progress;
-  const BedCourse course =
-      bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress.callback());
+  const BedCourse course = with_progress([&](const Progress& progress) {
+    return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
+  });
   if (!course.summary.usable()) return report_unusable(course.summary);
   note_remark(course.summary);
   const auto& lowest = course.lowest;
@@ -111,9 +111,9 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
   if (arguments.json)
     write_time_table_json(output, task.scene.name(), task.method.name(), course.table, lowest_numbers,
-                          course.summary);
+                          course.summary, task.scene.spec().units);
   else
-    write_time_table_csv(output, course.table);
+    write_time_table_csv(output, course.table, task.scene.spec().units);
   output.commit();
   if (lowest && !arguments.json)
     note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(lowest->t, 7),
@@ -129,8 +129,9 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   check_picture_target(arguments.plot);
   check_picture_target(arguments.map);
   note_unused_layers(arguments.method, task.scene);
-  ProgressLine progress;
-  const SolverResult result = shearfront::solve(task.scene, task.method, request, progress.callback());
+  const SolverResult result = with_progress([&](const Progress& progress) {
+    return shearfront::solve(task.scene, task.method, request, progress);
+  });
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
 
@@ -144,10 +145,10 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
     write_prediction_csv(output, times, request.heights, samples);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
-                       result.summary);
+                       result.summary, task.scene.spec().units);
   else
-    write_samples_csv(output, times, request.heights, result.samples);
-  if (fronts) write_fronts_csv(*fronts, result.fronts);
+    write_samples_csv(output, times, request.heights, result.samples, task.scene.spec().units);
+  if (fronts) write_fronts_csv(*fronts, result.fronts, task.scene.spec().units);
   if (fronts) fronts->commit();
   output.commit();
   int code = kDone;

@@ -204,7 +204,7 @@ void print_events(const char* path) {
     print_relative_errors("front-tracking", resolution, tracked_times(scene, GridKind::levels, resolution),
                           exact);
   const auto print_grid = [&]<class Solver>() {
-    for (const std::uint64_t cells : {100, 400, 1600, 6400}) {
+    for (const std::uint64_t cells : {100U, 400U, 1600U, 6400U}) {
       typename Solver::Options options;
       options.cells = cells;
       print_relative_errors(Solver::kName, static_cast<double>(cells),

@@ -69,6 +69,19 @@ void mutate(std::string& text, const std::vector<std::string>& texts, const std:
   }
 }
 
+/// Long, deep and huge: a word, or a piece of the text, many times over. Seldom, for it takes time to read.
+void lengthen(std::string& text, const std::vector<std::string>& words, Random& random) {
+  constexpr std::size_t kSeldom = 100, kMostDoublings = 15, kLongestPiece = 40, kMostBytes = 1 << 19;
+  if (random.below(kSeldom) != 0) return;
+  const std::size_t at = random.below(text.size() + 1);
+  const std::string piece = random.below(2) == 0 ? words[random.below(words.size())]
+                                                 : text.substr(at, 1 + random.below(kLongestPiece));
+  std::string many;
+  for (std::size_t n = std::size_t{1} << random.below(kMostDoublings); n > 0 && many.size() < kMostBytes; --n)
+    many += piece;
+  text.insert(at, many);
+}
+
 void run(const std::string& text) {
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
@@ -98,6 +111,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < n; ++i) {
       text = texts[random.below(texts.size())];
       for (std::size_t k = 0, steps = 1 + random.below(8); k < steps; ++k) mutate(text, texts, words, random);
+      lengthen(text, words, random);
       run(text);
     }
   } catch (const std::exception& error) {

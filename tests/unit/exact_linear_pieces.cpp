@@ -8,14 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/digits/real110.hpp"
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
 #include "shearfront/scene/entries.hpp"
+#include "support/many_digits.hpp"
 #include "support/random_scene.hpp"
-#include "support/scene_cast.hpp"
 
 namespace shearfront {
 namespace {
@@ -269,17 +268,8 @@ TEST(LinearPieces, AreTheSameInManyDigits) {
   for (int n = 0; n < 12; ++n) {
     const Scene<double> scene(
         scene_of(random_table(make, make.integer(1, 8)), {0.3125, 0.59375}, random_states(make, 3)));
-    const ExactSolution<double> exact(scene);
-    const ExactSolution<Real110> precise(scene_cast<Real110>(scene));
-    for (int i = 0; i < 6; ++i) {
-      const double z = make.uniform(0, 1), t = std::exp(make.uniform(-3, 1));
-      const auto mine = exact.at(z, t);
-      const auto theirs = precise.at(Real110(z), Real110(t));
-      EXPECT_NEAR(mine.M, to_double(theirs.M), 4e-15)
-          << "seed " << seed << " scene " << n << " z " << z << " t " << t;
-      EXPECT_NEAR(mine.phi, to_double(theirs.phi), 1e-11)
-          << "seed " << seed << " scene " << n << " z " << z << " t " << t;
-    }
+    support::expect_same_in_many_digits(scene, make, 6, 4e-15, 1e-11,
+                                        "seed " + std::to_string(seed) + " scene " + std::to_string(n));
   }
 }
 

@@ -3,14 +3,20 @@
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): sigaction
 
 #include <chrono>
-#include <string_view>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
 
 #include "shearfront/solver/solver.hpp"
 
 /// While something is computed.
 namespace shearfront::tools {
 
-/// A line on standard error that shows how far it is; only if standard error is a terminal.
+/// A line on standard error that shows how far it is and for how long it has run; only if standard error is a terminal.
+/// Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
+/// written meanwhile.
 class ProgressLine {
  public:
   ProgressLine();
@@ -22,12 +28,28 @@ class ProgressLine {
   [[nodiscard]] Progress callback();
   /// Evaluations of a search so far and its smallest misfit.
   void show_search(std::size_t evaluations, double misfit);
+  /// How many of all are done, with the time that is left at the same pace.
+  void show_part(std::size_t done, std::size_t all);
 
  private:
-  [[nodiscard]] bool is_due();
-  bool is_terminal_, is_shown_ = false;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  void show(std::string text);
+  void tick(const std::stop_token& stop);
+
+  const Clock::time_point begin_ = Clock::now();
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable_any stopped_;
+  std::string text_;
+  bool is_shown_ = false;
+  std::jthread ticking_;  ///< none if there is no terminal; ends before the rest is gone
 };
+
+/// Calls work(Progress) under a line of its own.
+template <class Work>
+auto with_progress(Work&& work) {
+  ProgressLine line;
+  return work(line.callback());
+}
 
 /// While one of these exists, the first Ctrl-C (SIGINT) is only remembered, so that a long computation can
 /// end with what it has; the second one ends the program as usual.

@@ -65,6 +65,7 @@ std::vector<ComparedMethod> compared_methods() {
       all.back().method.set(option, value);
     };
     for (const Option& o : method.options()) {
+      if (o.info.leaves_samples) continue;
       if (std::holds_alternative<bool>(o.value)) add(o.info.name, o.info.name, true);
       const auto* choice = std::get_if<OptionChoice>(&o.value);
       for (std::size_t i = 0; choice && i < o.info.names.size(); ++i)

@@ -19,10 +19,10 @@ if (!exists("has_points")) has_points = 0
 if (!exists("t_lowest")) t_lowest = 0
 
 set title title noenhanced offset 0,0.2
-set xlabel 'time {/:Italic t}' offset 0,0.3
+set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
 set xrange [0:t_end]
 if (quantity eq 'H') {
-  set ylabel 'height of the bed {/:Italic H}' offset 0.5,0
+  set ylabel label('height of the bed {/:Italic H}', unit_z) offset 0.5,0
   set offsets 0,0,graph 0.03,graph 0.12
 } else {
   set ylabel 'mixing parameter Ψ' offset 0.5,0

@@ -13,8 +13,6 @@ height = 560
 load 'style.gp'
 if (!exists("data")) data = 'maps'
 if (!exists("symbol")) symbol = '{/:Italic φ}'
-if (!exists("unit_t")) unit_t = ''
-if (!exists("unit_z")) unit_z = ''
 if (!exists("unit_value")) unit_value = ''
 if (!exists("z_low")) z_low = 0
 if (!exists("z_high")) z_high = 1
@@ -23,7 +21,6 @@ if (!exists("value_high")) value_high = 1
 if (!exists("has_sigma")) has_sigma = 0
 if (!exists("has_search")) has_search = 1
 
-label(name, unit) = unit eq '' ? name : name . ' (' . unit . ')'
 # Distance of tics at round numbers with room for their labels; `room` is the length of the axis in the figure.
 n_tics(low, high, step) = floor(high / step) - ceil(low / step) + 1
 n_letters(high, step) = max(strlen(sprintf('%.6g', step)), strlen(sprintf('%.6g', floor(high / step) * step)))

@@ -39,8 +39,8 @@ set lmargin screen 0.105
 set rmargin screen 0.825
 set bmargin screen 0.17
 set tmargin screen 0.86
-set xlabel 'time {/:Italic t}' offset 0,-0.2
-set ylabel 'height {/:Italic z}' offset 1,0
+set xlabel label('time {/:Italic t}', unit_t) offset 0,-0.2
+set ylabel label('height {/:Italic z}', unit_z) offset 1,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]
 set xtics offset 0,-0.7

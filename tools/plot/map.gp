@@ -30,8 +30,8 @@ unset contour
 set surface
 
 set title title noenhanced offset 0,0.2
-set xlabel 'time {/:Italic t}' offset 0,0.3
-set ylabel 'height {/:Italic z}' offset 0.5,0
+set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]
 set cbrange [phi_low:phi_high]

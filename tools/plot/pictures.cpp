@@ -21,6 +21,8 @@ constexpr std::size_t kProfileHeights = 4001, kMapTimes = 241, kMapHeights = 321
 void set_scene(Picture& picture, const Scene<double>& scene) {
   const StateRange<double> states = states_of(scene);
   picture.set("title", scene.name());
+  picture.set("unit_t", without_markup(scene.spec().units.t));
+  picture.set("unit_z", without_markup(scene.spec().units.z));
   picture.set("z_low", scene.bottom());
   picture.set("z_high", scene.top());
   picture.set("phi_low", states.lowest);

@@ -25,7 +25,7 @@ if (!exists("symbol")) symbol = ''
 
 set title title noenhanced offset 0,0.2
 set xlabel 'concentration '.symbol.'{/:Italic φ}' offset 0,0.3
-set ylabel 'height {/:Italic z}' offset 0.5,0
+set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
 margin = 0.02 * (phi_high - phi_low)
 set xrange [phi_low-margin:phi_high+margin]
 set yrange [z_low:z_high]

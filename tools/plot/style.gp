@@ -3,6 +3,7 @@
 #
 # Variables: picture   file to write, ending in .svg, .png or .pdf
 #            title     above the picture
+#            unit_t, unit_z   units of the scene, behind the labels of the axes
 if (!exists("picture")) picture = 'picture.svg'
 if (!exists("title")) title = ''
 
@@ -25,6 +26,11 @@ dark_grey = '#404040'
 # Plasma without its light end: even steps in lightness, readable on white, safe for colour-blind readers.
 phi_palette = "0 '#0d0887', 0.25 '#6a00a8', 0.5 '#b12a90', 0.75 '#e16462', 1 '#f0a028'"
 residual_palette = "0 '#2166ac', 0.25 '#67a9cf', 0.5 '#f7f7f7', 0.75 '#ef8a62', 1 '#b2182b'"  # ColorBrewer's RdBu
+
+# Units of the scene; empty where it has none.
+if (!exists("unit_t")) unit_t = ''
+if (!exists("unit_z")) unit_z = ''
+label(name, unit) = unit eq '' ? name : name . ' (' . unit . ')'
 
 min(a, b) = a < b ? a : b
 max(a, b) = a > b ? a : b

@@ -39,6 +39,17 @@ Json to_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+/// In the units of the entries; null where there is no error bar.
+Eigen::MatrixXd covariance_of(const Estimate& estimate) {
+  Eigen::MatrixXd matrix = estimate.correlation;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const double error = estimate.parameters[static_cast<std::size_t>(i)].std_error.value_or(kUnknown);
+    matrix.row(i) *= error;
+    matrix.col(i) *= error;
+  }
+  return matrix;
+}
+
 }  // namespace
 
 Json to_json(const Estimate& estimate) {
@@ -64,6 +75,7 @@ Json to_json(const Estimate& estimate) {
           {"aic", json_or_null(estimate.aic)},
           {"bic", json_or_null(estimate.bic)},
           {"correlation", to_json(estimate.correlation)},
+          {"covariance", to_json(covariance_of(estimate))},
           {"structure", to_json(estimate.structure)},
           {"warnings", estimate.warnings},
           {"status", name_of(estimate.status)},

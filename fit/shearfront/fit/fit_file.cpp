@@ -14,6 +14,7 @@
 
 #include "shearfront/fit/forward.hpp"
 #include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/method_table.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/search/search.hpp"
@@ -84,7 +85,8 @@ class FitReader {
       format(*table);
     if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
       unknown(*table);
-    if (auto table = root.table("forward", Need::optional, "must be a table with method")) forward(*table);
+    if (auto table = root.table("forward", Need::optional, "must be a table with method"))
+      read_method(*table, forward_.method, scene_ ? &*scene_ : nullptr);
     if (auto table = root.table("misfit", Need::optional, "must be a table with quantity and loss"))
       misfit(*table);
     if (auto table = root.table("search", Need::optional, "must be a table with algorithm")) search(*table);
@@ -194,53 +196,6 @@ class FitReader {
       if (is_bad && !is_spoiled)
         add({element, "", may_be_infinite ? "must be a number or inf" : "must be a finite number"});
       has_bad_numbers_ = has_bad_numbers_ || is_spoiled || is_bad;
-    }
-  }
-
-  void forward(TableReader& table) {
-    if (auto name = table.choice("method", Need::optional, Method::names())) forward_.method = Method(*name);
-    if (scene_) forward_.method.prefer_smooth(*scene_);
-    std::vector<std::string> known;
-    read_options(table, forward_.method, known);
-    // Those of other solvers are checked and change nothing, as on the command line.
-    for (const std::string& name : Method::names()) {
-      Method other(name);
-      read_options(table, other, known);
-    }
-    table.finish();
-  }
-
-  /// The options of a method that are not `known` yet.
-  void read_options(TableReader& table, Method& method, std::vector<std::string>& known) {
-    for (const Option& option : method.options()) {
-      const OptionInfo& info = option.info;
-      std::string key(info.name);
-      std::replace(key.begin(), key.end(), '-', '_');
-      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-      known.push_back(key);
-      method.set(
-          info.name,
-          std::visit([&](const auto& value) { return read_option(table, key, info, value); }, option.value));
-    }
-  }
-  template <class Value>
-  OptionValue read_option(TableReader& table, const std::string& key, const OptionInfo& info, Value value) {
-    if constexpr (std::same_as<Value, bool>) {
-      return table.boolean(key, Need::optional).value_or(value);
-    } else if constexpr (std::same_as<Value, OptionChoice>) {
-      if (const auto name = table.choice(key, Need::optional, strings(info.names)))
-        value.index = static_cast<std::size_t>(std::find(info.names.begin(), info.names.end(), *name) -
-                                               info.names.begin());
-      return value;
-    } else if constexpr (std::same_as<Value, std::uint64_t>) {
-      const auto low = static_cast<unsigned long long>(info.range.low);
-      const auto high = static_cast<unsigned long long>(info.range.high);
-      return std::uint64_t{table.count(key, Need::optional, low, high).value_or(value)};
-    } else {
-      table.number(key, Need::optional, value);
-      if (table.is_good(key) && !info.range.contains(value))
-        add({table.path(key), "", "must be " + allowed_text(info.range)});
-      return value;
     }
   }
 

@@ -60,6 +60,7 @@ void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
   if (!can_linearise_) {
     const PlaceSamples result = sample(scene, method_, places_);
     if (!result.summary.usable()) prediction.failure = result.summary.message;
+    prediction.remark = result.summary.remark;
     return take(result.samples, prediction);
   }
   if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
@@ -69,6 +70,7 @@ void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
     prediction.failure = result.summary.message;
     return;
   }
+  prediction.remark = result.summary.remark;
   take(result.samples, prediction);
   if (!with_derivatives) return;
   const std::size_t n = entries_.size();
@@ -91,6 +93,7 @@ void Forward::predict_heights(const Scene<double>& scene, Prediction& prediction
     prediction.failure = result.summary.message;
     return;
   }
+  prediction.remark = result.summary.remark;
   prediction.values.resize(static_cast<Index>(places_.size()));
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto at = std::lower_bound(times_.begin(), times_.end(), places_[i].t) - times_.begin();

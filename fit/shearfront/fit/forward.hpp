@@ -19,6 +19,7 @@ struct Prediction {
   Eigen::VectorXd values;
   Eigen::MatrixXd derivatives;
   std::string failure;  ///< why there is none: the scene is invalid, or the solver's message
+  std::string remark;   ///< the solver's, on what is less good than usual
   [[nodiscard]] bool is_valid() const { return failure.empty(); }
 };
 

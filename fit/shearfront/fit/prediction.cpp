@@ -17,7 +17,6 @@
 namespace shearfront::fit {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostRefusedPerScene = 20;
 
 /// The unknowns that vary, and a root of their correlation.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
-#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +13,9 @@
 
 /// What a fit says about numbers that were not measured, with its uncertainty.
 namespace shearfront::fit {
+
+/// Stands for the time of an event that never comes.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Scenes drawn from what the data leave possible: the unknowns are normal about their estimates (entries that must be
 /// positive in their logarithm) with the standard errors and correlations of the fit; where the noise was estimated
@@ -29,7 +32,7 @@ struct DrawnScenes {
                                       std::uint64_t seed);
 
 /// A number at the estimate, and between which 95 % of the drawn scenes have it: from the 2.5 % to the 97.5 % quantile,
-/// (n + 1) p-th in order with linear interpolation. Infinity stands for an event that never comes. So a band follows
+/// (n + 1) p-th in order with linear interpolation. An event that never comes has kNever. So a band follows
 /// phi where a shock may have passed or not: from one state to the other, where a linear propagation has no meaning.
 struct PredictedNumber {
   double value = 0;

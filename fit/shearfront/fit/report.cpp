@@ -21,8 +21,13 @@ using Eigen::VectorXd;
 
 constexpr double kUpper = 0.975;
 
-/// Observations predicted in their own quantity; empty if the forward model has no solution.
-std::vector<double> predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
+/// Observations predicted in their own quantity, unknown if the forward model has no solution, and what its solver has to
+/// remark.
+struct PredictedObservations {
+  std::vector<double> values;
+  std::string remark;
+};
+PredictedObservations predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
   ResidualRows rows;
   MisfitList::for_each([&]<class M>() {
     if (name_of(spec.observations.quantity) == M::kName)
@@ -30,12 +35,12 @@ std::vector<double> predictions(const FitSpec& spec, const Parameters& parameter
   });
   const Forward forward(parameters, spec.forward, rows.field, rows.points);
   const Prediction at = forward.predict(values, false);
-  std::vector<double> predicted(spec.observations.rows.size(), kUnknown);
+  PredictedObservations predicted{std::vector<double>(spec.observations.rows.size(), kUnknown), at.remark};
   if (!at.is_valid()) return predicted;
   const VectorXd r = rows.residuals(at.values);
   // Rows may stand in another order than the data; in its own quantity each has one observation.
   for (std::size_t i = 0; i < rows.rows.size(); ++i)
-    predicted[rows.data(i).front().index] =
+    predicted.values[rows.data(i).front().index] =
         rows.rows[i].target + r[static_cast<Index>(i)] / rows.rows[i].weight;
   return predicted;
 }
@@ -170,7 +175,8 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
 
   const VectorXd values = objective.coordinates().values(found.u);
   estimate.scene = Scene<double>(parameters.scene_with(values));
-  estimate.predicted = predictions(spec, parameters, values);
+  auto [predicted, remark] = predictions(spec, parameters, values);
+  estimate.predicted = std::move(predicted);
   estimate.observations = static_cast<std::size_t>(best.residuals.size());
   double squares = 0;
   for (Index i = 0; i < best.residuals.size(); ++i)
@@ -191,6 +197,7 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   }
   estimate.structure = residual_structure(spec.observations, estimate.predicted);
   estimate.warnings = warnings(minimum, estimate);
+  if (!remark.empty()) estimate.warnings.push_back(std::string(spec.forward.method.name()) + ": " + remark);
   return estimate;
 }
 

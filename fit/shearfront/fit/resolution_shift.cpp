@@ -44,8 +44,9 @@ std::optional<ResolutionShift> resolution_shift(const Objective& objective, cons
   if (!at.is_valid || !there.is_valid) return {};
   const Index n = there.residuals.size();
   const VectorXd change = there.residuals - at.residuals.head(n);
-  const double order =
-      objective.rows().field == Observable::phi ? fine.guarantees().order_phi : fine.guarantees().order_M;
+  const double order = objective.rows().field == Observable::phi
+                           ? fine.guarantees().order_phi
+                           : fine.order_M(objective.parameters().start_scene());
   const double factor = order > 0 ? 1 / (1 - std::exp2(-order)) : 1;
   VectorXd weight(n);
   for (Index i = 0; i < n; ++i) {

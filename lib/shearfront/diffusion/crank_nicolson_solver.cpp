@@ -139,8 +139,10 @@ struct Row {
 Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_places,
                           const diffusion::Problem& problem, const std::vector<diffusion::Tangent>& tangents,
                           const CrankNicolsonSolver::Options& options, const Plan* repeated, Plan& made) {
-  diffusion::CrankNicolson engine(problem, engine_options(options, {}), tangents);
+  const diffusion::Options own = engine_options(options, {});
+  diffusion::CrankNicolson engine(problem, own, tangents);
   Linearisation result;
+  if (own.scheme == diffusion::Scheme::raised) result.summary.remark = diffusion::raised_remark(problem);
   result.samples.resize(n_places);
   result.derivatives.resize(n_places * tangents.size());
   for (const auto& [t, row] : rows) {
@@ -196,7 +198,8 @@ std::unique_ptr<Run> CrankNicolsonSolver::start(const Scene<double>& scene, cons
 }
 
 void CrankNicolsonSolver::prefer_smooth(const Scene<double>& scene, Options& options) {
-  if (options.cells == 0 && diffusion::refusal(scene).empty()) options.cells = cells_of(options, scene);
+  const bool is_free = options.cells == 0 && options.cell_tolerance == 0;
+  if (is_free && diffusion::refusal(scene).empty()) options.cells = cells_of(options, scene);
 }
 
 std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const Options& options,

@@ -40,12 +40,15 @@ template <Real Scalar>
 }
 
 /// Whether r is still more than h = 4 H at a place `d` higher than where it is `rate`, and 1 - q^2 = h / rate; it is `end` there. Then
-/// a path that went there would not have turned. By q where the rates are nearly h, for they may differ by no more than rounding.
+/// a path that went there would not have turned. By q where the rates are nearly h, for they may differ by no more than rounding. Clearly
+/// more: where a path turns right at the place, another kind of path begins, and rounding must not drop both.
 template <Real Scalar>
 [[nodiscard]] bool stays_above(RateForm form, const Scalar& bend, const Scalar& rate, const Scalar& q,
                                const Scalar& h, const Scalar& d, const Scalar& end) {
-  const Scalar q2 = q * q;
-  return q2 + q2 < Scalar(1) ? rate * q2 > -rise_of(form, bend, rate, d) : h < end;
+  const Scalar slack = Scalar(256) * unit_roundoff<Scalar>(), q2 = q * q;
+  const Scalar size = q < 0 ? Scalar(-q) : q;
+  return q2 + q2 < Scalar(1) ? rate * (q2 - slack * size) > -rise_of(form, bend, rate, d)
+                             : h < end * (Scalar(1) - slack);
 }
 
 /// The distance over which r gains `rise` from where it is `rate`: the inverse.

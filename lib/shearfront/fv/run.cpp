@@ -223,6 +223,17 @@ std::string refusal(const Scheme& scheme, const Scene<double>& scene, const Grid
   return "";
 }
 
+double order_M(const Guarantees& promised, const Scene<double>& scene) {
+  constexpr int kParts = 64;
+  for (const Flux<double>& flux : scene.fluxes()) {
+    const auto [lowest, highest] = flux.range();
+    const double part = (highest - lowest) / kParts;
+    for (int i = 0; i < kParts; ++i)
+      if (is_straight(flux, lowest + i * part, lowest + (i + 1) * part)) return promised.least_order_M;
+  }
+  return promised.order_M;
+}
+
 std::unique_ptr<Run> start(const Scheme& scheme, const Scene<double>& scene, const GridOptions& options,
                            const Watch& watch) {
   return std::make_unique<GridRun>(scheme, scene, options, watch.progress);

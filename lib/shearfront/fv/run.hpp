@@ -18,6 +18,9 @@ namespace shearfront::fv {
 [[nodiscard]] std::string refusal(const Scheme& scheme, const Scene<double>& scene,
                                   const GridOptions& options);
 
+/// The order of M: contacts, which travel where a flux is straight, spread like the square root of the cells.
+[[nodiscard]] double order_M(const Guarantees& promised, const Scene<double>& scene);
+
 /// All finite-volume solvers: a March on grid_of().
 ///
 /// Time steps: dt = cfl C min (int_cell c dz) / (s a c max |f'|), C = 1, 1/2 for muscl and rules without bounds; the same
@@ -51,8 +54,11 @@ struct GridSolver {
     g.bounded = true;
     g.order_phi = 0.5;
     g.order_M = 1;
+    g.least_order_M = 0.5;
+    g.where_least = "where the flux is straight between states";
     return g;
   }
+  static double order_M(const Scene<double>& scene) { return fv::order_M(guarantees(), scene); }
   static std::string refusal(const Scene<double>& scene, const Options& options) {
     return fv::refusal(options.scheme(), scene, options);
   }

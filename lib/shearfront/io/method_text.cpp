@@ -160,7 +160,7 @@ std::string settings(const Method& method) {
   const std::vector<Option> options = method.options(), defaults = Method(method.name()).options();
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
-    if (option.info.is_budget && text_of(option) == text_of(defaults[i])) continue;
+    if (option.info.leaves_samples && text_of(option) == text_of(defaults[i])) continue;
     if (const bool* flag = std::get_if<bool>(&option.value)) {
       if (*flag) all += fmt::format(" --{}", option.info.name);
     } else if (!is_unset(option)) {

@@ -7,27 +7,31 @@
 #include <vector>
 
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/scene/scene_spec.hpp"
 #include "shearfront/solution/field.hpp"
 #include "shearfront/solution/summary.hpp"
 #include "shearfront/solution/timeline.hpp"
 #include "shearfront/solver/solver.hpp"
 
-/// Results as CSV and JSON (docs/formats). Doubles are written with the shortest text that reads back to the
+/// Results as CSV and JSON (docs/formats). With the units of the scene headers read "t [s],z [mm],phi,M [mm]" and JSON
+/// has "units":{"z","t"}. Doubles are written with the shortest text that reads back to the
 /// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the
 /// file.
 namespace shearfront {
 
 /// Header t,z,phi,M and one row per time and depth; samples as in SolverResult.
 void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
-                       const std::vector<Sample>& samples);
+                       const std::vector<Sample>& samples, const SceneUnits& units = {});
 
 /// Header layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above and one row per front.
-void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts);
+void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts,
+                      const SceneUnits& units = {});
 
 /// {"scene","method","times","depths","phi":[[..]],"M":[[..]],"summary"}, one inner array per time.
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
-                        const std::vector<Sample>& samples, const Summary& summary);
+                        const std::vector<Sample>& samples, const Summary& summary,
+                        const SceneUnits& units = {});
 
 /// What belongs to a whole bed, as a function of time: one row per time, with the names of its columns.
 struct TimeTable {
@@ -37,7 +41,7 @@ struct TimeTable {
 };
 
 /// Header t and the columns, one row per time.
-void write_time_table_csv(OutputFile& file, const TimeTable& table);
+void write_time_table_csv(OutputFile& file, const TimeTable& table, const SceneUnits& units = {});
 
 /// {"scene","method","times", one array per column, `extra`:{its numbers by name} if there are any, "summary"}.
 struct NamedNumbers {
@@ -45,7 +49,8 @@ struct NamedNumbers {
   std::vector<std::pair<std::string, double>> numbers;
 };
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
-                           const TimeTable& table, const NamedNumbers& extra, const Summary& summary);
+                           const TimeTable& table, const NamedNumbers& extra, const Summary& summary,
+                           const SceneUnits& units = {});
 
 /// Between which event times lie with 95 %; infinity: never.
 struct EventBands {
@@ -61,6 +66,7 @@ struct EventBands {
 /// A time that never comes is null; numbers have the digits that they have in `timeline`. With bands also
 /// "ci95":{"t0":[low,high],"t1","t_star","interfaces":[{"first","last"}]}.
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
-                       const TimelineText& timeline, const Summary& summary, const EventBands& bands = {});
+                       const TimelineText& timeline, const Summary& summary, const EventBands& bands = {},
+                       const SceneUnits& units = {});
 
 }  // namespace shearfront

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/observation_columns.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -11,6 +13,23 @@ constexpr std::size_t kBlock = 1 << 16;  // rows are handed on in blocks of this
 
 std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::string(); }
 
+/// What a column is measured in: times and heights by their first letter, M and H as heights.
+std::string_view unit_of_column(std::string_view name, const SceneUnits& units) {
+  const std::string_view quantity = name.substr(0, name.find('_'));
+  if (quantity == "t") return units.t;
+  return quantity == "z" || quantity == "M" || quantity == "H" ? std::string_view(units.z)
+                                                               : std::string_view();
+}
+
+std::string header(const std::vector<std::string>& names, const SceneUnits& units) {
+  std::string line;
+  for (const std::string& name : names) {
+    if (!line.empty()) line += ',';
+    line += detail::csv_field(detail::heading_text(name, unit_of_column(name, units)));
+  }
+  return line + '\n';
+}
+
 void hand_on(OutputFile& file, std::string& rows, std::size_t least) {
   if (rows.size() < least) return;
   file.write(rows);
@@ -20,8 +39,8 @@ void hand_on(OutputFile& file, std::string& rows, std::size_t least) {
 }  // namespace
 
 void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
-                       const std::vector<Sample>& samples) {
-  std::string rows = "t,z,phi,M\n";
+                       const std::vector<Sample>& samples, const SceneUnits& units) {
+  std::string rows = header({"t", "z", "phi", "M"}, units);
   for (std::size_t i = 0; i < times.size(); ++i) {
     for (std::size_t j = 0; j < depths.size(); ++j) {
       const Sample& sample = samples[i * depths.size() + j];
@@ -34,10 +53,10 @@ void write_samples_csv(OutputFile& file, const std::vector<double>& times, const
   hand_on(file, rows, 0);
 }
 
-void write_time_table_csv(OutputFile& file, const TimeTable& table) {
-  std::string rows = "t";
-  for (const std::string& column : table.columns) rows += "," + column;
-  rows += '\n';
+void write_time_table_csv(OutputFile& file, const TimeTable& table, const SceneUnits& units) {
+  std::vector<std::string> names{"t"};
+  names.insert(names.end(), table.columns.begin(), table.columns.end());
+  std::string rows = header(names, units);
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     rows += field(table.times[i]);
     for (const double x : table.rows[i]) (rows += ',') += field(x);
@@ -47,8 +66,10 @@ void write_time_table_csv(OutputFile& file, const TimeTable& table) {
   hand_on(file, rows, 0);
 }
 
-void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts) {
-  std::string rows = "layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above\n";
+void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts,
+                      const SceneUnits& units) {
+  std::string rows =
+      header({"layer", "t_begin", "z_begin", "t_end", "z_end", "phi_below", "phi_above"}, units);
   for (const FrontSegment<double>& f : fronts) {
     rows += std::to_string(f.layer);
     for (const double x : {f.t_begin, f.z_begin, f.t_end, f.z_end, f.phi_below, f.phi_above})

@@ -18,10 +18,13 @@ Json to_json(const Summary& s) {
   return all;
 }
 
-Json document(std::string_view scene, std::string_view method) {
+Json units_json(const SceneUnits& units) { return {{"z", units.z}, {"t", units.t}}; }
+
+Json document(std::string_view scene, std::string_view method, const SceneUnits& units) {
   Json all;
   all["scene"] = scene;
   all["method"] = method;
+  if (!(units == SceneUnits{})) all["units"] = units_json(units);
   return all;
 }
 
@@ -42,8 +45,9 @@ void write_matrix(OutputFile& file, std::string_view name, const std::vector<Sam
 
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
-                        const std::vector<Sample>& samples, const Summary& summary) {
-  file.write("{\n  \"scene\": " + json_text(scene) + ",\n  \"method\": " + json_text(method) +
+                        const std::vector<Sample>& samples, const Summary& summary, const SceneUnits& units) {
+  const std::string in_units = units == SceneUnits{} ? "" : ",\n  \"units\": " + json_text(units_json(units));
+  file.write("{\n  \"scene\": " + json_text(scene) + ",\n  \"method\": " + json_text(method) + in_units +
              ",\n  \"times\": " + json_text(times) + ",\n  \"depths\": " + json_text(depths) + ",\n");
   write_matrix(file, "phi", samples, times.size(), &Sample::phi);
   write_matrix(file, "M", samples, times.size(), &Sample::M);
@@ -51,8 +55,9 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
 }
 
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
-                           const TimeTable& table, const NamedNumbers& extra, const Summary& summary) {
-  Json all = document(scene, method);
+                           const TimeTable& table, const NamedNumbers& extra, const Summary& summary,
+                           const SceneUnits& units) {
+  Json all = document(scene, method, units);
   all["times"] = table.times;
   for (std::size_t j = 0; j < table.columns.size(); ++j) {
     Json& column = all[table.columns[j]] = Json::array();
@@ -64,9 +69,10 @@ void write_time_table_json(OutputFile& file, std::string_view scene, std::string
 }
 
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
-                       const TimelineText& timeline, const Summary& summary, const EventBands& bands) {
+                       const TimelineText& timeline, const Summary& summary, const EventBands& bands,
+                       const SceneUnits& units) {
   const auto time = [](const std::optional<std::string>& t) { return t ? json_digits(*t) : Json(); };
-  Json all = document(scene, method);
+  Json all = document(scene, method, units);
   all["mass"] = json_digits(timeline.mass);
   all["steady_height"] = json_digits(timeline.steady_height);
   all["t0"] = time(timeline.t0);

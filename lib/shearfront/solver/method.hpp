@@ -24,6 +24,7 @@ class AnySolver {
   [[nodiscard]] virtual std::string_view description() const = 0;
   [[nodiscard]] virtual std::string_view scenes() const = 0;
   [[nodiscard]] virtual Guarantees guarantees() const = 0;
+  [[nodiscard]] virtual double order_M(const Scene<double>&) const = 0;
   [[nodiscard]] virtual std::vector<Option> options() const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> with(std::string_view, const OptionValue&) const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> smooth(const Scene<double>&) const = 0;
@@ -45,6 +46,7 @@ class Configured final : public AnySolver {
   [[nodiscard]] std::string_view description() const override { return S::kDescription; }
   [[nodiscard]] std::string_view scenes() const override { return S::kScenes; }
   [[nodiscard]] Guarantees guarantees() const override { return S::guarantees(); }
+  [[nodiscard]] double order_M(const Scene<double>& scene) const override { return order_M_of<S>(scene); }
   [[nodiscard]] std::vector<Option> options() const override {
     std::vector<Option> all;
     Options::fields(options_, [&]<class Member>(const OptionInfo& info, const Member& member) {
@@ -132,6 +134,8 @@ class Method {
   [[nodiscard]] std::string_view description() const { return solver_->description(); }
   [[nodiscard]] std::string_view scenes() const { return solver_->scenes(); }
   [[nodiscard]] Guarantees guarantees() const { return solver_->guarantees(); }
+  /// The order of M in the resolution that it promises for the scene; 0 if exact.
+  [[nodiscard]] double order_M(const Scene<double>& scene) const { return solver_->order_M(scene); }
 
   /// In the order in which the solver lists them.
   [[nodiscard]] std::vector<Option> options() const { return solver_->options(); }

@@ -28,7 +28,7 @@ struct OptionInfo {
   std::span<const std::string_view> names{};  ///< enumerations only: of the enumerators, in their order
   std::string_view
       unset{};  ///< what the default stands for, if it is no value one could give: "chosen by tolerance"
-  bool is_budget = false;  ///< may end a run early and changes no result otherwise
+  bool leaves_samples = false;  ///< no sample depends on it: it may end a run early, or is about event times
 };
 
 /// One of OptionInfo::names, by its place among them.

@@ -65,15 +65,17 @@ class Run {
 
 /// What a solver promises; the cross tests check exactly what is promised here.
 struct Guarantees {
-  bool diffusion = false;     ///< solves beds with diffusion, and no others
-  bool exact = false;         ///< M and phi to rounding
-  bool conservative = false;  ///< M(top, t) equals the initial mass to rounding
-  bool bounded = false;       ///< phi stays in the range of the flux
-  double order_phi = 0;       ///< L1 order of phi in the resolution, 0 if exact
-  double order_M = 0;         ///< order of M in the resolution, 0 if exact
-  bool has_fronts = false;    ///< can return front segments
-  bool has_timeline = false;  ///< can return event times
-  bool has_profiles = false;  ///< can return the solution as a function of z: it is linear in pieces
+  bool diffusion = false;          ///< solves beds with diffusion, and no others
+  bool exact = false;              ///< M and phi to rounding
+  bool conservative = false;       ///< M(top, t) equals the initial mass to rounding
+  bool bounded = false;            ///< phi stays in the range of the flux
+  double order_phi = 0;            ///< L1 order of phi in the resolution, 0 if exact
+  double order_M = 0;              ///< order of M in the resolution, 0 if exact; see also order_M of Solver
+  double least_order_M = 0;        ///< the same where it is less, 0 if nowhere
+  std::string_view where_least{};  ///< which scenes those are, for `shearfront list`
+  bool has_fronts = false;         ///< can return front segments
+  bool has_timeline = false;       ///< can return event times
+  bool has_profiles = false;       ///< can return the solution as a function of z: it is linear in pieces
 };
 
 /// A place in the (t, z) plane.
@@ -91,6 +93,7 @@ struct Linearisation {
 
 /// A solver. Its Options list their fields (solver/option.hpp).
 ///
+///   order_M   optional, where guarantees() has a least_order_M: whether this scene is one of those, as the order of M
 ///   refusal   why it cannot solve the scene with these options, in one clause; empty if it can. It names no other
 ///             solver: what can solve the scene instead is found by asking all (solver/method.hpp)
 ///   start     precondition: refusal is empty. The scene must outlive the run
@@ -104,6 +107,15 @@ concept Solver = requires(const Scene<double>& scene, const typename S::Options&
   { S::refusal(scene, options) } -> std::same_as<std::string>;
   { S::start(scene, options, watch) } -> std::same_as<std::unique_ptr<Run>>;
 };
+
+/// The order of M that a solver promises for a scene.
+template <Solver S>
+[[nodiscard]] double order_M_of(const Scene<double>& scene) {
+  if constexpr (requires { S::order_M(scene); })
+    return S::order_M(scene);
+  else
+    return S::guarantees().order_M;
+}
 
 /// A solver that can differentiate its solution, exactly up to rounding.
 ///

@@ -12,20 +12,17 @@
 
 namespace shearfront {
 
-/// Which neighbours of a FrontList meet when, and in which order the meetings are handled.
+/// Predicted events of the nodes of a FrontList, at most one for each, and the order in which they are handled.
 ///
-/// Guaranteed: whether two fronts of a convex layer ever meet is decided on their states; the time of a
-/// meeting is that of the two positions as stored, to a few roundings of the time and of the way since the
-/// last collision divided by the closing speed. Cost: O(log n) per meeting. The list is handed in: copies of
-/// a tracker copy both.
-template <StateGrid Grid>
-class Agenda {
+/// Cost: O(log n) per event. The list is handed in: copies of a tracker copy both.
+template <class FrontListType>
+class EventAgenda {
  public:
-  using Scalar = typename Grid::Scalar;
-  using Fronts = FrontList<Scalar>;
-  using Node = FrontNode<Scalar>;
+  using Fronts = FrontListType;
+  using Scalar = typename Fronts::Scalar;
+  using Node = typename Fronts::Node;
 
-  /// Meetings that will come, and those that would come after the largest representable time.
+  /// Events that will come, and those that would come after the largest representable time.
   [[nodiscard]] std::size_t n_pending() const { return n_pending_; }
   [[nodiscard]] std::size_t n_unreachable() const { return n_unreachable_; }
 
@@ -35,9 +32,15 @@ class Agenda {
     if (n.meets < infinity<Scalar>()) --n_pending_;
     n.meets = infinity<Scalar>();
   }
-  /// Predicts the meeting of node i with its upper neighbour.
-  void schedule(const Grid& grid, Fronts& fronts, FrontIndex i, const Scalar& now) {
-    if (predict(grid, fronts, i, now)) enqueue(fronts, i);
+  /// Enters node i with its next event at `t`, or now if that is past. Precondition: it is unscheduled.
+  void enter(Fronts& fronts, FrontIndex i, const Scalar& t, const Scalar& now) {
+    if (!(t < infinity<Scalar>())) {
+      ++n_unreachable_;
+      return;
+    }
+    fronts[i].meets = t > now ? t : now;
+    ++n_pending_;
+    enqueue(fronts, i);
   }
 
   /// Makes every meeting up to `horizon` ready, in the order of t + skew z.
@@ -77,11 +80,53 @@ class Agenda {
  private:
   static constexpr std::size_t kCompactFrom = 1024;
 
-  [[nodiscard]] static Scalar size(const Scalar& x) { return x < 0 ? -x : x; }
   [[nodiscard]] static bool is_stale(const Fronts& fronts, const Meeting<Scalar>& m) {
     return fronts[m.id].stamp != m.stamp;
   }
+  void enqueue(const Fronts& fronts, FrontIndex i) {
+    const Node& n = fronts[i];
+    if (n.meets > horizon_) {
+      waiting_.push_back({n.meets, i, n.stamp});
+    } else {
+      queue_.push({n.meets + skew_ * (n.position(n.meets) - fronts[0].z), i, n.stamp});
+    }
+  }
 
+  EventQueue<Scalar> queue_;              // meetings up to horizon_, by t + skew_ z
+  std::vector<Meeting<Scalar>> waiting_;  // later meetings, in no order
+  Scalar horizon_{-1}, skew_{0};
+  std::size_t n_pending_ = 0, n_unreachable_ = 0;
+};
+
+/// Which neighbours of a FrontList of straight fronts meet when.
+///
+/// Guaranteed: whether two fronts of a convex layer ever meet is decided on their states; the time of a
+/// meeting is that of the two positions as stored, to a few roundings of the time and of the way since the
+/// last collision divided by the closing speed.
+template <StateGrid Grid>
+class Agenda : public EventAgenda<FrontList<typename Grid::Scalar>> {
+ public:
+  using Scalar = typename Grid::Scalar;
+  using Fronts = FrontList<Scalar>;
+  using Node = FrontNode<Scalar>;
+
+  /// Predicts the meeting of node i with its upper neighbour.
+  void schedule(const Grid& grid, Fronts& fronts, FrontIndex i, const Scalar& now) {
+    Node& a = fronts[i];
+    this->unschedule(a);
+    const FrontIndex j = a.next;
+    if (j == kNoFront) return;
+    const Scalar closing = closing_speed(grid, fronts, i, j);
+    if (!(closing > 0)) return;
+    const Node& b = fronts[j];
+    const Scalar& base = std::max(a.t, b.t);
+    // Anchors first: they are close when the fronts are, and then their difference is exact.
+    const Scalar gap = (b.z - a.z) + (b.moved(base) - a.moved(base));
+    this->enter(fronts, i, gap > 0 ? base + gap / closing : base, now);
+  }
+
+ private:
+  [[nodiscard]] static Scalar size(const Scalar& x) { return x < 0 ? -x : x; }
   /// Speed at which the nodes i and j = next(i) approach; not positive if they never meet. Two fronts of a
   /// convex layer meet if and only if the state below both exceeds the state above both (neither does in one
   /// chord of the polygon), and where their speeds nearly cancel the difference comes from these states.
@@ -107,41 +152,6 @@ class Agenda {
     }
     return closing;
   }
-
-  /// True if there is a meeting.
-  bool predict(const Grid& grid, Fronts& fronts, FrontIndex i, const Scalar& now) {
-    Node& a = fronts[i];
-    unschedule(a);
-    const FrontIndex j = a.next;
-    if (j == kNoFront) return false;
-    const Scalar closing = closing_speed(grid, fronts, i, j);
-    if (!(closing > 0)) return false;
-    const Node& b = fronts[j];
-    const Scalar& base = std::max(a.t, b.t);
-    // Anchors first: they are close when the fronts are, and then their difference is exact.
-    const Scalar gap = (b.z - a.z) + (b.moved(base) - a.moved(base));
-    const Scalar t = gap > 0 ? base + gap / closing : base;
-    if (!(t < infinity<Scalar>())) {
-      ++n_unreachable_;
-      return false;
-    }
-    a.meets = t > now ? t : now;
-    ++n_pending_;
-    return true;
-  }
-  void enqueue(const Fronts& fronts, FrontIndex i) {
-    const Node& n = fronts[i];
-    if (n.meets > horizon_) {
-      waiting_.push_back({n.meets, i, n.stamp});
-    } else {
-      queue_.push({n.meets + skew_ * (n.position(n.meets) - fronts[0].z), i, n.stamp});
-    }
-  }
-
-  EventQueue<Scalar> queue_;              // meetings up to horizon_, by t + skew_ z
-  std::vector<Meeting<Scalar>> waiting_;  // later meetings, in no order
-  Scalar horizon_{-1}, skew_{0};
-  std::size_t n_pending_ = 0, n_unreachable_ = 0;
 };
 
 }  // namespace shearfront

@@ -35,13 +35,14 @@ struct alignas(std::same_as<Scalar, double> ? 64 : alignof(Scalar)) FrontNode {
 
 /// Fronts and boundaries from bottom to top, linked; nodes 0 .. n_layers are the boundaries, all others
 /// fronts. Slots of fronts that are gone are used again. Cost: O(1) per operation.
-template <Real Scalar>
+template <Real S, class NodeType = FrontNode<S>>
 class FrontList {
  public:
-  using Node = FrontNode<Scalar>;
+  using Scalar = S;
+  using Node = NodeType;
 
   /// Only the boundaries, at the given heights; room for `n_fronts` fronts.
-  template <StateGrid Grid>
+  template <class Grid>
   FrontList(const Grid& grid, std::size_t n_fronts) : n_boundaries_(grid.n_layers() + 1) {
     const std::size_t n = n_boundaries_;
     nodes_.reserve(n + n_fronts);

@@ -33,16 +33,18 @@ class FrontSystem {
     std::optional<Scalar> first, last;
   };
 
-  /// Beyond `max_fronts` no initial jump is solved any more: has_too_many_fronts(), and nothing else may be asked.
+  /// With more than `max_fronts` in the initial state there are none: has_too_many_fronts(), and nothing else may be asked. No
+  /// memory is spent then: a budget of gigabytes would be used up before it is known that it does not suffice.
   FrontSystem(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
               Observer observer, std::size_t max_fronts)
       : grid_(&grid),
         max_fronts_(max_fronts),
         observer_(std::move(observer)),
-        fronts_(grid, std::min(count_fronts(grid, pieces), max_fronts)),
+        n_fronts_max_(count_fronts(grid, pieces, max_fronts)),
+        fronts_(grid, has_too_many_fronts() ? 0 : n_fronts_max_),
         outside_(ends.outside),
         is_periodic_(ends.is_periodic) {
-    start(pieces);
+    if (!has_too_many_fronts()) start(pieces);
   }
 
   [[nodiscard]] const Grid& grid() const { return *grid_; }
@@ -101,10 +103,11 @@ class FrontSystem {
   void schedule(FrontIndex i) { agenda_.schedule(*grid_, fronts_, i, now_); }
 
   /// Fronts that leave the jumps of the initial state; those of interfaces are fewer than the slack of a
-  /// vector.
-  [[nodiscard]] static std::size_t count_fronts(const Grid& grid, const std::vector<Piece<Scalar>>& pieces) {
+  /// vector. No further than just beyond `most`.
+  [[nodiscard]] static std::size_t count_fronts(const Grid& grid, const std::vector<Piece<Scalar>>& pieces,
+                                                std::size_t most) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i + 1 < pieces.size(); ++i)
+    for (std::size_t i = 0; i + 1 < pieces.size() && count <= most; ++i)
       if (pieces[i].layer == pieces[i + 1].layer)
         solve_in_layer(grid, pieces[i].layer, pieces[i].state, pieces[i + 1].state,
                        [&](State, State) { ++count; });
@@ -302,11 +305,11 @@ class FrontSystem {
   std::size_t max_fronts_;
   Observer observer_;
   CollisionView<Scalar> view_{};
+  std::size_t n_fronts_max_ = 0;
   FrontList<Scalar> fronts_;
   Agenda<Grid> agenda_;
   std::vector<Waves> waves_;
   Scalar now_{0}, last_collision_{0};
-  std::size_t n_fronts_max_ = 0;
   std::uint64_t collisions_ = 0;
   std::array<std::optional<State>, 2> outside_;
   bool is_periodic_;

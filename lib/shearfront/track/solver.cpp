@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/track/solver.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace shearfront {
@@ -16,7 +17,7 @@ class TrackRun final : public Run {
     return tracking_.advance(t);
   }
   [[nodiscard]] const Field& field() override {
-    if (!field_) field_.emplace(scene_, tracking_.profile());
+    if (!field_) field_ = tracking_.field(scene_);
     return *field_;
   }
   [[nodiscard]] std::optional<Timeline<double>> timeline() override { return tracking_.timeline(); }
@@ -26,7 +27,7 @@ class TrackRun final : public Run {
  private:
   const Scene<double>& scene_;
   Tracking tracking_;
-  std::optional<ProfileField> field_;
+  std::unique_ptr<Field> field_;
 };
 
 }  // namespace

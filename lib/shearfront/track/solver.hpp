@@ -23,7 +23,14 @@ struct FrontTrackingSolver {
     g.conservative = g.bounded = g.has_fronts = g.has_timeline = g.has_profiles = true;
     g.order_phi = 1;
     g.order_M = 2;
+    g.least_order_M = 1;
+    g.where_least = "where a, c or T varies inside a layer";
     return g;
+  }
+  /// A staircase stands for what varies inside a layer, with steps as large as those of phi: where paths turn, in the
+  /// throat of a bed above all, M is wrong by the height of a step.
+  static double order_M(const Scene<double>& scene) {
+    return scene.is_layered() ? guarantees().order_M : guarantees().least_order_M;
   }
   /// States constant between fronts have no derivative in the numbers of the scene; the lines through them
   /// do, and are closer to the solution.

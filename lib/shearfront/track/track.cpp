@@ -9,6 +9,8 @@
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/riemann/flux_course.hpp"
 #include "shearfront/riemann/overload.hpp"
+#include "shearfront/track/any_tracking.hpp"
+#include "shearfront/track/curved_tracking.hpp"
 #include "shearfront/track/one_layer_grid.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
@@ -113,23 +115,6 @@ Profile<double> profile_of(const AnyTracker& tracker, const Scene<double>& scene
 }
 
 }  // namespace
-
-namespace track_detail {
-
-class AnyTracking {
- public:
-  virtual ~AnyTracking() = default;
-  [[nodiscard]] virtual std::unique_ptr<AnyTracking> copy() const = 0;
-  virtual Status advance(double t) = 0;
-  [[nodiscard]] virtual double time() const = 0;
-  [[nodiscard]] virtual Profile<double> profile() const = 0;
-  [[nodiscard]] virtual std::vector<FrontSegment<double>> fronts() const = 0;
-  [[nodiscard]] virtual std::vector<Collision> collisions() const = 0;
-  [[nodiscard]] virtual std::optional<Timeline<double>> timeline() = 0;
-  [[nodiscard]] virtual Summary summary() const = 0;
-};
-
-}  // namespace track_detail
 
 namespace {
 
@@ -262,12 +247,16 @@ std::unique_ptr<AnyTracking> tracking_on(const Scene<double>& scene, const Track
 
 std::string Tracking::refusal(const Scene<double>& scene, const TrackOptions& options) {
   if (std::string why = refusal_at_once(scene, options); !why.empty()) return why;
+  if (track_detail::wants_curves(scene, options)) return track_detail::refusal_of_curves(scene, options);
   return refusal_of(scene, layers_of(scene, options), options);
 }
 
 Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Progress progress) {
   std::string why = refusal_at_once(scene, options);
-  if (why.empty()) {
+  if (why.empty() && track_detail::wants_curves(scene, options)) {
+    why = track_detail::refusal_of_curves(scene, options);
+    if (why.empty()) tracking_ = track_detail::track_curves(scene, options, std::move(progress));
+  } else if (why.empty()) {
     LayerStack<double> stack = layers_of(scene, options);
     why = refusal_of(scene, stack, options);
     const auto on = [&]<class Grid>(std::type_identity<Grid>) {
@@ -291,6 +280,7 @@ Tracking::~Tracking() = default;
 Status Tracking::advance(double t) { return tracking_->advance(t); }
 double Tracking::time() const { return tracking_->time(); }
 Profile<double> Tracking::profile() const { return tracking_->profile(); }
+std::unique_ptr<Field> Tracking::field(const Scene<double>& scene) const { return tracking_->field(scene); }
 std::vector<FrontSegment<double>> Tracking::fronts() const { return tracking_->fronts(); }
 std::vector<Collision> Tracking::collisions() const { return tracking_->collisions(); }
 std::optional<Timeline<double>> Tracking::timeline() { return tracking_->timeline(); }

@@ -20,15 +20,19 @@ namespace shearfront {
 
 enum class GridKind { levels, singular_mapping };
 enum class Reconstruction { constant, linear };
+/// First arrivals of fans: of the characteristic at their edge, or of the first front, as the polygon has it.
+enum class FanEdges { characteristic, secant };
 /// Their names in files and on the command line, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 2> kGridNames{"levels", "singular-mapping"};
 inline constexpr std::array<std::string_view, 2> kReconstructionNames{"constant", "linear"};
+inline constexpr std::array<std::string_view, 2> kFanEdgeNames{"characteristic", "secant"};
 
 /// How a scene is tracked, and what is kept of it.
 struct TrackOptions {
   double resolution = 0.01;
   GridKind grid = GridKind::levels;
   Reconstruction reconstruct = Reconstruction::constant;
+  FanEdges edges = FanEdges::characteristic;
   std::uint64_t layers = 0;
   std::uint64_t max_collisions = 4'000'000'000;
   std::uint64_t max_fronts =
@@ -45,11 +49,15 @@ struct TrackOptions {
         self.resolution);
     visit(OptionInfo{"grid", "grid of states", {}, kGridNames}, self.grid);
     visit(OptionInfo{"reconstruct", "phi between fronts", {}, kReconstructionNames}, self.reconstruct);
+    visit(
+        OptionInfo{
+            "edges", "first arrivals of fans where the rate varies smoothly", {}, kFanEdgeNames, {}, true},
+        self.edges);
     visit(OptionInfo{"layers",
                      "smooth shear rates: number of layers of the staircase",
                      {1, 1e6},
                      {},
-                     "as many as the resolution asks for"},
+                     "none with curved fronts, else as many as the resolution asks for"},
           self.layers);
     visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true},
           self.max_collisions);
@@ -95,6 +103,8 @@ class Tracking {
   /// phi at time(), between walls, interfaces and fronts: constant, or linear where fronts are the states of
   /// a fan (TrackOptions::reconstruct).
   [[nodiscard]] Profile<double> profile() const;
+  /// The same at any height: phi and M, and integrals. `scene` is that it was made with, and must outlive the field.
+  [[nodiscard]] std::unique_ptr<Field> field(const Scene<double>& scene) const;
   /// All fronts up to time(), by the time and height at which they begin; those alive end at time().
   /// Precondition: they are kept (TrackOptions::fronts or history).
   [[nodiscard]] std::vector<FrontSegment<double>> fronts() const;

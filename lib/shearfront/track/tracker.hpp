@@ -49,7 +49,9 @@ struct RunLimits {
 /// What rounding costs in the worst cases: docs/stability.md.
 /// A Tracker is a value: copy it to keep a state to return to.
 /// Cost: O(log n) per event for n fronts that are about to meet; memory 64 bytes per front (double).
-template <StateGrid Grid, class Observer = NoObserver>
+///
+/// With a System of curved fronts (track/curved_system.hpp) of (1) to (5) hold (4), (5), and what that promises.
+template <class Grid, class Observer = NoObserver, class System = FrontSystem<Grid, Observer>>
 class Tracker {
  public:
   using Scalar = typename Grid::Scalar;
@@ -61,6 +63,8 @@ class Tracker {
   Tracker(const Grid& grid, const std::vector<Piece<Scalar>>& pieces, const Ends<Scalar>& ends,
           Observer observer = {}, std::size_t max_fronts = SIZE_MAX)
       : system_(grid, pieces, ends, std::move(observer), max_fronts), changes_(ends.changes) {}
+  explicit Tracker(System system, std::vector<typename Ends<Scalar>::Change> changes = {})
+      : system_(std::move(system)), changes_(std::move(changes)) {}
   /// What a TrackingSetup holds, which must outlive the tracker.
   template <class Setup>
   explicit Tracker(const Setup& setup, Observer observer = {}) requires requires {
@@ -94,6 +98,7 @@ class Tracker {
     return true;
   }
 
+  [[nodiscard]] const System& system() const { return system_; }
   [[nodiscard]] const Grid& grid() const { return system_.grid(); }
   /// What it has seen so far, without the fronts alive.
   [[nodiscard]] const Observer& observer() const { return system_.observer(); }
@@ -164,7 +169,8 @@ class Tracker {
     // can reach from it, and that one has a greater key; so this order respects every influence, like that of
     // t. It sweeps through the bed instead of jumping about in it, and what it touches is in the cache.
     // Denormal speeds have no finite skew; then in the order of t.
-    const Scalar skew = Scalar(1) / (Scalar(2) * grid().fastest());
+    Scalar skew(0);
+    if constexpr (requires { grid().fastest(); }) skew = Scalar(1) / (Scalar(2) * grid().fastest());
     if (system_.has_too_many_fronts()) return Status::budget_reached;
     auto& agenda = system_.agenda();
     // In a periodic bed what happens at the top has its effect at the bottom.
@@ -185,7 +191,7 @@ class Tracker {
     return is_steady() ? Status::steady : Status::ok;
   }
 
-  FrontSystem<Grid, Observer> system_;
+  System system_;
   std::vector<typename Ends<Scalar>::Change> changes_;
   std::size_t n_changed_ = 0;  ///< of the changes, those that have happened
 };

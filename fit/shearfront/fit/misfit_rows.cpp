@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/misfit_rows.hpp"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "shearfront/fit.hpp"
+#include "shearfront/fit/loss/all.hpp"
+#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/io/text.hpp"
+
+namespace shearfront::fit {
+
+ResidualRows with_unit(ResidualRows rows, const FitSpec& spec, const Parameters& parameters) {
+  const Quantity measured = spec.observations.quantity;
+  const bool is_height = measured == Quantity::bed_height, is_sum = measured == Quantity::cumulative;
+  if (!spec.observations.has_sigma())
+    rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
+  return rows;
+}
+
+ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Parameters& parameters) {
+  ResidualRows rows;
+  std::string refusal;
+  if (!MisfitList::contains(quantity))
+    throw InputError("misfit.quantity", quoted_text(quantity), "must be one of: " + MisfitList::names());
+  MisfitList::for_each([&]<class M>() {
+    if (quantity != M::kName) return;
+    refusal = M::refusal(spec.observations);
+    if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
+  });
+  if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
+  return with_unit(std::move(rows), spec, parameters);
+}
+
+void set_size(ResidualRows& rows, double size) {
+  for (ResidualRows::Row& row : rows.rows) row.weight = 1 / size;
+  rows.unit = 1;
+}
+
+double mean_spacing(const Observations& observations) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const MeasuredProfile& profile : measured_profiles(observations)) {
+    sum += observations.rows[profile.rows.back()].z - observations.rows[profile.rows.front()].z;
+    n += profile.rows.size() - 1;
+  }
+  return n > 0 ? sum / static_cast<double>(n) : 1;
+}
+
+std::string_view quantity_of(const FitSpec& spec) {
+  if (spec.misfit.quantity.empty()) return name_of(spec.observations.quantity);
+  return spec.misfit.quantity;
+}
+
+std::string_view loss_of(const FitSpec& spec) {
+  if (!spec.misfit.loss.empty()) return spec.misfit.loss;
+  return quantity_of(spec) == PointMisfit::kName ? HuberLoss::kName : SquaredLoss::kName;
+}
+
+}  // namespace shearfront::fit

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shearfront/fit/study/study_spec.hpp"
+#include "shearfront/solver/solve.hpp"
+
+namespace shearfront::fit {
+
+/// One run of a study.
+struct StudyRow {
+  std::size_t run = 0;
+  std::vector<double> values;   ///< of the entries that vary
+  std::vector<double> outputs;  ///< infinity: an event that never comes; all NaN after a failure
+  std::string failure;          ///< why there is no result; empty if there is one
+};
+
+/// The runs of a study, prepared once.
+class StudyRuns {
+ public:
+  /// Errors: InputError if a design fit has no usable estimate or an unknown without error bar.
+  explicit StudyRuns(StudySpec spec);
+
+  [[nodiscard]] const StudySpec& spec() const { return spec_; }
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  /// Names of the entries that vary, in the order of StudyRow::values.
+  [[nodiscard]] const std::vector<std::string>& entries() const { return entries_; }
+  [[nodiscard]] StudyRow run(std::size_t i) const;
+
+  /// Runs these, on `threads` threads (0: all cores), and hands the rows on in their order, whatever the threads. take()
+  /// returns false to end. Cost: the runs.
+  void run_all(const std::vector<std::size_t>& which, std::size_t threads,
+               const std::function<bool(const StudyRow&)>& take) const;
+
+ private:
+  StudySpec spec_;
+  std::vector<std::vector<double>> points_;
+  std::vector<std::string> entries_;
+  std::vector<std::size_t> places_;  ///< of the entries among entry_places()
+  SolverRequest samples_;            ///< what the outputs need at times and heights
+  SolverRequest heights_;            ///< of the bed
+  bool needs_timeline_ = false;
+};
+
+}  // namespace shearfront::fit

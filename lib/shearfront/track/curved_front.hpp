@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "shearfront/riemann/state.hpp"
+#include "shearfront/track/front_list.hpp"
+#include "shearfront/track/level_curves.hpp"
+
+namespace shearfront {
+
+/// A front between two levels, or a boundary (wall, jump or kink of the rate), which rests.
+///
+/// By Rankine and Hugoniot a front between the states l, r of levels i != j moves such that
+///
+///     dt/dz = 2 (s_r q_j(z) - s_l q_i(z)) / (h_i - h_j),   s = -1 or 1 for low and high states,
+///
+/// so its time is a closed form of its height. Since q_i - q_j over h_j - h_i is a mean of the 1 / (r q) / 2 of the levels
+/// between, a front between neighbouring levels is the mean of the characteristics of these fluxes.
+struct CurvedNode {
+  double z = 0, t = 0;              ///< passes z at t
+  double rate = 0;                  ///< r(z)
+  double q_below = 0, q_above = 0;  ///< of its levels at z
+  double end = 0;                   ///< height at which it ends or turns
+  double end_t = 0;                 ///< when it turns there
+  double meets = 0, meeting_z = 0;  ///< next event: when, and where
+  double turned = kNever;           ///< when a mean characteristic of its levels turned there
+  State below = 0, above = 0;
+  FrontIndex prev = kNoFront, next = kNoFront;
+  std::uint32_t layer = 0;  ///< piece of a front; of a boundary the piece above it
+  std::uint32_t stamp = 0;
+  std::int8_t direction = 0;  ///< 1 up, -1 down, 0 it stands
+  bool turns = false;         ///< it turns at its end
+  bool turns_next = false;    ///< its next event is that
+  bool is_edge = false;       ///< the edge of a fan next to a state that was there before
+  double edge_t = 0;          ///< of an edge: when the characteristic of that state was at z
+
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  /// At its next event.
+  [[nodiscard]] double position(double /*time*/) const { return meeting_z; }
+};
+
+/// When a front is at a height, and dt/dz there.
+struct Passage {
+  double t, slope;
+};
+
+/// dt/dz of a front where the rate is `rate` and its levels have these q. The difference of two that are near to each other comes
+/// from what they are.
+[[nodiscard]] inline double front_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
+                                        double q_below, double q_above) {
+  const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  if (s_i == s_j && q_below > 0 && q_above > 0) return 2 * s_j / (rate * (q_below + q_above));
+  return 2 * (s_j * q_above - s_i * q_below) /
+         (grid.capacity(grid.level(f.below)) - grid.capacity(grid.level(f.above)));
+}
+
+/// int (1 - q_k) dz from the origin of a front to a height as `plain` - `weight` log1p(logarithm), and q_k there.
+struct LevelWay {
+  double q, plain, weight, logarithm;
+};
+
+namespace curved_front_detail {
+
+/// `shrink` = r(origin) / r(z) - 1.
+[[nodiscard]] inline LevelWay exponential_way(const LevelCurves& grid, const CurvedNode& f, std::size_t level,
+                                              double q_origin, double z, double rate, double shrink) {
+  if (level == 0) return {1, 0, 0, 0};
+  constexpr double kSmallRoot = 0.1;  // below it terms cancel: LevelCurves::area knows how
+  const std::size_t p = f.layer;
+  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
+  if (!(q_origin > 0)) {  // from its turning height on
+    const double turn = grid.turning_height(p, level), q = grid.q(p, level, z, rate);
+    if (q < kSmallRoot) return {q, (z - f.z) - grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
+    return {q, (turn - f.z) + factor * q, factor, q};
+  }
+  constexpr double kFarFromTurn = 0.75;
+  const double x = h / rate, q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
+  if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
+    return {q, (z - f.z) - grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
+  const double delta = -(h / f.rate) * shrink / (q_origin + q);
+  return {q, factor * delta, factor, delta / (1 + q_origin)};
+}
+
+/// int dz / (r q) from the origin to z for the mean of two levels of one side that are so near to each other that the difference
+/// of their areas would be rounding: the front is the characteristic between them. Nothing where that is not so, or too near to
+/// its turning height.
+[[nodiscard]] inline std::optional<double> mean_characteristic(const LevelCurves& grid, const CurvedNode& f,
+                                                               double h_below, double h_above, double z,
+                                                               double rate, double q_below, double q_above) {
+  constexpr double kNear = 1e-7, kFarFromTurn = 1e3;
+  const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
+  if (!(spread < kNear)) return std::nullopt;
+  const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
+  const double least = std::min(f.q_below, f.q_above);
+  if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
+  const RatePiece& piece = grid.piece(f.layer);
+  if (q_origin == 0)
+    return (piece.curve == RateCurve::exponential ? q / h : std::atanh(q)) * (2 / piece.bend);
+  if (!(least * least > kFarFromTurn * spread)) return std::nullopt;
+  if (piece.curve == RateCurve::exponential)
+    return -2 * std::expm1(-piece.bend * (z - f.z)) / (f.rate * piece.bend * (q_origin + q));
+  const double delta = h * (piece.bend * (z - f.z)) / (f.rate * rate * (q_origin + q));
+  return (2 * std::log1p(delta / (1 + q_origin)) + RatePiece::log_ratio(f.rate, rate)) / piece.bend;
+}
+
+}  // namespace curved_front_detail
+
+/// When a front is at a height of its piece, ahead of its origin.
+[[nodiscard]] inline Passage passage(const LevelCurves& grid, const CurvedNode& f, double z) {
+  const RatePiece& piece = grid.piece(f.layer);
+  const double d = z - f.z;
+  if (piece.is_constant() || d == 0) {
+    const double slope = front_slope(grid, f, f.rate, f.q_below, f.q_above);
+    return {f.t + slope * d, slope};
+  }
+  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
+  const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  if (piece.curve == RateCurve::exponential) {
+    const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
+    const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
+    const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
+    const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
+                   b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
+    if (s_i == s_j && i > 0 && j > 0)
+      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, grid.capacity(i),
+                                                                     grid.capacity(j), z, rate, a.q, b.q))
+        return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
+    // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
+    const bool is_same_side = s_i == s_j;
+    double way = is_same_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
+    const double weight = std::max(std::abs(a.weight), std::abs(b.weight)) * (piece.bend < 0 ? -1 : 1);
+    if (weight != 0) {
+      const double x = b.logarithm, y = a.logarithm;
+      way += weight * (is_same_side ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
+    }
+    return {f.t + factor * s_j * way, front_slope(grid, f, rate, a.q, b.q)};
+  }
+  const double rate = piece.rate(z);
+  const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
+  if (s_i == s_j && i > 0 && j > 0)
+    if (const auto mean = curved_front_detail::mean_characteristic(
+            grid, f, grid.capacity(i), grid.capacity(j), z, rate, below.q, above.q))
+      return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
+  const double E_i = grid.deficit(p, i, {f.z, f.rate, f.q_below}, below),
+               E_j = grid.deficit(p, j, {f.z, f.rate, f.q_above}, above);
+  const double way = s_i == s_j ? E_i - E_j : 2 * d - E_i - E_j;
+  return {f.t + factor * s_j * way, front_slope(grid, f, rate, below.q, above.q)};
+}
+[[nodiscard]] inline double slope_of(const LevelCurves& grid, const CurvedNode& f, double z) {
+  const std::size_t p = f.layer;
+  const double rate = grid.piece(p).rate(z);
+  return front_slope(grid, f, rate, grid.q(p, grid.level(f.below), z, rate),
+                     grid.q(p, grid.level(f.above), z, rate));
+}
+
+/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there.
+inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t) {
+  const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
+  const RatePiece& piece = grid.piece(p);
+  f.z = z;
+  f.t = t;
+  f.rate = piece.rate(z);
+  f.q_below = grid.q(p, i, z, f.rate);
+  f.q_above = grid.q(p, j, z, f.rate);
+  f.turns = false;
+  f.end = z;
+  f.direction = 0;
+  if (i == j) return;
+  f.direction = (i > j) == (f.above > f.below) ? 1 : -1;
+  f.end = f.direction > 0 ? piece.z_high : piece.z_low;
+  const std::size_t most = std::max(i, j);
+  const bool gets_smaller = f.direction > 0 ? piece.bend < 0 : piece.bend > 0;
+  if (most < 2 || !gets_smaller) return;
+  const double last = grid.turning_height(p, most - 1);
+  if (f.direction > 0 ? !(last < f.end) : !(last > f.end)) return;
+  f.end = f.direction > 0 ? std::max(last, z) : std::min(last, z);
+  f.turns = most == (f.direction > 0 ? i : j);  // else the front ahead does
+  if (f.turns) f.end_t = f.end == z ? t : passage(grid, f, f.end).t;
+}
+
+/// Newton's method inside a bracket: where evaluate(z) = {value, slope} is 0, the value having the sign of `orientation`
+/// towards `hi` and the other one towards `lo`, lo and hi in any order.
+template <class Evaluate>
+[[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
+  constexpr int kMostSteps = 200, kPatience = 6;
+  constexpr double kLastStep = 1e-10;  // the next one would be its square
+  double z = start;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Passage at = evaluate(z);
+    if (at.t == 0) return z;
+    (at.t < 0 ? lo : hi) = z;
+    const double middle = lo + (hi - lo) / 2;
+    double next = z - at.t / at.slope;
+    const bool is_inside = lo < hi ? next > lo && next < hi : next > hi && next < lo;
+    const bool is_newton = is_inside && !(n > kPatience && n % 3 == 0);
+    if (!is_newton) next = middle;
+    const double step = std::abs(next - z);
+    if (step <= 2e-16 * (1 + std::abs(z)) || next == lo || next == hi) return next;
+    if (is_newton && step < kLastStep * std::min(std::abs(hi - lo), 1.0)) return next;
+    z = next;
+  }
+  return z;
+}
+
+/// Where a front is at a time. Precondition: it has begun; after its end it is there.
+[[nodiscard]] inline double position_of(const LevelCurves& grid, const CurvedNode& f, double t) {
+  if (f.direction == 0 || !(t > f.t)) return f.z;
+  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
+  if (!(t < t_end)) return f.end;
+  const double share = (t - f.t) / (t_end - f.t);
+  const double start = f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99);
+  return bracketed_root(f.z, f.end, start, [&](double z) {
+    Passage at = passage(grid, f, z);
+    at.t -= t;
+    return at;
+  });
+}
+
+}  // namespace shearfront

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/curved_reconstruct.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shearfront {
+namespace {
+
+/// Distance of lines from a level, in squares of the resolution: less than what joining the nodes costs.
+double line_tolerance(const CurvedBed& bed) {
+  return std::max(1e-15, 0.05 * bed.resolution * bed.resolution);
+}
+
+/// Where the characteristic of the flux h / 4 is that turned at the time `turned`, and its u.
+struct Turned {
+  double z, u;
+};
+Turned characteristic_after_turn(const RatePiece& piece, double h, double t) {
+  // u' = r' u (1 - u): with r'/r or r' constant it is elementary.
+  const double w =
+      piece.curve == RateCurve::exponential ? -h * piece.bend * t / 2 : -std::tanh(piece.bend * t / 2);
+  const double lost = std::min(w * w, 1 - 1e-15);
+  return {piece.height_of(h / (1 - lost)), (1 - w) / 2};
+}
+
+}  // namespace
+
+CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front, double z) const {
+  const LevelCurves& grid = bed_.grid;
+  const std::size_t i = grid.level(front.below), j = grid.level(front.above), p = front.layer;
+  if (i + 1 != j && j + 1 != i) return {};
+  const double rate = grid.piece(p).rate(z);
+  const bool is_dead = !(grid.q(p, std::max(i, j), z, rate) > 0);
+  if (!is_dead && grid.is_high(front.below) != grid.is_high(front.above)) return {};
+  const double h = (grid.capacity(i) + grid.capacity(j)) / 2;
+  Node node{true, z, 0, 0, h};
+  const double below = grid.phi(p, front.below, z), above = grid.phi(p, front.above, z);
+  double turned = front.turned;
+  if (front.turns) turned = front.end_t;
+  if (std::isfinite(turned)) {
+    const Turned middle = characteristic_after_turn(grid.piece(p), h, snapshot_.t - turned);
+    node.z = middle.z;
+    node.u = middle.u;
+  } else {
+    const State lower = i < j ? front.below : front.above;
+    const double root = std::sqrt(std::max(0.0, (rate - h) / rate));
+    node.u = grid.is_high(lower) ? (1 + root) / 2 : h / rate / (2 * (1 + root));
+    if (!(root > 0)) node.u = 0.5;
+  }
+  node.room = std::abs(above - below) / 2;
+  return node;
+}
+
+/// From a node to the shock or interface at `limit`, or to where H is that of the region, if it is a plateau: nodes without the
+/// first.
+std::vector<CurvedReconstruction::Node> CurvedReconstruction::end_of(std::size_t region, double limit,
+                                                                     const Node& first,
+                                                                     const Node& second) const {
+  const LevelCurves& grid = bed_.grid;
+  const std::size_t p = snapshot_.piece[region];
+  const State state = snapshot_.state[region];
+  const std::size_t k = grid.level(state);
+  const double dz = first.z - second.z;
+  if (dz == 0 || first.z == limit) return {};
+  const double slope = (first.h - second.h) / dz, at_level = grid.capacity(k);
+  const double reach = std::abs(first.h - at_level);
+  double end = limit;
+  if (bed_.is_plateau[k]) {
+    const double z = slope == 0 ? limit : first.z + (at_level - first.h) / slope;
+    if ((z - first.z) * (limit - first.z) > 0 && std::abs(z - first.z) < std::abs(limit - first.z)) end = z;
+  }
+  std::vector<Node> nodes;
+  constexpr int kLines = 12;
+  for (int i = 1; i <= kLines; ++i) {
+    const double x = 1 - static_cast<double>(i) / kLines;
+    const double z = i == kLines ? end : end + (first.z - end) * x * x;  // at throats u is a square root
+    const double h =
+        std::clamp(first.h + slope * (z - first.z), std::max(0.0, at_level - reach), at_level + reach);
+    const double rate = grid.piece(p).rate(z), root = std::sqrt(std::max(0.0, (rate - h) / rate));
+    const double u = grid.is_high(state) ? (1 + root) / 2 : h < rate ? h / rate / (2 * (1 + root)) : 0.5;
+    nodes.push_back({true, z, u, x * x * first.room, h});
+  }
+  return nodes;
+}
+
+/// A monotone cubic through the nodes (slopes by harmonic means: Fritsch & Butland 1984) as lines.
+std::vector<CurvedReconstruction::Node> CurvedReconstruction::joined(const std::vector<Node>& nodes) {
+  constexpr int kLines = 8;
+  const std::size_t n = nodes.size();
+  std::vector<double> rise(n, 0), slope(n, 0);
+  for (std::size_t k = 0; k + 1 < n; ++k)
+    if (nodes[k + 1].z > nodes[k].z) rise[k] = (nodes[k + 1].u - nodes[k].u) / (nodes[k + 1].z - nodes[k].z);
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    const double a = rise[k - 1], b = rise[k], left = nodes[k].z - nodes[k - 1].z,
+                 right = nodes[k + 1].z - nodes[k].z;
+    if (!(a * b > 0) || !(left > 0) || !(right > 0)) continue;
+    const double w = (left + 2 * right) / (3 * (left + right));
+    slope[k] = a * b / (w * b + (1 - w) * a);
+  }
+  slope[0] = rise[0];
+  slope[n - 1] = rise[n - 2];
+  std::vector<Node> all;
+  all.reserve(n * kLines);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    const double width = nodes[k + 1].z - nodes[k].z, step = nodes[k + 1].u - nodes[k].u;
+    const double d0 = slope[k] * width - step, d1 = step - slope[k + 1] * width;
+    all.push_back(nodes[k]);
+    if (!(width > 0)) continue;
+    for (int i = 1; i < kLines; ++i) {
+      const double x = static_cast<double>(i) / kLines, y = 1 - x;
+      all.push_back({true, nodes[k].z + x * width, nodes[k].u + x * step + x * y * (y * d0 + x * d1),
+                     y * nodes[k].room + x * nodes[k + 1].room, 0});
+    }
+  }
+  all.push_back(nodes[n - 1]);
+  return all;
+}
+
+void CurvedReconstruction::add_steps(std::size_t low, std::size_t high) {
+  for (std::size_t i = low; i < high; ++i)
+    lines_.add_level(bed_.grid, snapshot_.piece[i], snapshot_.state[i], snapshot_.z[i + 1],
+                     line_tolerance(bed_));
+}
+
+/// Between the shocks or interfaces `low` and `high`.
+void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
+  const double bottom = snapshot_.z[low], top = snapshot_.z[high];
+  if (high - low < 3 || !(top > bottom)) return add_steps(low, high);
+  std::vector<Node> nodes(nodes_.begin() + static_cast<std::ptrdiff_t>(low) + 1,
+                          nodes_.begin() + static_cast<std::ptrdiff_t>(high));
+  double last = bottom;
+  for (Node& node : nodes) last = node.z = std::clamp(node.z, last, top);
+  const std::size_t n = nodes.size();
+  const std::vector<Node> down = end_of(low, bottom, nodes[0], nodes[1]),
+                          up = end_of(high - 1, top, nodes[n - 1], nodes[n - 2]);
+  std::vector<Node> all(down.rbegin(), down.rend());
+  const std::vector<Node> inner = joined(nodes);
+  all.insert(all.end(), inner.begin(), inner.end());
+  all.insert(all.end(), up.begin(), up.end());
+  const LevelCurves& grid = bed_.grid;
+  CompensatedSum<double> excess;
+  excess += snapshot_.below[low] - snapshot_.below[high];
+  excess += grid.amount(snapshot_.piece[low], snapshot_.state[low], bottom, all.front().z);
+  excess += grid.amount(snapshot_.piece[high - 1], snapshot_.state[high - 1], all.back().z, top);
+  double room = 0;
+  for (std::size_t k = 0; k + 1 < all.size(); ++k) {
+    const double width = all[k + 1].z - all[k].z;
+    excess += width * ((all[k].u + all[k + 1].u) / 2);
+    room += width * ((all[k].room + all[k + 1].room) / 2);
+  }
+  const double share = -excess.value() / room;
+  if (!(std::abs(share) <= 1)) return add_steps(low, high);
+  for (Node& node : all) {
+    const double u = node.u + share * node.room;
+    if (!(u >= 0 && u <= 1)) return add_steps(low, high);
+    node.u = u;
+  }
+  const double tolerance = line_tolerance(bed_);
+  lines_.add_level(grid, snapshot_.piece[low], snapshot_.state[low], all.front().z, tolerance);
+  for (std::size_t k = 0; k + 1 < all.size(); ++k) lines_.add(all[k + 1].z, all[k].u, all[k + 1].u);
+  lines_.add_level(grid, snapshot_.piece[high - 1], snapshot_.state[high - 1], top, tolerance);
+}
+
+}  // namespace shearfront

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/curved_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shearfront/track/curved_front.hpp"
+
+namespace shearfront {
+namespace {
+
+/// Capacities so near to each other are one level.
+constexpr double kSameLevel = 64 * 0x1p-53;
+
+double capacity_of(double rate, double u) { return rate * (4 * u * (1 - u)); }
+
+/// The flux, times 4, that the Riemann problem of l | r sends through a place of this rate.
+double sent(double rate, double l, double r) {
+  const double demand = l >= 0.5 ? capacity_of(rate, l) : rate,
+               supply = r <= 0.5 ? capacity_of(rate, r) : rate;
+  return std::min(demand, supply);
+}
+
+/// Largest 4 H that the start excites: H falls with time.
+double largest_capacity(const CurvedProblem& problem) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const std::vector<StartSegment>& start = problem.start;
+  double most = 0;
+  const double low = pieces.front().low, high = pieces.back().high;
+  if (!problem.ends.states[0].empty()) most = low;
+  if (!problem.ends.states[1].empty()) most = std::max(most, high);
+  if (problem.ends.is_periodic) most = std::min(low, high);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const StartSegment& s = start[i];
+    const RatePiece& piece = pieces[s.piece];
+    most = std::max({most, capacity_of(piece.rate(s.z_low), s.u), capacity_of(piece.rate(s.z_high), s.u)});
+    if (i + 1 == start.size()) break;
+    const double rate =
+        std::min(pieces[s.piece].rate(s.z_high), pieces[start[i + 1].piece].rate(start[i + 1].z_low));
+    most = std::max(most, sent(rate, s.u, start[i + 1].u));
+  }
+  return most;
+}
+
+struct Spacing {
+  double offset, ratio;  ///< dh = ratio (h + offset)
+};
+
+Spacing spacing_of(const std::vector<RatePiece>& pieces, double most, double resolution) {
+  double least_rate = INFINITY;
+  for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
+  const double offset = std::min(0.1 * most, least_rate);
+  // u changes by dh / (4 r q), q >= 1/2 where |u - 1/2| >= 1/4: there h <= 3 r / 4.
+  const double at_least_rate = 2 * least_rate / (0.75 * least_rate + offset),
+               at_others = 8.0 / 3 / (1 + offset / most);
+  return {offset, resolution * std::min(at_least_rate, at_others)};
+}
+
+double count(const Spacing& spacing, double most) {
+  return std::ceil(std::log1p(most / spacing.offset) / spacing.ratio);
+}
+
+struct Special {
+  double capacity;
+  std::size_t piece;
+  double value;   ///< of KnownTurn
+  bool is_known;  ///< whether it has one
+};
+
+std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const std::vector<StartSegment>& start = problem.start;
+  std::vector<Special> all;
+  const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
+    if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
+    add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
+  }
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const StartSegment& s = start[i];
+    const RatePiece& piece = pieces[s.piece];
+    if (piece.is_constant()) add(capacity_of(piece.low, s.u), s.piece, std::abs(2 * s.u - 1), true);
+    if (!piece.is_constant())
+      for (const double z : {s.z_low, s.z_high}) add(capacity_of(piece.rate(z), s.u), s.piece, z, s.u == 0.5);
+    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= 0.5 && start[i + 1].u >= 0.5)
+      add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
+  }
+  for (std::size_t end = 0; end < 2; ++end)
+    for (const double u : problem.ends.states[end])
+      add(capacity_of(end == 0 ? pieces.front().low : pieces.back().high, u), 0, 0, false);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
+  return all;
+}
+
+/// Capacities below which levels are spaced in u instead of H: where u stays near 1/2, or begins there.
+std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
+                                       const std::vector<StartSegment>& start, const Spacing& spacing,
+                                       double most) {
+  std::vector<double> all;
+  const auto add = [&](double capacity) {
+    if (capacity <= most * (1 + kSameLevel)) all.push_back(capacity);
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const RatePiece& piece = pieces[p];
+    constexpr double kFewLevels = 4;
+    const double least = std::min(piece.low, piece.high), rise = std::abs(piece.high - piece.low);
+    if (rise <= kFewLevels * spacing.ratio * (least + spacing.offset)) add(least);
+    if (p + 1 == pieces.size()) break;
+    const RatePiece& next = pieces[p + 1];
+    const bool is_throat =
+        (piece.high > next.low || piece.bend <= 0) && (piece.high < next.low || next.bend >= 0);
+    if (is_throat) add(std::min(piece.high, next.low));
+  }
+  for (std::size_t i = 0; i + 1 < start.size(); ++i)
+    if (start[i].u < 0.5 && start[i + 1].u > 0.5)
+      add(std::min(pieces[start[i].piece].rate(start[i].z_high),
+                   pieces[start[i + 1].piece].rate(start[i + 1].z_low)));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x <= kSameLevel * y; }),
+            all.end());
+  return all;
+}
+
+/// u = (1 - q) / 2 in steps of `resolution` below a capacity, as far as that is finer.
+constexpr double kRefinedRoot = 0.4;
+
+std::vector<double> ordinary_levels(const Spacing& spacing, double most, const std::vector<double>& refined,
+                                    double resolution) {
+  const double n = count(spacing, most);
+  std::vector<double> all;
+  for (double i = 1; i <= n; ++i)
+    all.push_back(spacing.offset * std::expm1(i / n * std::log1p(most / spacing.offset)));
+  all.back() = most;
+  if (refined.empty()) return all;
+  for (const double capacity : refined)
+    for (double q = 2 * resolution; q < kRefinedRoot; q += 2 * resolution)
+      all.push_back(capacity * (1 - q * q));
+  std::sort(all.begin(), all.end());
+  // None much nearer to the next than the finest spacing there.
+  std::vector<double> levels;
+  std::size_t first = 0;
+  for (const double h : all) {
+    double room = spacing.ratio * (h + spacing.offset);
+    while (first < refined.size() && refined[first] < h) ++first;
+    for (std::size_t k = first; k < refined.size(); ++k) {
+      const double root = std::sqrt(std::max(0.0, 1 - h / refined[k]));
+      if (root > kRefinedRoot) break;
+      room = std::min(room, 4 * resolution * refined[k] * std::max(root, resolution));
+    }
+    constexpr double kLeastShare = 0.6;
+    if (levels.empty() || h - levels.back() > kLeastShare * room) levels.push_back(h);
+  }
+  return levels;
+}
+
+/// Height at which int (1 - q_first) dz from `a` to it and int (1 - q_second) dz from it to `b` is `wanted`.
+double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, std::size_t second, double a,
+                   double b, double wanted) {
+  const LevelCurves::Place at_a = grid.place(p, first, a), at_b = grid.place(p, second, b);
+  const auto excess = [&](double z) -> Passage {
+    const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
+    return {grid.deficit(p, first, at_a, one) + grid.deficit(p, second, other, at_b) - wanted,
+            other.q - one.q};
+  };
+  const bool falls = first < second;  // then q_first > q_second
+  if (!(b > a)) return a;
+  return std::clamp(bracketed_root(falls ? b : a, falls ? a : b, a + (b - a) / 2, excess), a, b);
+}
+
+/// A state of a constant piece. Where rounding of its capacity makes it one of u = 1/2, a little of the next level at its top
+/// keeps the amount.
+StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& segment, State state) {
+  constexpr double kLeast = 1e-13;
+  const double u = grid.phi(segment.piece, state, segment.z_low), width = segment.z_high - segment.z_low;
+  const std::size_t level = grid.level(state);
+  if (level == 0 || std::abs(segment.u - u) < kLeast) return {state, state, {}};
+  const State next = segment.u > u ? grid.high(level - 1) : grid.low(level - 1);
+  const double share = (segment.u - u) / (grid.phi(segment.piece, next, segment.z_low) - u);
+  return {state, next, {{segment.z_high - share * width, state, next}}};
+}
+
+}  // namespace
+
+double count_levels(const CurvedProblem& problem, double resolution) {
+  const double most = largest_capacity(problem);
+  return most > 0 ? count(spacing_of(problem.pieces, most, resolution), most) : 0;
+}
+
+State outside_state(const LevelCurves& grid, std::size_t end, double u) {
+  const double rate = end == 0 ? grid.piece(0).low : grid.piece(grid.n_layers() - 1).high;
+  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(capacity_of(rate, u));
+  return u > 0.5 ? grid.high(level) : grid.low(level);
+}
+
+LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
+  LevelPlan plan{{0}, {true}, {}};
+  const double most = largest_capacity(problem);
+  if (!(most > 0)) return plan;
+  const std::vector<Special> specials = specials_of(problem, most);
+  const Spacing spacing = spacing_of(problem.pieces, most, resolution);
+  const std::vector<double> ordinary = ordinary_levels(
+      spacing, most, refined_capacities(problem.pieces, problem.start, spacing, most), resolution);
+  constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
+  // Of the nearest levels: where they are refined it is less.
+  const auto room_at = [&](double h) {
+    const auto it = std::upper_bound(ordinary.begin(), ordinary.end(), h);
+    const double above = it == ordinary.end() ? most * (1 + spacing.ratio) : *it;
+    const double below = it == ordinary.begin() ? 0 : *std::prev(it);
+    return kRoom * std::min(std::min(spacing.ratio, 0.5) * (h + spacing.offset), above - below);
+  };
+  auto next = ordinary.begin();
+  const auto add_up_to = [&](double end) {
+    for (; next != ordinary.end() && *next < end; ++next)
+      if (*next > plan.capacities.back() + (plan.is_plateau.back() ? room_at(*next) : 0)) {
+        plan.capacities.push_back(*next);
+        plan.is_plateau.push_back(false);
+      }
+  };
+  for (const Special& special : specials) {
+    const double h = special.capacity;
+    const bool is_known = plan.is_plateau.back() && plan.capacities.size() > 1 &&
+                          h <= plan.capacities.back() * (1 + kSameLevel);
+    if (!is_known) {
+      add_up_to(h - room_at(h));
+      plan.capacities.push_back(h);
+      plan.is_plateau.push_back(true);
+    }
+    if (special.is_known) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.value});
+  }
+  if (plan.capacities.back() < most * (1 - kSameLevel)) {
+    add_up_to(most * (1 - room_at(most) / most));
+    plan.capacities.push_back(most);
+    plan.is_plateau.push_back(true);
+  }
+  return plan;
+}
+
+StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment) {
+  const std::size_t p = segment.piece;
+  const RatePiece& piece = grid.piece(p);
+  const bool is_high = segment.u > 0.5 || (segment.u == 0.5 && !piece.is_constant() && !piece.falls());
+  const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
+  if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
+  const auto level_at = [&](double z) { return grid.cap(capacity_of(piece.rate(z), segment.u)); };
+  const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
+  if (from == to && piece.is_constant()) return constant_state(grid, segment, state(from));
+  if (from == to) return {state(from), state(to), {}};
+  StartSegmentLevels levels{state(from), state(to), {}};
+  const int s = from < to ? 1 : -1;
+  const auto next = [s](std::size_t k) { return s > 0 ? k + 1 : k - 1; };
+  if (segment.u == 0.5) {
+    // Between the turning heights of two levels the higher one, beyond its own: u = 1/2 there.
+    if (s > 0) levels.at_low = state(from + 1);
+    if (s < 0) levels.at_high = state(to + 1);
+    for (std::size_t k = next(from); k != to; k = next(k))
+      levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
+    return levels;
+  }
+  const double spread = 4 * segment.u * (1 - segment.u), lack = 2 * std::min(segment.u, 1 - segment.u);
+  double low_end = segment.z_low;
+  for (std::size_t k = from; k != to; k = next(k)) {
+    const std::size_t above = next(k);
+    double high_end = above == to ? segment.z_high : piece.height_of(grid.capacity(above) / spread);
+    high_end = std::clamp(high_end, low_end, segment.z_high);
+    levels.steps.push_back({step_height(grid, p, k, above, low_end, high_end, lack * (high_end - low_end)),
+                            state(k), state(above)});
+    low_end = high_end;
+  }
+  return levels;
+}
+
+}  // namespace shearfront

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "shearfront/track/level_curves.hpp"
+
+namespace shearfront {
+
+/// A part of one piece in which u(z, 0) is constant, bottom to top.
+struct StartSegment {
+  std::size_t piece;
+  double z_low, z_high;
+  double u;
+};
+
+/// What lies beyond the ends of a bed: walls, states in the course of time, or the other end.
+struct CurvedEnds {
+  std::array<std::vector<double>, 2>
+      states{};  ///< u beyond the bottom (0) and the top (1), in turn; none: a wall
+  std::array<std::vector<double>, 2> changes{};  ///< times between them
+  bool is_periodic = false;
+};
+
+/// All that is to be tracked but the levels.
+struct CurvedProblem {
+  std::vector<RatePiece> pieces;
+  std::vector<StartSegment> start;  ///< bottom to top
+  CurvedEnds ends{};
+};
+
+/// The initial state in levels: from one segment to the next a jump to be solved, inside a segment steps.
+struct StartSegmentLevels {
+  struct Step {
+    double z;
+    State below, above;
+  };
+  State at_low, at_high;    ///< at the ends of the segment
+  std::vector<Step> steps;  ///< between them, ascending
+};
+
+/// What the levels must know of a start: which capacities are met exactly, and where levels turn.
+struct LevelPlan {
+  std::vector<double> capacities;  ///< 4 H, ascending from 0
+  std::vector<bool> is_plateau;    ///< whether a level is that of an initial state or of the end of a piece
+  std::vector<KnownTurn> known;
+};
+
+/// Levels of which the steps of u are at most `resolution` where |u - 1/2| > 1/4; everything that can be excited by the start is
+/// a level to the bit: capacities at the ends of pieces and at initial jumps up across 1/2, fluxes at the ends of segments.
+/// Between them levels lie geometrically with an offset. Cost: O(levels + segments).
+[[nodiscard]] LevelPlan plan_levels(const CurvedProblem& problem, double resolution);
+/// How many levels these would be, about.
+[[nodiscard]] double count_levels(const CurvedProblem& problem, double resolution);
+
+/// The state u beyond an end, where the rate is that of the piece there: a level to the bit if it is one of the problem.
+[[nodiscard]] State outside_state(const LevelCurves& grid, std::size_t end, double u);
+
+/// A segment of constant u in levels. Where the rate varies it is no steady state: between the heights at which r u (1 - u) is
+/// a level there is one step, where it keeps the amount; u = 1/2 is a level beyond its turning height. Cost: O(levels crossed).
+[[nodiscard]] StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment);
+
+}  // namespace shearfront

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/curved_tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "shearfront/numeric/number_text.hpp"
+#include "shearfront/track/curved_field.hpp"
+#include "shearfront/track/curved_reconstruct.hpp"
+#include "shearfront/track/curved_record.hpp"
+#include "shearfront/track/tracker.hpp"
+
+namespace shearfront::track_detail {
+namespace {
+
+// A level takes a number per piece, and its fronts 128 bytes each.
+constexpr double kMostLevelEntries = 2e8;
+
+template <class Observer>
+class CurvedTracking final : public AnyTracking {
+ public:
+  CurvedTracking(const Scene<double>& scene, CurvedScene curved, const TrackOptions& options,
+                 Progress progress)
+      : bed_(make_bed(std::move(curved), options)),
+        scene_(std::make_shared<const Scene<double>>(scene)),
+        reconstruct_(options.reconstruct),
+        edges_(options.edges),
+        limits_{options.max_collisions, std::move(progress)},
+        tracker_(CurvedSystem<Observer>(bed_->grid, bed_->scene.problem, Observer{},
+                                        static_cast<std::size_t>(options.max_fronts)),
+                 changes_of(*bed_)) {}
+
+  [[nodiscard]] std::unique_ptr<AnyTracking> copy() const override {
+    return std::make_unique<CurvedTracking>(*this);
+  }
+  Status advance(double t) override {
+    if (tracker_.is_periodic() && !std::isfinite(t)) {
+      refused_ = "a periodic bed has no steady state; ask for a finite time";
+      return status_ = Status::unsupported;
+    }
+    return status_ = tracker_.advance_to(t, limits_);
+  }
+  [[nodiscard]] double time() const override { return tracker_.time(); }
+  [[nodiscard]] Profile<double> profile() const override {
+    return reconstruct_ == Reconstruction::linear ? lines() : *steps().profile();
+  }
+  [[nodiscard]] std::unique_ptr<Field> field(const Scene<double>& scene) const override {
+    if (reconstruct_ == Reconstruction::linear) return std::make_unique<ProfileField>(scene, lines());
+    return std::make_unique<CurvedField>(steps());
+  }
+  [[nodiscard]] std::vector<FrontSegment<double>> fronts() const override {
+    std::vector<FrontSegment<double>> segments;
+    if constexpr (Observer::kActive) {
+      const double tolerance = kPicture * (scene_->top() - scene_->bottom());
+      const auto add = [&](FrontSegment<double> segment) {
+        segment.phi_below = bed_->scene.phi_of(segment.phi_below);
+        segment.phi_above = bed_->scene.phi_of(segment.phi_above);
+        segments.push_back(segment);
+      };
+      for (const CurvedTrace& trace : tracker_.observer().traces())
+        add_segments(bed_->grid, trace, tolerance, add);
+      const auto& fronts = tracker_.system().fronts();
+      fronts.for_each([&](FrontIndex i, const CurvedNode& node) {
+        if (!fronts.is_boundary(i) && time() > node.t)
+          add_segments(bed_->grid, {node, time(), position_of(bed_->grid, node, time())}, tolerance, add);
+      });
+      sort_by_begin(segments);
+    }
+    SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its fronts");
+    return segments;
+  }
+  [[nodiscard]] std::vector<Collision> collisions() const override {
+    if constexpr (Observer::kActive) return tracker_.observer().events();
+    SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its history");
+    return {};
+  }
+  [[nodiscard]] std::optional<Timeline<double>> timeline() override {
+    if (!scene_->has_walls()) {
+      refused_ = "event times are those of a bed between walls";
+      status_ = Status::unsupported;
+      return std::nullopt;
+    }
+    status_ = tracker_.run_to_steady(limits_);
+    if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
+    Timeline<double> timeline;
+    timeline.mass = scene_->mass();
+    timeline.steady_height = scene_->steady_height();
+    const std::size_t n = bed_->grid.n_layers();
+    const auto first = [&](std::size_t k) {
+      const auto& waves = tracker_.system().waves(k);
+      return edges_ == FanEdges::characteristic ? waves.first_edge : waves.first;
+    };
+    timeline.t0 = first(0);
+    timeline.t1 = first(n);
+    if (tracker_.is_steady()) timeline.t_star = tracker_.last_collision();
+    for (std::size_t k = 1; k < n; ++k)
+      timeline.interfaces.push_back({bed_->grid.boundary(k), first(k), tracker_.last_wave(k)});
+    return timeline;
+  }
+  [[nodiscard]] Summary summary() const override {
+    Summary summary;
+    summary.status = status_;
+    summary.message = !refused_.empty() ? refused_ : message();
+    summary.collisions = tracker_.n_collisions();
+    summary.fronts_max = tracker_.n_fronts_max();
+    summary.levels = bed_->grid.n_levels() + 1;
+    summary.layers = bed_->grid.n_layers();
+    return summary;
+  }
+
+ private:
+  /// Largest distance in height of the segments of a picture from the curves, as a part of the bed.
+  static constexpr double kPicture = 1e-4;
+
+  [[nodiscard]] static std::shared_ptr<const CurvedBed> make_bed(CurvedScene curved,
+                                                                 const TrackOptions& options) {
+    LevelPlan plan = plan_levels(curved.problem, options.resolution);
+    return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), options.resolution);
+  }
+  [[nodiscard]] static std::vector<Ends<double>::Change> changes_of(const CurvedBed& bed) {
+    std::vector<Ends<double>::Change> changes;
+    const CurvedEnds& ends = bed.scene.problem.ends;
+    for (std::size_t end = 0; end < 2; ++end)
+      for (std::size_t i = 0; i < ends.changes[end].size(); ++i)
+        changes.push_back({ends.changes[end][i], end, outside_state(bed.grid, end, ends.states[end][i + 1])});
+    std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    return changes;
+  }
+  [[nodiscard]] CurvedField steps() const { return {bed_, snapshot_of(tracker_.system(), time())}; }
+  [[nodiscard]] Profile<double> lines() const {
+    const CurvedSnapshot snapshot = snapshot_of(tracker_.system(), time());
+    return CurvedReconstruction(*bed_, tracker_.system().fronts(), snapshot).profile();
+  }
+  [[nodiscard]] std::string message() const {
+    if (tracker_.has_too_many_fronts())
+      return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
+             " fronts, more than allowed; use a coarser resolution, or allow more, at 128 bytes each and as "
+             "much again while their list grows";
+    switch (status_) {
+      case Status::steady:
+        return "steady state reached";
+      case Status::budget_reached:
+        return "stopped at " + std::to_string(tracker_.n_collisions()) +
+               " collisions, the largest number allowed; allow more or use a coarser resolution";
+      case Status::interrupted:
+        return "interrupted after " + std::to_string(tracker_.n_collisions()) + " collisions";
+      default:
+        return tracker_.n_unreachable() > 0 ? "some fronts meet only after the largest representable time"
+                                            : "reached the last time";
+    }
+  }
+
+  std::shared_ptr<const CurvedBed> bed_;
+  std::shared_ptr<const Scene<double>> scene_;
+  Reconstruction reconstruct_;
+  FanEdges edges_;
+  RunLimits limits_;
+  Tracker<LevelCurves, Observer, CurvedSystem<Observer>> tracker_;
+  Status status_ = Status::ok;
+  std::string refused_;
+};
+
+}  // namespace
+
+bool wants_curves(const Scene<double>& scene, const TrackOptions& options) {
+  return options.grid == GridKind::levels && options.layers == 0 && curved_scene(scene).has_value();
+}
+
+std::string refusal_of_curves(const Scene<double>& scene, const TrackOptions& options) {
+  const std::optional<CurvedScene> curved = curved_scene(scene);
+  const double n = count_levels(curved->problem, options.resolution);
+  if (n * static_cast<double>(curved->problem.pieces.size()) > kMostLevelEntries)
+    return "the grid would need " + number_text(n) + " levels; use a coarser resolution";
+  return {};
+}
+
+std::unique_ptr<AnyTracking> track_curves(const Scene<double>& scene, const TrackOptions& options,
+                                          Progress progress) {
+  std::optional<CurvedScene> curved = curved_scene(scene);
+  if (options.fronts || options.history)
+    return std::make_unique<CurvedTracking<CurvedRecord>>(scene, std::move(*curved), options,
+                                                          std::move(progress));
+  return std::make_unique<CurvedTracking<NoObserver>>(scene, std::move(*curved), options,
+                                                      std::move(progress));
+}
+
+}  // namespace shearfront::track_detail

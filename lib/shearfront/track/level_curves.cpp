@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/track/level_curves.hpp"
+
+#include <utility>
+
+#include "shearfront/numeric/contract.hpp"
+
+namespace shearfront {
+namespace {
+
+// Below this q both functions are taken by their series: their terms cancel to third order.
+constexpr double kSmallRoot = 0.1;
+
+/// artanh q - q.
+double exponential_series(double q) {
+  const double x = q * q;
+  return q * x *
+         (1.0 / 3 + x * (1.0 / 5 + x * (1.0 / 7 + x * (1.0 / 9 + x * (1.0 / 11 + x * (1.0 / 13 + x / 15))))));
+}
+
+/// q - (1 - q^2) artanh q.
+double linear_series(double q) {
+  const double x = q * q;
+  return 2 * q * x *
+         (1.0 / 3 +
+          x * (1.0 / 15 + x * (1.0 / 35 + x * (1.0 / 63 + x * (1.0 / 99 + x * (1.0 / 143 + x / 195))))));
+}
+
+}  // namespace
+
+LevelCurves::LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capacities,
+                         const std::vector<KnownTurn>& known)
+    : pieces_(std::move(pieces)), h_(std::move(capacities)) {
+  SHEARFRONT_EXPECTS(!pieces_.empty() && !h_.empty() && h_.front() == 0, "pieces, and levels from 0 on");
+  for (const RatePiece& piece : pieces_) {
+    std::vector<double>& turning = turning_.emplace_back(h_.size(), 0.0);
+    for (std::size_t k = 1; k < h_.size(); ++k) {
+      if (piece.is_constant()) {
+        const double x = (piece.low - h_[k]) / piece.low;
+        turning[k] = x > 1e-14 ? std::sqrt(x) : 0;
+      } else {
+        turning[k] = piece.height_of(h_[k]);
+      }
+    }
+    cap_low_.push_back(cap(piece.low));
+    cap_high_.push_back(cap(piece.high));
+  }
+  for (const KnownTurn& turn : known) {
+    double& value = turning_[turn.piece][turn.level];
+    const bool is_capacity = pieces_[turn.piece].is_constant() && value == 0;
+    if (!is_capacity) value = turn.value;
+  }
+}
+
+double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a, const Place& b) {
+  if (a.q < kSmallRoot && b.q < kSmallRoot)
+    return (b.rate * linear_series(b.q) - a.rate * linear_series(a.q)) / piece.bend;
+  const double rise = piece.bend * (b.z - a.z);
+  const double delta = h * rise / (a.rate * b.rate * (a.q + b.q));
+  return (rise * (a.rate + b.rate - h) / (a.q * a.rate + b.q * b.rate) -
+          h * (std::log1p(delta / (1 + a.q)) +
+               0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate)))) /
+         piece.bend;
+}
+
+double LevelCurves::exponential_area(const RatePiece& piece, double h, const Place& a, const Place& b) {
+  if (a.q < kSmallRoot && b.q < kSmallRoot)
+    return (exponential_series(b.q) - exponential_series(a.q)) * (2 / piece.bend);
+  const double d = b.z - a.z;
+  const double delta = -(h / a.rate) * std::expm1(-piece.bend * d) / (a.q + b.q);
+  return d - (delta - std::log1p(delta / (1 + a.q))) * (2 / piece.bend);
+}
+
+double LevelCurves::area(std::size_t p, std::size_t level, Place a, Place b) const {
+  if (level == 0) return b.z - a.z;
+  const RatePiece& piece = pieces_[p];
+  if (piece.curve == RateCurve::constant) return a.q * (b.z - a.z);
+  if (!(a.q + b.q > 0)) return 0;
+  const double h = h_[level];
+  if (!(a.q > 0)) a = {turning_[p][level], h, 0};
+  if (!(b.q > 0)) b = {turning_[p][level], h, 0};
+  return piece.curve == RateCurve::linear ? linear_area(piece, h, a, b) : exponential_area(piece, h, a, b);
+}
+
+double LevelCurves::deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const {
+  if (level == 0) return 0;
+  const RatePiece& piece = pieces_[p];
+  const double d = b.z - a.z, h = h_[level];
+  if (piece.is_constant()) return h / a.rate / (1 + a.q) * d;
+  constexpr double kFarFromTurn = 0.5;  // elsewhere it is not small
+  if (a.q < kFarFromTurn || b.q < kFarFromTurn) return d - area(p, level, a, b);
+  if (piece.curve == RateCurve::exponential) {
+    const double delta = -(h / a.rate) * std::expm1(-piece.bend * d) / (a.q + b.q);
+    return (delta - std::log1p(delta / (1 + a.q))) * (2 / piece.bend);
+  }
+  const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
+  const double half_log = 0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate));
+  return h / piece.bend *
+         (rise * (1 - 1 / (1 + a.q) - 1 / (1 + b.q)) / (a.q * a.rate + b.q * b.rate) +
+          std::log1p(delta / (1 + a.q)) + half_log);
+}
+
+double LevelCurves::characteristic_time(std::size_t p, std::size_t level, double from, double to) const {
+  const RatePiece& piece = pieces_[p];
+  const Place a = place(p, level, std::min(from, to)), b = place(p, level, std::max(from, to));
+  const double d = b.z - a.z;
+  if (!(d > 0)) return 0;
+  if (piece.is_constant()) return d / (a.rate * a.q);
+  // q' = h r' / (2 q r^2): int dz / (r q) is 2 q / (h bend), and 2 artanh q / bend in a linear piece.
+  if (piece.curve == RateCurve::exponential)
+    return -2 * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
+  const double rise = piece.bend * d, delta = h_[level] * rise / (a.rate * b.rate * (a.q + b.q));
+  return (2 * std::log1p(delta / (1 + a.q)) +
+          (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate))) /
+         piece.bend;
+}
+
+}  // namespace shearfront

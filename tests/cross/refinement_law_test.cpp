@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that is printed with a promised order shows it, in random scenes of every kind, by every method of the list.
+// The kind of fault: an order shown for one smooth, monotone case and promised for all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "support/checked.hpp"
+#include "support/refinement.hpp"
+#include "support/refinement_scenes.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::Convergence;
+using support::Refinement;
+using support::SceneKind;
+using support::SceneMaker;
+
+constexpr int kLevels = 4;
+constexpr double kSlack = 2;
+
+/// One kind of scene by every method that takes it and promises an order.
+class RefinementLaw : public testing::TestWithParam<SceneKind> {
+ protected:
+  void check(int n_scenes) {
+    std::map<std::pair<std::string, std::string>, std::pair<double, int>> orders;  // sums and counts
+    for (const std::string& name : Method::names()) {
+      const Guarantees promised = Method(name).guarantees();
+      if (promised.exact || promised.order_M == 0) continue;
+      for (int number = 0; number < n_scenes; ++number) {
+        const std::uint64_t seed = support::seed_of(9100 + static_cast<std::uint64_t>(number));
+        SCOPED_TRACE(std::string(GetParam().name) + " by " + name + ", seed " + std::to_string(seed));
+        SceneMaker make(seed);
+        const SceneSpec<double> spec = GetParam().draw(make);
+        ASSERT_TRUE(find_complaints(spec).empty());
+        const Scene<double> scene(spec);
+        if (!support::refined(name, 0).refusal(scene).empty()) continue;
+        Refinement refinement(scene, name, {make.uniform(0.1, 0.6), make.uniform(0.7, 2)});
+        const auto few = refinement.errors(kLevels);
+        ASSERT_EQ(refinement.trouble(), "");
+        for (const auto& [what, convergence] : few) {
+          const bool is_slow = !convergence.shows_order(kSlack);
+          const Convergence all = is_slow ? refinement.errors(kLevels + 2)[what] : convergence;
+          if (all.errors.front() > all.rounding) {  // else right by chance: says nothing about orders
+            auto& sum = orders[{name, what.substr(0, what.find('('))}];
+            sum.first += all.observed();
+            ++sum.second;
+          }
+          checked_.count();
+          EXPECT_TRUE(all.shows_order(kSlack) || (is_slow && all.comes_to_order()))
+              << what << ": " << text(all);
+        }
+      }
+    }
+    for (const auto& [key, sum] : orders)
+      std::printf("| %s | %s | %s | %.2f | %d |\n", std::string(GetParam().name).c_str(), key.first.c_str(),
+                  key.second.c_str(), sum.first / sum.second, sum.second);
+  }
+
+ private:
+  static std::string text(const Convergence& convergence) {
+    std::string all = "order " + std::to_string(convergence.order) + " promised, errors";
+    for (const double error : convergence.errors) all += " " + number_text(error, 3);
+    return all;
+  }
+  support::Checked checked_;
+};
+
+std::string kind_name(const testing::TestParamInfo<SceneKind>& info) {
+  std::string name;
+  for (const char c : info.param.name)
+    if (c != ',') name += c == ' ' ? '_' : c;
+  return name;
+}
+
+TEST_P(RefinementLaw, EveryOrderIsShown) { check(1); }
+INSTANTIATE_TEST_SUITE_P(Kinds, RefinementLaw, testing::ValuesIn(support::kSceneKinds), kind_name);
+
+using RefinementLawOfMany = RefinementLaw;
+TEST_P(RefinementLawOfMany, EveryOrderIsShown) { check(12); }
+INSTANTIATE_TEST_SUITE_P(Slow, RefinementLawOfMany, testing::ValuesIn(support::kSceneKinds), kind_name);
+
+}  // namespace
+}  // namespace shearfront

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "support/random_scene.hpp"
+
+/// Random beds whose rate varies smoothly in pieces: tables with throats, humps, flats and jumps, exponentials falling and rising,
+/// chutes with a kink, one linear piece; initial states with pure parts, 1/2, and whatever lies between.
+namespace shearfront::support {
+
+inline DepthFunction<double> random_curved_rate(SceneMaker& maker) {
+  const auto value = [&] { return std::exp(maker.uniform(std::log(0.2), std::log(4.0))); };
+  switch (maker.integer(0, 4)) {
+    case 0:
+      return Exponential<double>{maker.uniform(0.5, 4), maker.uniform(0.15, 2)};
+    case 1:
+      return Chute<double>{maker.uniform(0.3, 2), maker.uniform(0.2, 2), maker.uniform(-0.3, 1.3)};
+    case 2:
+      return Table<double>{{0, 1}, {value(), value()}};
+    default:
+      break;
+  }
+  Table<double> table{{0}, {value()}};
+  const int inner = maker.integer(1, 5);
+  for (const double z : maker.heights(inner, 0, 1)) {
+    const bool is_flat = maker.integer(0, 4) == 0;
+    table.z.push_back(z);
+    table.values.push_back(is_flat ? table.values.back() : value());
+    if (maker.integer(0, 5) != 0) continue;
+    table.z.push_back(z);  // a jump
+    table.values.push_back(value());
+  }
+  table.z.push_back(1);
+  table.values.push_back(value());
+  return table;
+}
+
+inline SceneSpec<double> random_curved_spec(std::uint64_t seed) {
+  SceneMaker maker(seed);
+  SceneSpec<double> spec;
+  spec.shear_rate = random_curved_rate(maker);
+  spec.scale = std::exp(maker.uniform(-1, 1));
+  if (maker.integer(0, 3) == 0) {
+    spec.initial_breaks = maker.heights(1, 0, 1);
+    spec.initial_values = {0, 1};
+    return spec;
+  }
+  const int jumps = maker.integer(0, 4);
+  spec.initial_breaks = maker.heights(jumps, 0, 1);
+  if (const auto* table = std::get_if<Table<double>>(&spec.shear_rate); table && maker.integer(0, 4) == 0)
+    for (double& z : spec.initial_breaks)  // on a kink
+      if (table->z.size() > 2 && spec.initial_breaks.size() == 1) z = table->z[1];
+  for (int i = 0; i <= jumps; ++i) {
+    const int kind = maker.integer(0, 5);
+    spec.initial_values.push_back(kind <= 1 ? kind : kind == 2 ? 0.5 : maker.uniform(0, 1));
+  }
+  return spec;
+}
+
+/// The same bed upside down, with large and small grains exchanged. Its rates are those of a table through the same values.
+inline SceneSpec<double> turned_over(const SceneSpec<double>& spec) {
+  SceneSpec<double> turned = spec;
+  turned.initial_breaks.clear();
+  turned.initial_values.clear();
+  for (std::size_t i = spec.initial_breaks.size(); i-- > 0;)
+    turned.initial_breaks.push_back(1 - spec.initial_breaks[i]);
+  for (std::size_t i = spec.initial_values.size(); i-- > 0;)
+    turned.initial_values.push_back(1 - spec.initial_values[i]);
+  if (auto* chute = std::get_if<Chute<double>>(&turned.shear_rate)) chute->centre = 1 - chute->centre;
+  if (const auto* falling = std::get_if<Exponential<double>>(&spec.shear_rate))
+    turned.shear_rate = Chute<double>{falling->value(1), falling->decay, 0};  // rising from the bottom
+  if (auto* table = std::get_if<Table<double>>(&turned.shear_rate)) {
+    const auto& old = std::get<Table<double>>(spec.shear_rate);
+    for (std::size_t i = 0; i < old.z.size(); ++i) {
+      table->z[i] = 1 - old.z[old.z.size() - 1 - i];
+      table->values[i] = old.values[old.z.size() - 1 - i];
+    }
+  }
+  return turned;
+}
+
+}  // namespace shearfront::support
