@@ -30,9 +30,8 @@ class RefinementLaw : public testing::TestWithParam<SceneKind> {
  protected:
   void check(int n_scenes) {
     std::map<std::pair<std::string, std::string>, std::pair<double, int>> orders;  // sums and counts
-    for (const std::string& name : Method::names()) {
-      const Guarantees promised = Method(name).guarantees();
-      if (promised.exact || promised.order_M == 0) continue;
+    for (const support::RefinedMethod& method : support::refined_methods()) {
+      const std::string name = method.name();
       for (int number = 0; number < n_scenes; ++number) {
         const std::uint64_t seed = support::seed_of(9100 + static_cast<std::uint64_t>(number));
         SCOPED_TRACE(std::string(GetParam().name) + " by " + name + ", seed " + std::to_string(seed));
@@ -40,8 +39,9 @@ class RefinementLaw : public testing::TestWithParam<SceneKind> {
         const SceneSpec<double> spec = GetParam().draw(make);
         ASSERT_TRUE(find_complaints(spec).empty());
         const Scene<double> scene(spec);
-        if (!support::refined(name, 0).refusal(scene).empty()) continue;
-        Refinement refinement(scene, name, {make.uniform(0.1, 0.6), make.uniform(0.7, 2)});
+        if (!method.at(0).refusal(scene).empty()) continue;
+        if (support::PromisedOrders(method, scene).M == 0) continue;
+        Refinement refinement(scene, method, {make.uniform(0.1, 0.6), make.uniform(0.7, 2)}, number % 2 == 1);
         const auto few = refinement.errors(kLevels);
         ASSERT_EQ(refinement.trouble(), "");
         for (const auto& [what, convergence] : few) {

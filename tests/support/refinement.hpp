@@ -21,15 +21,56 @@
 /// One scene by one method at finer and finer resolutions: the error of everything that is printed.
 namespace shearfront::support {
 
-/// What a method is asked for, and how it is refined: every option that stands for a resolution, halved `level` times.
-/// The tolerance of time steps is proportional to the error they make, so it falls with the square.
-[[nodiscard]] inline Method refined(const std::string& name, int level, OptionNumbers more = {}) {
-  const double fine = std::exp2(level);
-  OptionNumbers numbers{
-      {"resolution", 0.08 / fine}, {"cells", 50 * fine}, {"tolerance", 4e-3 / (fine * fine)}};
-  numbers.merge(more);
-  return method_of(name, numbers);
+/// A method of the list, or one of its options that promises something else: what `compare` calls front-tracking:linear.
+struct RefinedMethod {
+  std::string solver;
+  bool is_linear = false;
+
+  [[nodiscard]] std::string name() const { return solver + (is_linear ? ":linear" : ""); }
+  /// Every option that stands for a resolution halved `level` times. The tolerance of time steps is proportional to the
+  /// error they make, so it falls with the square.
+  [[nodiscard]] Method at(int level) const {
+    const double fine = std::exp2(level);
+    OptionNumbers numbers{
+        {"resolution", 0.08 / fine}, {"cells", 50 * fine}, {"tolerance", 4e-3 / (fine * fine)}};
+    if (solver == Method().name()) numbers = {{"layers", 8 * fine}};  // of beds that it approximates
+    if (is_linear) numbers["reconstruct"] = 1;
+    return method_of(solver, numbers);
+  }
+};
+
+/// All of the list, with the options that change an order.
+[[nodiscard]] inline std::vector<RefinedMethod> refined_methods() {
+  std::vector<RefinedMethod> all;
+  for (const std::string& name : Method::names()) {
+    all.push_back({name});
+    if (Method(name).has_option("reconstruct")) all.push_back({name, true});
+  }
+  return all;
 }
+
+/// What is promised for a scene; 0 where nothing is, or all is exact.
+struct PromisedOrders {
+  double phi = 0, M = 0, first_wave = 0, last_wave = 0;
+
+  PromisedOrders(const RefinedMethod& method, const Scene<double>& scene) {
+    const Guarantees promised = Method(method.solver).guarantees();
+    phi = promised.order_phi;
+    M = Method(method.solver).order_M(scene);
+    const bool is_approximated = promised.exact && !promised.diffusion && Method().refusal(scene).empty() &&
+                                 !ExactSolution<double>(scene).is_exact();
+    if (is_approximated) phi = 1, M = 1.5;  // pieces and layers, where paths turn
+    first_wave = phi;
+    last_wave = M;
+    // Exact for fans in their first layer, of second order in others.
+    if (method.is_linear && scene.is_layered()) phi = 2;
+    // Last waves are shocks, as exact as M, where the flux bends one way; else edges of fans, as exact as first waves.
+    const bool bends_both_ways =
+        std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
+                    [](const Flux<double>& flux) { return flux.curvature() == Curvature::mixed; });
+    if (bends_both_ways) last_wave = std::min(first_wave, M);
+  }
+};
 
 /// Errors of one quantity, level by level.
 struct Convergence {
@@ -69,13 +110,13 @@ struct Convergence {
 /// change to the next level.
 class Refinement {
  public:
-  Refinement(const Scene<double>& scene, std::string name, std::vector<double> times)
+  /// `is_of_mixing`: integrals are those of the entropy, not of the height of the bed.
+  Refinement(const Scene<double>& scene, RefinedMethod method, std::vector<double> times, bool is_of_mixing)
       : scene_(scene),
-        name_(std::move(name)),
+        method_(std::move(method)),
         times_(std::move(times)),
-        promised_(Method(name_).guarantees()),
-        order_M_(Method(name_).order_M(scene)),
-        order_last_(order_of_last_waves()) {
+        is_of_mixing_(is_of_mixing),
+        orders_(method_, scene) {
     for (int i = 0; i <= kHeights; ++i)
       heights_.push_back(i == kHeights ? scene.top()
                                        : scene.bottom() + (scene.top() - scene.bottom()) * i / kHeights);
@@ -95,7 +136,7 @@ class Refinement {
   /// Errors of all quantities over `levels` levels; empty if a run does not end (trouble()).
   [[nodiscard]] std::map<std::string, Convergence> errors(int levels) {
     while (static_cast<int>(answers_.size()) < levels + (has_exact() ? 0 : 1)) {
-      answers_.push_back(answer(refined(name_, static_cast<int>(answers_.size()))));
+      answers_.push_back(answer(method_.at(static_cast<int>(answers_.size()))));
       trouble_ = answers_.back().summary.usable() ? "" : answers_.back().summary.message;
       if (!trouble_.empty()) return {};
     }
@@ -111,7 +152,8 @@ class Refinement {
     SolverRequest request{times_, heights_};
     request.timeline = method.guarantees().has_timeline && has_walls();
     request.profiles = method.guarantees().has_profiles;
-    if (BedHeight::refusal(scene_).empty()) request.integrand = BedHeight(scene_).integrand();
+    if (BedHeight::refusal(scene_).empty())
+      request.integrand = is_of_mixing_ ? entropy_function() : BedHeight(scene_).integrand();
     return solve(scene_, method, request);
   }
   [[nodiscard]] bool has_walls() const {
@@ -134,13 +176,13 @@ class Refinement {
       double largest = 0;
       for (std::size_t j = 0; j < heights_.size(); ++j)
         largest = std::max(largest, std::abs(coarse.M(i, j) - fine.M(i, j)));
-      note("M" + when, order_M_, height * states, largest);
-      if (promised_.has_profiles)
-        note("phi" + when, promised_.order_phi, height * states,
+      note("M" + when, orders_.M, height * states, largest);
+      if (!coarse.profiles.empty())
+        note("phi" + when, orders_.phi, height * states,
              has_exact() ? errors_against(*exact_, coarse.profiles[i], times_[i]).l1
                          : l1_distance(coarse.profiles[i], fine.profiles[i]));
       if (!coarse.integrals.empty())
-        note("bed height" + when, promised_.order_phi, height,
+        note((is_of_mixing_ ? "mixing" : "bed height") + when, std::min(1.0, orders_.phi), height,
              std::abs(coarse.integrals[i] - fine.integrals[i]));
     }
     if (coarse.timeline && fine.timeline) add_events(*coarse.timeline, *fine.timeline, note);
@@ -156,31 +198,23 @@ class Refinement {
         note(what, order, 1 + *b, std::abs(*a - *b));
       }
     };
-    time("t_0", promised_.order_phi, coarse.t0, fine.t0);
-    time("t_1", promised_.order_phi, coarse.t1, fine.t1);
-    time("t*", order_last_, coarse.t_star, fine.t_star);
+    time("t_0", orders_.first_wave, coarse.t0, fine.t0);
+    time("t_1", orders_.first_wave, coarse.t1, fine.t1);
+    time("t*", orders_.last_wave, coarse.t_star, fine.t_star);
     for (std::size_t i = 0; i < std::min(coarse.interfaces.size(), fine.interfaces.size()); ++i) {
       const std::string number = "(" + std::to_string(i) + ")";
-      time(("t_c" + number).c_str(), promised_.order_phi, coarse.interfaces[i].first,
+      time(("t_c" + number).c_str(), orders_.first_wave, coarse.interfaces[i].first,
            fine.interfaces[i].first);
-      time(("t^_c" + number).c_str(), order_last_, coarse.interfaces[i].last, fine.interfaces[i].last);
+      time(("t^_c" + number).c_str(), orders_.last_wave, coarse.interfaces[i].last, fine.interfaces[i].last);
     }
-  }
-  /// Last waves are shocks, as exact as M, where the flux bends one way; else edges of fans, as exact as first waves.
-  [[nodiscard]] double order_of_last_waves() const {
-    const auto& fluxes = scene_.fluxes();
-    const bool bends_both_ways = std::any_of(fluxes.begin(), fluxes.end(), [](const Flux<double>& flux) {
-      return flux.curvature() == Curvature::mixed;
-    });
-    return bends_both_ways ? std::min(promised_.order_phi, order_M_) : order_M_;
   }
   /// The resolution of the first level, in the range of the states or the height of the bed.
   [[nodiscard]] double first_step() const {
     double step = 1;
-    refined(name_, 0).visit_options([&](const OptionInfo& info, const auto& value) {
+    method_.at(0).visit_options([&](const OptionInfo& info, const auto& value) {
       if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
         if (info.name == "resolution") step = static_cast<double>(value);
-        if (info.name == "cells") step = 1 / static_cast<double>(value);
+        if (info.name == "cells" || info.name == "layers") step = 1 / static_cast<double>(value);
       }
     });
     return step;
@@ -192,10 +226,11 @@ class Refinement {
   }
 
   const Scene<double>& scene_;
-  std::string name_, trouble_;
+  RefinedMethod method_;
+  std::string trouble_;
   std::vector<double> times_, heights_;
-  Guarantees promised_;
-  double order_M_, order_last_;
+  bool is_of_mixing_;
+  PromisedOrders orders_;
   std::unique_ptr<ExactSolution<double>> exact_;
   SolverResult exact_answer_;
   std::vector<SolverResult> answers_;

@@ -94,6 +94,11 @@ inline SceneSpec<double> any_flux(SceneMaker& make) {
   set_states(make, spec);
   return spec;
 }
+inline SceneSpec<double> any_flux_in_a_table(SceneMaker& make) {
+  SceneSpec<double> spec = any_flux(make);
+  spec.shear_rate = table(make, 4, 0.5, 2);
+  return spec;
+}
 inline SceneSpec<double> two_fluxes(SceneMaker& make) {
   SceneSpec<double> spec;
   const auto shape = static_cast<FluxShape>(make.integer(0, 3));
@@ -192,6 +197,7 @@ inline const std::vector<SceneKind> kSceneKinds{
     {"exponential", kinds::exponential},
     {"chute", kinds::chute},
     {"any flux", kinds::any_flux},
+    {"any flux in a table", kinds::any_flux_in_a_table},
     {"two fluxes", kinds::two_fluxes},
     {"jumps of everything", kinds::jumps_of_everything},
     {"tables of everything", kinds::tables_of_everything},

@@ -102,15 +102,23 @@ class FrontSystem {
   using Node = FrontNode<Scalar>;
   void schedule(FrontIndex i) { agenda_.schedule(*grid_, fronts_, i, now_); }
 
-  /// Fronts that leave the jumps of the initial state; those of interfaces are fewer than the slack of a
-  /// vector. No further than just beyond `most`.
+  /// Fronts of the initial state, but those that leave the ends of the bed. No further than just beyond `most`.
   [[nodiscard]] static std::size_t count_fronts(const Grid& grid, const std::vector<Piece<Scalar>>& pieces,
                                                 std::size_t most) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i + 1 < pieces.size() && count <= most; ++i)
-      if (pieces[i].layer == pieces[i + 1].layer)
-        solve_in_layer(grid, pieces[i].layer, pieces[i].state, pieces[i + 1].state,
-                       [&](State, State) { ++count; });
+    const auto count_in_layer = [&](std::size_t layer, State l, State r) {
+      solve_in_layer(grid, layer, l, r, [&](State, State) { ++count; });
+    };
+    for (std::size_t i = 0; i + 1 < pieces.size() && count <= most; ++i) {
+      const Piece<Scalar>&below = pieces[i], &above = pieces[i + 1];
+      if (below.layer == above.layer) {
+        count_in_layer(below.layer, below.state, above.state);
+      } else {
+        const StatePair at_rest = solve_interface(grid, below.layer, below.state, above.state);
+        count_in_layer(below.layer, below.state, at_rest.below);
+        count_in_layer(above.layer, at_rest.above, above.state);
+      }
+    }
     return count;
   }
 
