@@ -77,11 +77,6 @@ class SlopedGradient {
   static constexpr bool kKnowsPieces = std::is_same_v<Calculus, ParabolaCalculus<Scalar>>;
 
   [[nodiscard]] Scalar at(std::size_t k, const Scalar& z) const { return pieces_.rate(k, z); }
-  /// Where a state of 1/2 starts, dT is divided by q and multiplied by it in the end: half of the digits are kept.
-  [[nodiscard]] static Scalar least_q() {
-    using std::sqrt;
-    return sqrt(unit_roundoff<Scalar>());
-  }
   /// Derivatives of the rate at z by the rates at both ends of its piece, which has the rate `rate` there.
   struct EndParts {
     Scalar low, high;
