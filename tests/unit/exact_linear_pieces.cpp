@@ -371,6 +371,40 @@ TEST(LinearPieces, HaveDerivativesAtASourceInAFlatPiece) {
 }
 
 /// Constant on both sides of its jumps, a table is a stack of layers: two engines, one solution.
+/// dT/dh is infinite where such a path starts.
+TEST(LinearPieces, HaveDerivativesWhereAStateOfOneHalfLeavesItsPiece) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Table<double>{{0, 0.5, 1}, {1, 2, 2.2}};
+  spec.initial_values = {0.5};
+  const Scene<double> scene(spec);
+  const ExactSolution<double> exact(scene);
+  const std::vector<Entry> all = entries(spec);
+  int n_checked = 0;
+  for (const double z : {0.51, 0.52, 0.53})
+    for (const double t : {0.2, 0.25, 0.3}) {
+      const auto path = exact.path(z, t);
+      if (path.kind != exact::PathKind::constant || !(path.foot < 0.5)) continue;
+      const auto at = Derivatives<double>(exact).at(z, t);
+      for (std::size_t e = 0; e < all.size(); ++e) {
+        const bool is_end = all[e].field == "shear_rate.z" && all[e].index != 1;
+        if (is_end || !derivative_refusal(scene, all[e]).empty()) continue;
+        constexpr double kStep = 1e-6;
+        double M[2], phi[2];
+        for (const int side : {0, 1}) {
+          SceneSpec<double> moved = spec;
+          *entry_places(moved)[e] += side == 0 ? -kStep : kStep;
+          const ExactSolution<double> other{Scene<double>(moved)};
+          M[side] = other.M(z, t), phi[side] = other.phi(z, t);
+        }
+        EXPECT_NEAR(at.M[e], (M[1] - M[0]) / (2 * kStep), 1e-7) << all[e].name() << ' ' << z << ' ' << t;
+        EXPECT_NEAR(at.phi[e], (phi[1] - phi[0]) / (2 * kStep), 1e-5)
+            << all[e].name() << ' ' << z << ' ' << t;
+        ++n_checked;
+      }
+    }
+  EXPECT_GT(n_checked, 10);
+}
+
 TEST(LinearPieces, ATableOfStepsIsAStackOfLayers) {
   const ExactSolution<double> table{
       Scene<double>(scene_of({{0, 0.25, 0.25, 0.625, 0.625, 1}, {2, 2, 0.5, 0.5, 1, 1}}, {0.5}, {0.2, 0.9}))};

@@ -43,10 +43,12 @@ class LawCalculus {
   }
   /// G of a state, |dG/dp| and the side it is on.
   [[nodiscard]] Scalar height(std::size_t k, const Scalar& p0) const { return fluxes_.flux(k).height_of(p0); }
-  [[nodiscard]] Scalar height_slope(std::size_t k, const Scalar& p0) const {
+  [[nodiscard]] Scalar height_slope(std::size_t k, const Scalar& p0, bool is_set_up) const {
+    using std::sqrt;
     const Scalar& peak = fluxes_.flux(k).peak();
-    const bool is_up = p0 > peak;
-    const Scalar by = fluxes_.flux(k).slope(is_up ? Scalar(p0 - peak) : Scalar(peak - p0), is_up);
+    const bool is_up = p0 == peak ? is_set_up : p0 > peak;
+    const Scalar by = std::max(Scalar(sqrt(unit_roundoff<Scalar>())),
+                               fluxes_.flux(k).slope(is_up ? Scalar(p0 - peak) : Scalar(peak - p0), is_up));
     return is_up ? Scalar(-by) : by;
   }
   /// Of a pure state by itself from piece to piece.

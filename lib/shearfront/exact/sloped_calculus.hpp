@@ -116,8 +116,10 @@ class ParabolaCalculus {
   [[nodiscard]] static Scalar height(std::size_t, const Scalar& p0) {
     return Scalar(4) * p0 * (Scalar(1) - p0);
   }
-  [[nodiscard]] static Scalar height_slope(std::size_t, const Scalar& p0) {
-    return Scalar(4) * (Scalar(1) - Scalar(2) * p0);
+  /// dG/dp, no less than what its speed is taken for at the peak.
+  [[nodiscard]] static Scalar height_slope(std::size_t, const Scalar& p0, bool is_up) {
+    const Scalar lean = Scalar(1) - Scalar(2) * p0, size = lean < 0 ? Scalar(-lean) : lean;
+    return Scalar(4) * (size < tiny() ? (is_up ? Scalar(-tiny()) : tiny()) : lean);
   }
   [[nodiscard]] static Scalar pure_ratio(std::size_t, std::size_t, bool) { return Scalar(1); }
   [[nodiscard]] static Scalar at_source(std::size_t) { return Scalar(-0.5); }

@@ -216,7 +216,7 @@ class SlopedGradient {
     for (Pair& pair : out_.pieces) pair.phi *= turn;
     for (Pair& pair : out_.boundaries) pair.phi *= turn;
     add_at(start_, path_.foot, Scalar(0), by_h * G / all);
-    out_.phi_state = by_h * r * calculus_.height_slope(start_, p0) / all;
+    out_.phi_state = by_h * r * calculus_.height_slope(start_, p0, is_set_up_) / all;
     out_.phi_log_scale = -turn * t_;
     add_at(end_, z_, Scalar(0), phi_by_rate());
   }
@@ -237,8 +237,8 @@ class SlopedGradient {
       number(end_, false).phi -= unit * G / width;
       return;
     }
-    const Scalar slope = calculus_.height_slope(end_, path_.p), all = one / (one - unit * bend * r * slope),
-                 by_rate = unit * bend * G * all;
+    const Scalar slope = calculus_.height_slope(end_, path_.p, path_.upward),
+                 all = one / (one - unit * bend * r * slope), by_rate = unit * bend * G * all;
     out_.phi_state = all;
     out_.phi_log_scale = by_rate * r;
     add_at(end_, z_, Scalar(0), by_rate);
