@@ -23,7 +23,7 @@ using support::SceneMaker;
 
 /// Calls check(scene) for scenes of every kind, one in five with diffusion.
 template <class Check>
-void for_scenes(std::uint64_t seed, int n, Check&& check) {
+void for_beds(std::uint64_t seed, int n, Check&& check) {
   SceneMaker maker(support::seed_of(seed));
   for (int number = 0; number < n;) {
     SceneSpec<double> spec = support::any_scene(maker, 2);
@@ -59,7 +59,7 @@ TEST(Refusals, ASolverRefusesASceneOrSolvesIt) {
     checked.expect(std::string(S::kName) + " solves");
     checked.expect(std::string(S::kName) + " runs");
   });
-  for_scenes(7501, 600, [&](const Scene<double>& scene) {
+  for_beds(7501, 600, [&](const Scene<double>& scene) {
     checked.count();
     SolverList::for_each([&]<class S>() {
       const std::string name(S::kName);
@@ -109,7 +109,7 @@ void expect_honest_refusals(const Scene<double>& scene, support::Checked& checke
 
 TEST(Refusals, NameExactlyTheMethodsThatSolveTheScene) {
   support::Checked checked({"others", "no method"});
-  for_scenes(7502, 600, [&](const Scene<double>& scene) { expect_honest_refusals(scene, checked); });
+  for_beds(7502, 600, [&](const Scene<double>& scene) { expect_honest_refusals(scene, checked); });
 }
 
 // A flux that does not vanish at the ends of its range between layers: no engine knows what happens there.

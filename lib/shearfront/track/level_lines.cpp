@@ -35,7 +35,7 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
     }
     ends.pop_back();
     if (!(width > 0)) continue;
-    const double mean = grid.amount(piece, state, low.z, high.z) / width;
+    const double mean = std::clamp(grid.amount(piece, state, low.z, high.z) / width, 0.0, 1.0);
     double shift = mean - (low.u + high.u) / 2;
     const double least = std::min(low.u, high.u) + shift, most = std::max(low.u, high.u) + shift;
     if (least >= 0 && most <= 1)

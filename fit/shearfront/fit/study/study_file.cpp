@@ -226,16 +226,16 @@ class StudyReader {
     } else {
       const std::size_t open = name.find('(');
       const std::string event = name.substr(0, open);
-      const auto i = open == std::string::npos ? std::optional<unsigned long long>(1)
-                     : name.ends_with(')')     ? parse_count(name.substr(open + 1, name.size() - open - 2))
-                                               : std::nullopt;
-      if ((event != "t_c" && event != "t^_c") || !i || *i < 1) {
+      unsigned long long i = 1;
+      if (open != std::string::npos)
+        i = name.ends_with(')') ? parse_count(name.substr(open + 1, name.size() - open - 2)).value_or(0) : 0;
+      if ((event != "t_c" && event != "t^_c") || i < 1) {
         if (!name.empty())
           table.add(*table.node("events"), table.path("events"), "must be of: t_0, t_1, t*, t_c(1), t^_c(1)");
         return;
       }
       output.kind = event == "t_c" ? Kind::first : Kind::last;
-      output.interface = static_cast<std::size_t>(*i - 1);
+      output.interface = static_cast<std::size_t>(i - 1);
     }
     spec_.outputs.push_back(std::move(output));
   }
