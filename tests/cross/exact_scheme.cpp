@@ -96,7 +96,7 @@ TEST(ExactAgainstScheme, Chutes) {
   }
 }
 
-void check_random_scenes(std::uint64_t first, std::uint64_t count) {
+void scheme_of_random_scenes(std::uint64_t first, std::uint64_t count) {
   support::Checked falls;
   for (std::uint64_t n = first; n < first + count; ++n) {
     const std::uint64_t seed = support::seed_of(n);
@@ -109,8 +109,8 @@ void check_random_scenes(std::uint64_t first, std::uint64_t count) {
   }
 }
 
-TEST(ExactAgainstScheme, RandomScenes) { check_random_scenes(1, 12); }
-TEST(SlowExactAgainstScheme, ManyRandomScenes) { check_random_scenes(100, 100); }
+TEST(ExactAgainstScheme, RandomScenes) { scheme_of_random_scenes(1, 12); }
+TEST(SlowExactAgainstScheme, ManyRandomScenes) { scheme_of_random_scenes(100, 100); }
 
 }  // namespace
 }  // namespace shearfront

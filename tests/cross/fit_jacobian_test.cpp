@@ -82,7 +82,7 @@ void expect_jacobian(const SceneSpec<double>& spec, SceneMaker& make, const std:
   }
 }
 
-void check_random_scenes(std::uint64_t first, std::uint64_t count) {
+void jacobians_of_random_scenes(std::uint64_t first, std::uint64_t count) {
   int compared = 0;
   for (std::uint64_t n = first; n < first + count; ++n) {
     const std::uint64_t seed = support::seed_of(n);
@@ -94,8 +94,8 @@ void check_random_scenes(std::uint64_t first, std::uint64_t count) {
   EXPECT_GT(compared, 20 * static_cast<int>(count));  // the test must not skip its way through
 }
 
-TEST(FitJacobian, AgreesWithDifferencesIn50Digits) { check_random_scenes(1, 10); }
-TEST(SlowFitJacobian, AgreesWithDifferencesIn50DigitsFor200Scenes) { check_random_scenes(1000, 200); }
+TEST(FitJacobian, AgreesWithDifferencesIn50Digits) { jacobians_of_random_scenes(1, 10); }
+TEST(SlowFitJacobian, AgreesWithDifferencesIn50DigitsFor200Scenes) { jacobians_of_random_scenes(1000, 200); }
 
 /// p(u) and dp/du of every shape against each other, and u(p(u)) = u.
 TEST(FitCoordinates, AreOneToOneAndDifferentiated) {

@@ -13,7 +13,7 @@ namespace {
 
 using support::SceneMaker;
 
-Scene<double> layered(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
+Scene<double> layered_bed(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
                       std::vector<double> values) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{std::move(breaks), std::move(a)};
@@ -25,7 +25,7 @@ Scene<double> layered(std::vector<double> breaks, std::vector<double> a, std::ve
 TEST(ExactEvents, SteadyDataNeverMove) {
   for (const auto& [jumps, values] : std::vector<std::pair<std::vector<double>, std::vector<double>>>{
            {{}, {0}}, {{}, {1}}, {{0.5}, {1, 0}}, {{0.2, 0.5}, {1, 1, 0}}}) {
-    const auto events = exact_timeline(layered({0.3}, {2, 1}, jumps, values));
+    const auto events = exact_timeline(layered_bed({0.3}, {2, 1}, jumps, values));
     EXPECT_EQ(*events.t_star, 0.0);
     EXPECT_FALSE(events.t0);
     EXPECT_FALSE(events.t1);
@@ -43,10 +43,10 @@ TEST(ExactEvents, EqualPiecesSideBySideAreOne) {
                               rates{make.uniform(0.2, 2), make.uniform(0.2, 2)};
     const double z = make.uniform(0.2, 0.8), state = make.uniform(0.2, 1);
     std::vector<double> jumps{z}, values{state, 0};
-    const auto whole = exact_timeline(layered(breaks, rates, jumps, values));
+    const auto whole = exact_timeline(layered_bed(breaks, rates, jumps, values));
     const int parts = number % 2 == 0 ? 20 : 200;
     for (int i = 1; i < parts; ++i, values.push_back(0)) jumps.push_back(z + (1 - z) * i / parts);
-    const auto cut = exact_timeline(layered(breaks, rates, jumps, values));
+    const auto cut = exact_timeline(layered_bed(breaks, rates, jumps, values));
     EXPECT_NEAR(*cut.t_star, *whole.t_star, 1e-12 * *whole.t_star) << "seed " << 4900 + number;
     EXPECT_NEAR(*cut.interfaces[0].last, *whole.interfaces[0].last, 1e-12 * *whole.t_star)
         << "seed " << 4900 + number;
@@ -58,7 +58,7 @@ TEST(ExactEvents, EqualPiecesSideBySideAreOne) {
 TEST(ExactEvents, UniformMixture) {
   // phi = p everywhere: the walls' shocks meet at height p, at t = 1 / (s a) whatever p is.
   for (const double p : {0.1, 0.5, 0.9, 1e-9}) {
-    const auto events = exact_timeline(layered({}, {2}, {}, {p}));
+    const auto events = exact_timeline(layered_bed({}, {2}, {}, {p}));
     EXPECT_EQ(*events.t0, 0.0);
     EXPECT_EQ(*events.t1, 0.0);
     EXPECT_NEAR(*events.t_star, 0.5, 1e-14) << p;
@@ -66,44 +66,44 @@ TEST(ExactEvents, UniformMixture) {
 }
 
 TEST(ExactEvents, WallsThatNeverSeeAWave) {
-  const auto events = exact_timeline(layered({}, {2}, {0.3, 0.6}, {1, 0.5, 0}));
+  const auto events = exact_timeline(layered_bed({}, {2}, {0.3, 0.6}, {1, 0.5, 0}));
   EXPECT_FALSE(events.t0);
   EXPECT_FALSE(events.t1);
 }
 
 TEST(ExactEvents, NullJumpsAreNoJumps) {
-  const auto events = exact_timeline(layered({}, {2}, {0.1, 0.5, 0.9}, {0, 0, 1, 1}));
+  const auto events = exact_timeline(layered_bed({}, {2}, {0.1, 0.5, 0.9}, {0, 0, 1, 1}));
   EXPECT_DOUBLE_EQ(*events.t0, 0.25);
   EXPECT_DOUBLE_EQ(*events.t1, 0.25);
 }
 
 TEST(ExactEvents, InterfaceThatEmitsAtOnce) {
-  EXPECT_EQ(*exact_timeline(layered({0.5}, {2, 1}, {}, {0.3})).interfaces[0].first, 0.0);
-  EXPECT_EQ(*exact_timeline(layered({0.5}, {2, 1}, {0.5}, {0, 1})).interfaces[0].first, 0.0);
-  EXPECT_EQ(*exact_timeline(layered({0.5}, {1, 1}, {0.5}, {0.2, 0.3})).interfaces[0].first, 0.0);
+  EXPECT_EQ(*exact_timeline(layered_bed({0.5}, {2, 1}, {}, {0.3})).interfaces[0].first, 0.0);
+  EXPECT_EQ(*exact_timeline(layered_bed({0.5}, {2, 1}, {0.5}, {0, 1})).interfaces[0].first, 0.0);
+  EXPECT_EQ(*exact_timeline(layered_bed({0.5}, {1, 1}, {0.5}, {0.2, 0.3})).interfaces[0].first, 0.0);
 }
 
 TEST(ExactEvents, TransparentInterfaceSeesEdgesAndShocks) {
   // phi = 0.2 around an interface of equal a: its characteristics come down with speed 0.6.
   // Jump 0.2 | 0.1 at 0.9: shock with speed 0.7 (down) arrives first; jump 0.2 | 0.6: the fan's edge, 0.6.
-  EXPECT_NEAR(*exact_timeline(layered({0.5}, {1, 1}, {0.6}, {0.2, 0.1})).interfaces[0].first, 0.1 / 0.7,
+  EXPECT_NEAR(*exact_timeline(layered_bed({0.5}, {1, 1}, {0.6}, {0.2, 0.1})).interfaces[0].first, 0.1 / 0.7,
               1e-13);
-  EXPECT_NEAR(*exact_timeline(layered({0.5}, {1, 1}, {0.6}, {0.2, 0.6})).interfaces[0].first, 0.1 / 0.6,
+  EXPECT_NEAR(*exact_timeline(layered_bed({0.5}, {1, 1}, {0.6}, {0.2, 0.6})).interfaces[0].first, 0.1 / 0.6,
               1e-13);
   // Standing shock 0.7 | 0.3 (a equal): both sides come in with speed 0.4; from below first.
-  EXPECT_NEAR(*exact_timeline(layered({0.5}, {1, 1}, {0.45, 0.5}, {0.65, 0.7, 0.3})).interfaces[0].first,
+  EXPECT_NEAR(*exact_timeline(layered_bed({0.5}, {1, 1}, {0.45, 0.5}, {0.65, 0.7, 0.3})).interfaces[0].first,
               0.05 / 0.4, 1e-13);
 }
 
 TEST(ExactEvents, InterfaceThatActsAsAWall) {
   // 1 below, 0 above the interface; small grains fall onto it from 0.7.
-  const auto events = exact_timeline(layered({0.3}, {2, 1}, {0.3, 0.7}, {1, 0, 1}));
+  const auto events = exact_timeline(layered_bed({0.3}, {2, 1}, {0.3, 0.7}, {1, 0, 1}));
   EXPECT_NEAR(*events.interfaces[0].first, 0.4, 1e-14);
   EXPECT_EQ(*events.interfaces[0].last, *events.interfaces[0].first);
 }
 
 TEST(ExactEvents, InterfaceOfTwoPureSides) {
-  const auto events = exact_timeline(layered({0.2, 0.8}, {2, 1, 4}, {0.5}, {0, 1}));
+  const auto events = exact_timeline(layered_bed({0.2, 0.8}, {2, 1, 4}, {0.5}, {0, 1}));
   EXPECT_NEAR(*events.interfaces[0].first, 0.3, 1e-14);
   EXPECT_NEAR(*events.interfaces[1].first, 0.3, 1e-14);
 }
