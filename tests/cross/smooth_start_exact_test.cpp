@@ -111,5 +111,42 @@ TEST(SmoothStartExact, InSlopedPieces) {
   EXPECT_LT(phi / 30, 1e-2);
 }
 
+/// There a staircase of layers stands for the bed, while pieces solve the start as cells exactly: M differs by no more than both starts
+/// do and the staircase says. Its estimates are those of a set of places.
+TEST(SmoothStartExact, WithOtherFluxesInSlopedPieces) {
+  int n = 0;
+  const std::vector<Flux<double>> fluxes{Cubic<double>{0.4}, Triangular<double>{}, Cubic<double>{0.2}};
+  for (std::uint64_t number = 0; number < 9; ++number) {
+    support::SceneMaker make(support::seed_of(74500 + number));
+    SceneSpec<double> spec;
+    spec.fluxes = {fluxes[number % fluxes.size()]};
+    if (number % 2 == 0)
+      spec.shear_rate = Exponential<double>{1, make.uniform(0.3, 3)};
+    else
+      spec.shear_rate = Table<double>{
+          {0, make.uniform(0.2, 0.8), 1},
+          {std::exp(make.uniform(-1, 1)), std::exp(make.uniform(-1, 1)), std::exp(make.uniform(-1, 1))}};
+    const auto range = spec.fluxes[0].range();
+    spec.initial_state = support::random_start(make, range.lowest, range.highest);
+    ASSERT_EQ(exact::refusal(Scene<double>(spec)), "");
+    const support::CellStart cells = support::as_cells(spec, 40);
+    const ExactSolution<double> smooth{Scene<double>(spec)}, steps{Scene<double>(cells.spec)};
+    EXPECT_FALSE(smooth.is_exact());
+    EXPECT_TRUE(steps.is_exact());
+    const double crossing = steps.medium().pure_travel_time(steps.medium().bottom(), steps.medium().top());
+    double gap = 0, error = 0;
+    for (int k = 0; k < 25; ++k, ++n) {
+      const double t = crossing * std::exp(make.uniform(-4, 1)), z = make.uniform(spec.bottom, spec.top);
+      const auto a = smooth.at(z, t);
+      gap = std::max(gap, std::abs(a.M - steps.M(z, t)));
+      error = std::max(error, a.M_error);
+    }
+    EXPECT_LE(gap, cells.M_bound + error) << "seed " << 74500 + number << ' ' << spec.fluxes[0].name();
+    EXPECT_GT(error, 0);
+    EXPECT_LT(error, 1e-2) << "seed " << 74500 + number;
+  }
+  EXPECT_EQ(n, 225);
+}
+
 }  // namespace
 }  // namespace shearfront

@@ -18,20 +18,12 @@ bool is_layered(const std::optional<AnyDepthFunction>& function) {
   return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
 }
 
-/// Whether pieces with a sloped rate stand for the scene, exactly or not: what varies smoothly is the rate of parabolas.
-template <Real Scalar>
-bool has_sloped_pieces(const Scene<Scalar>& scene) {
-  return !scene.is_layered() && std::all_of(scene.fluxes().begin(), scene.fluxes().end(),
-                                            [](const Flux<Scalar>& flux) { return flux.is_parabola(); });
-}
-
 /// Whether its rate is, between its own knots, what `is_so` says of a(z): all else is constant there.
 template <Real Scalar, class IsSo>
 bool is_between_knots(const Scene<Scalar>& scene, const IsSo& is_so) {
   return std::visit([&](const auto& model) { return !model.kIsLayered && is_so(model); },
                     scene.shear_rate()) &&
-         is_layered(scene.spec().temperature) && is_layered(scene.spec().solid_fraction) &&
-         has_sloped_pieces(scene);
+         is_layered(scene.spec().temperature) && is_layered(scene.spec().solid_fraction);
 }
 template <Real Scalar>
 bool is_linear_scene(const Scene<Scalar>& scene) {
@@ -79,9 +71,9 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(scene_->fluxes().front().curvature() == Curvature::concave),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(),
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
-      has_pieces_(has_sloped_pieces(*scene_)),
+      has_pieces_(!scene_->is_layered() && (is_parabolic_ || !scene_->has_smooth_start())),
       is_exponential_(is_exponential_scene(*scene_)),
-      is_exact_(scene_->is_layered() || is_exponential_ || is_linear_scene(*scene_)),
+      is_exact_(scene_->is_layered() || (has_pieces_ && (is_exponential_ || is_linear_scene(*scene_)))),
       layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers)),
       n_start_parts_(std::max<std::size_t>(1, layers)) {
   if (is_identity_) {

@@ -25,16 +25,16 @@ namespace shearfront::exact {
 /// the scene of one quadratic flux with c = T = 1 its own canonical form (is_identity()).
 ///
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
-/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, all
-/// fluxes are parabolas, and c and T are constant in pieces, the image is linear or exponential in pieces as well:
-/// has_pieces(). Any other smooth scene of parabolas is represented by pieces through its rate s a c sqrt(T), each linear or
-/// exponential, whichever is nearer in its middle, a smooth scene of other fluxes by a staircase of layers. Precondition: refusal(scene) is empty.
+/// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, and c and T are
+/// constant in pieces, the image is linear or exponential in pieces as well: has_pieces(). Any other smooth scene is represented by pieces through
+/// its rate s a c sqrt(T), each linear or exponential, whichever is nearer in its middle. A smooth start in a smooth bed with a flux
+/// that is no parabola has a staircase of layers (harmonic means) instead. Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// `layers`: about how many, pieces or layers, where it does not represent the scene exactly.
+  /// `layers`: about how many pieces or layers, where it does not represent the scene exactly.
   CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers);
 
   [[nodiscard]] const Scene<Scalar>& scene() const { return *scene_; }

@@ -74,7 +74,7 @@ std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
   if (!is_layered(scene.spec().solid_fraction)) return "the solid fraction varies smoothly";
   if (!is_layered(scene.spec().temperature)) return "the temperature varies smoothly";
   if (is_jump) {
-    // In a staircase with a solid fraction layers end at the initial jumps.
+    // With a solid fraction pieces of a smooth bed end at the initial jumps.
     const bool moves_layers = scene.spec().solid_fraction && !scene.is_layered();
     const auto knots = scene.knots();
     if (moves_layers && std::binary_search(knots.begin(), knots.end(), scene.initial_breaks()[entry.index]))
@@ -189,20 +189,6 @@ void Derivatives<Scalar>::add_pieces() {
           harmonic_mean_derivatives(a, lo, hi, [&](std::size_t entry, const Scalar& by) {
             pieces_.terms.push_back({first_rate_ + entry, factor * by});
           });
-          if (!a.kIsLayered) {
-            // The mean m changes with its ends by +-m (1 - m / a(end)) / (hi - lo).
-            const Scalar mean = a.harmonic_mean(lo, hi);
-            const auto add_end = [&](std::size_t boundary, const Scalar& z, const Scalar& sign) {
-              const Scalar by = sign * factor * mean * (Scalar(1) - mean / a.value(z)) / (hi - lo);
-              for (std::size_t n = boundaries_.begin[boundary]; n < boundaries_.begin[boundary + 1]; ++n) {
-                const Term& term = boundaries_.terms[n];
-                const Scalar stretch = form_.stretch(std::min(boundary, layers.n_layers() - 1));
-                pieces_.terms.push_back({term.entry, by * (term.factor / stretch)});
-              }
-            };
-            add_end(k, lo, Scalar(-1));
-            add_end(k + 1, hi, Scalar(1));
-          }
           pieces_.close();
         }
       },

@@ -17,7 +17,7 @@ namespace shearfront {
 /// Guarantees: a constant, linear or exponential in pieces: first arrivals to a few units in the last place of Scalar (times
 /// the number of pieces crossed), last changes to a few u (t + (top - bottom) / H), H the flux just before
 /// the change, where what still has to pass is more than 64 u of the height (less is lost in the rounding of
-/// M: the change before it is reported); where pieces or a staircase stand for the scene, timeline_error() estimates what
+/// M: the change before it is reported); where pieces stand for the scene, timeline_error() estimates what
 /// they cost. Interfaces are the knots of a scene that is so in pieces: jumps, kinks of a table, the centre of a chute, where
 /// a state that is neither 0 nor 1 changes at once. Errors: none. Cost: O((jumps + layers) * layers) for first
 /// arrivals, some 20 queries per last change. Source: May, Shearer & Daniels (2010), Section 3, for two

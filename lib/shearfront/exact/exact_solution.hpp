@@ -20,36 +20,36 @@ namespace shearfront {
 /// negative for concave fluxes.
 ///
 /// Smooth starts (Scene::has_smooth_start): guarantee (1) in layered scenes; elsewhere paths from them are looked for in parts of the bed,
-/// which are halved, and whose error is estimated, as (3) says.
+/// which are halved, and whose error is estimated, as (3) says. With a flux that is no parabola a smooth bed of theirs is a staircase of
+/// Options::layers layers (harmonic means), of order 3/2 (2 where no path turns), whatever the tolerance; M_error is three times the
+/// change from half as many.
 ///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
-/// it, at the top the value below. Guarantees: (1) layered scenes, and a linear (tables) or exponential in pieces with fluxes
-/// that are parabolas and c, T constant in pieces: exact up to rounding, |M error| <= c u (top - bottom) with c of the order
+/// it, at the top the value below. Guarantees: (1) layered scenes, and a linear (tables) or exponential in pieces with c, T
+/// constant in pieces: exact up to rounding, |M error| <= c u (top - bottom) with c of the order
 /// of the pieces crossed;
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
-/// (3) any other smooth a, c, T in beds of parabolas: the exact solution of pieces through the rate, each linear or exponential,
+/// (3) any other smooth a, c, T: the exact solution of pieces through the rate, each linear or exponential,
 /// of second order in their height (phi of order 3/2 where paths turn), halved until the estimated error of M is at most Options::tolerance
-/// times the height of the bed at a set of probe points (probed_error(); kMostPieces if that does not suffice); (4) smooth
-/// a, c, T with fluxes that are no parabolas: of a staircase of Options::layers layers (harmonic means), of order 3/2 (2
-/// where no path turns), whatever the tolerance. In (3) and (4) Value::M_error and phi_error estimate what is left, by the change from half as many
-/// pieces or layers (three times that of M in a staircase); their largest value over a set of points is what to go by: at
-/// single points errors change sign; (5) const member functions are safe to call from many
+/// times the height of the bed at a set of probe points (probed_error(); kMostPieces if that does not suffice). Value::M_error and
+/// phi_error estimate what is left, by the change from half as many
+/// pieces; their largest value over a set of points is what to go by: at
+/// single points errors change sign; (4) const member functions are safe to call from many
 /// threads. Cost: 2 layers < 1 us, 10 layers < 5 us, a table of 20 points < 10 us (tests/bench/exact_bench.cpp) for
-/// parabolas; construction O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone, in (3) some 100
+/// parabolas, of other fluxes some 100 times as much on sloped pieces; construction O(layers + jumps), up to O(layers * (layers + jumps)) when a is monotone, in (3) some 100
 /// queries besides. Errors: none beyond those of
 /// Scene. Source: Lax (1957), Hopf (1965); for jumps of a, minimum over refracted and resting paths.
 template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    /// Of the staircase, or of pieces instead of the tolerance, where the scene has to be approximated; 0:
-    /// kDefaultLayers, or as many pieces as the tolerance takes.
+    /// So many pieces where the scene has to be approximated; 0: as many as the tolerance takes, in a staircase kDefaultLayers.
     std::size_t layers = 0;
     double tolerance = 1e-6;  ///< error of M aimed at, in heights of the bed
   };
-  static constexpr std::size_t kDefaultLayers = 128;
+  static constexpr std::size_t kDefaultLayers = 128;  ///< of a staircase
   static constexpr std::size_t kFirstPieces = 32, kMostPieces = 4096;
   static constexpr std::size_t kMostParts = 512;  ///< of a bed that is exact but for its smooth start
 
@@ -89,14 +89,14 @@ class ExactSolution {
   [[nodiscard]] const exact::Medium<Scalar>& medium() const { return *fine_.medium; }
   /// Whether the scene is represented without approximation.
   [[nodiscard]] bool is_exact() const { return !coarse_.form; }
-  /// The Options::layers that give the same pieces or layers, whatever the tolerance.
+  /// The Options::layers that give the same pieces, whatever the tolerance.
   [[nodiscard]] std::size_t resolution() const { return resolution_; }
-  /// Whether pieces were refined until probed_error() was at most the tolerance: not in a staircase, nor where their number
-  /// was given or has come to kMostPieces.
+  /// Whether pieces were refined until probed_error() was at most the tolerance: not where their number
+  /// was given or has come to kMostPieces, nor in a staircase.
   [[nodiscard]] bool meets_tolerance() const { return meets_tolerance_; }
   /// Largest M_error at the probe points, in heights of the bed; 0 where there is no tolerance to meet.
   [[nodiscard]] const Scalar& probed_error() const { return probed_error_; }
-  /// The same scene by half as many pieces or layers; of its own, empty if is_exact().
+  /// The same scene by half as many pieces; of its own, empty if is_exact().
   [[nodiscard]] const std::shared_ptr<const exact::CanonicalForm<Scalar>>& coarse_form() const {
     return coarse_.form;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/exact/inverse_flux.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,19 @@ InverseFlux<Scalar>::InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
   extremum_ = flux_.extrema().front();
   depth_ = size(flux_.value(extremum_));
   peak_ = (is_concave_ ? range.highest - extremum_ : extremum_ - range.lowest) / width_;
+  is_smooth_ = with_model(flux_, [&]<class Model>(const Model& f) {
+    return Model::kIsParabola || requires { f.second_derivative(extremum_); };
+  });
+  with_model(flux_, [&](const auto& f) {
+    if constexpr (requires { f.joints(); }) {
+      for (const Scalar& x : f.joints())
+        for (const bool up : {false, true}) {
+          const Scalar m = size(x - pure_share(up)) / width_;
+          if (m > 0 && m < reach(up)) joints_[up].push_back(m);
+        }
+    }
+  });
+  for (auto& joints : joints_) std::sort(joints.begin(), joints.end());
   const Scalar near = width_ / Scalar(1 << 20);
   // A smooth flux has no slope at its extremum, up to rounding; a kink keeps those of its two sides.
   if (size(flux_.derivative(extremum_)) * width_ <= depth_ / Scalar(1 << 16)) return;
@@ -106,6 +120,23 @@ Scalar InverseFlux<Scalar>::flux_beside(const Scalar& distance, bool up) const {
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::distance_beside(const Scalar& G, bool up) const {
   return with_model(flux_, [&](const auto& f) { return distance_of(f, G, up); });
+}
+
+template <Real Scalar>
+auto InverseFlux<Scalar>::rise_beside(const Scalar& distance, bool up) const -> Rise {
+  const Scalar &pure = pure_share(up), x = place_beside(distance, up);
+  return with_model(flux_, [&](const auto& f) -> Rise {
+    // At a kink the slope is that of the side.
+    const Scalar slope =
+        distance < reach(up) ? Scalar(size(f.derivative(x)) * (width_ / depth_)) : slope_of(f, Scalar(0), up);
+    return {size(f.secant(pure, x)) * (width_ / depth_), slope};
+  });
+}
+
+template <Real Scalar>
+Scalar InverseFlux<Scalar>::chord_beside(const Scalar& distance1, const Scalar& distance2, bool up) const {
+  const Scalar x = place_beside(distance1, up), y = place_beside(distance2, up);
+  return with_model(flux_, [&](const auto& f) { return size(f.secant(x, y)) * (width_ / depth_); });
 }
 
 template <Real Scalar>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <vector>
 
 #include "shearfront/model/flux/flux.hpp"
 #include "shearfront/numeric/scalar.hpp"
@@ -43,6 +44,25 @@ class InverseFlux {
   /// The distance from the pure state of a side at which the flux is G, 0 <= G < 1: reach(up) - d(1 - G).
   [[nodiscard]] Scalar distance_beside(const Scalar& G, bool up) const;
 
+  /// G of a state u.
+  [[nodiscard]] Scalar height_of(const Scalar& u) const {
+    if (u == Scalar(0) || u == Scalar(1)) return Scalar(0);
+    const bool up = u > peak_;
+    const Scalar e = lack(up ? Scalar(u - peak_) : Scalar(peak_ - u), up);
+    return e + e > Scalar(1) ? flux_beside(up ? Scalar(Scalar(1) - u) : u, up) : Scalar(Scalar(1) - e);
+  }
+  /// G over the distance from the pure state, and dG by it.
+  struct Rise {
+    Scalar chord, slope;
+  };
+  [[nodiscard]] Rise rise_beside(const Scalar& distance, bool up) const;
+  /// The slope of the chord of G between two states at these distances from the pure one of a side.
+  [[nodiscard]] Scalar chord_beside(const Scalar& distance1, const Scalar& distance2, bool up) const;
+  /// Whether it is analytic on both sides of its peak, or between joints.
+  [[nodiscard]] bool is_smooth() const { return is_smooth_; }
+  /// Distances from the pure state of a side at which it is not, ascending.
+  [[nodiscard]] const std::vector<Scalar>& joints(bool up) const { return joints_[up]; }
+
  private:
   [[nodiscard]] static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
   [[nodiscard]] Scalar place(const Scalar& d, bool up) const {
@@ -64,8 +84,9 @@ class InverseFlux {
   [[nodiscard]] Scalar inverse_of(const Model& f, const Scalar& e, bool up) const;
 
   Flux<Scalar> flux_;
-  bool is_concave_ = false;
+  bool is_concave_ = false, is_smooth_ = false;
   Scalar lowest_{0}, highest_{1}, width_{1}, extremum_{0}, depth_{1}, peak_{0};
+  std::vector<Scalar> joints_[2];
   Scalar kink_[2] = {Scalar(0), Scalar(0)};  ///< e'(0) down and up
 };
 

@@ -8,6 +8,7 @@
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/law.hpp"
 #include "shearfront/exact/medium.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
 #include "shearfront/exact/waiting.hpp"
 
 namespace shearfront::exact {
@@ -92,14 +93,20 @@ class LayeredMedium final : public Medium<Scalar> {
   Waiting<Scalar, Law> waiting_;
 };
 
-/// The law of a canonical form by its inverse branches; parabolas have it, too.
+/// The fluxes of a canonical form by their inverse branches.
+template <Real Scalar>
+[[nodiscard]] PieceFluxes<Scalar> fluxes_of(const CanonicalForm<Scalar>& form) {
+  PieceFluxes<Scalar> all;
+  for (const Flux<Scalar>& flux : form.layers().fluxes()) all.fluxes.emplace_back(flux);
+  for (std::size_t k = 0; k < form.layers().n_layers(); ++k)
+    all.of_piece.push_back(form.layers().flux_index(k));
+  return all;
+}
+/// The law of layers with these; parabolas have it, too.
 template <Real Scalar>
 [[nodiscard]] UnimodalLaw<Scalar> unimodal_law(const CanonicalForm<Scalar>& form) {
-  std::vector<InverseFlux<Scalar>> fluxes;
-  for (const Flux<Scalar>& flux : form.layers().fluxes()) fluxes.emplace_back(flux);
-  std::vector<std::size_t> flux_of;
-  for (std::size_t k = 0; k < form.layers().n_layers(); ++k) flux_of.push_back(form.layers().flux_index(k));
-  return {form.boundaries(), form.rates(), std::move(fluxes), std::move(flux_of)};
+  PieceFluxes<Scalar> all = fluxes_of(form);
+  return {form.boundaries(), form.rates(), std::move(all.fluxes), std::move(all.of_piece)};
 }
 
 }  // namespace shearfront::exact

@@ -80,8 +80,9 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   Cells<Scalar> cells = form.start()
                             ? Cells<Scalar>(form.start(), finer_cuts(form), form.boundaries())
                             : Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries());
-  auto medium =
-      std::make_unique<const SlopedMedium<Scalar>>(std::move(pieces), std::move(cells), form.mass());
+  auto medium = std::make_unique<const SlopedMedium<Scalar>>(
+      std::move(pieces), std::move(cells), form.mass(),
+      form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form)));
   if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
 }

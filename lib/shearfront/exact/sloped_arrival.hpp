@@ -42,11 +42,10 @@ class SlopedArrival {
     const std::size_t k = cells_.layer[cell];
     return medium_.pieces().rate(k, cells_.x[is_high ? cell + 1 : cell]);
   }
-  [[nodiscard]] Scalar q(std::size_t cell) const { return Scalar(2) * cells_.phi[cell] - Scalar(1); }
+  /// Positive if its waves go up.
+  [[nodiscard]] const Scalar& q(std::size_t cell) const { return medium_.view(false).q0[cell]; }
   /// 4 H of a state that keeps it: pure, or in a flat piece.
-  [[nodiscard]] Scalar h(std::size_t cell) const {
-    return Scalar(4) * rate(cell, false) * cells_.phi[cell] * (Scalar(1) - cells_.phi[cell]);
-  }
+  [[nodiscard]] Scalar h(std::size_t cell) const { return medium_.view(false).h(cell, rate(cell, false)); }
   [[nodiscard]] bool stays(std::size_t cell) const {
     return !cells_.is_curved(cell) && (cells_.phi[cell] == 0 || cells_.phi[cell] == 1 || is_flat(cell));
   }
@@ -55,7 +54,7 @@ class SlopedArrival {
     const std::size_t b = point - 1, a = point;
     if (!stays(b) || !stays(a)) return false;
     const Scalar r_b = rate(b, true), r_a = rate(a, false), h_b = h(b), h_a = h(a);
-    if (r_b == r_a && cells_.phi[b] == cells_.phi[a]) return true;
+    if (!medium_.view(false).is_jump(point) && cells_.phi[b] == cells_.phi[a]) return true;
     const Scalar passing = std::min(q(b) > 0 ? h_b : r_b, q(a) < 0 ? h_a : r_a);
     return is_same_flux<Scalar>(h_b, passing) && is_same_flux<Scalar>(h_a, passing);
   }
@@ -104,7 +103,7 @@ class SlopedArrival {
       const std::size_t c = is_upward ? point - 1 : point;
       const Scalar over = is_upward ? q(c) : Scalar(-q(c));
       if (!(over > 0)) return point == at_ ? infinity<Scalar>() : time;
-      time += (cells_.x[c + 1] - cells_.x[c]) / (rate(c, false) * over);
+      time += (cells_.x[c + 1] - cells_.x[c]) / medium_.speed(c, rate(c, false));
       is_upward ? --point : ++point;
       if (point == 0 || point + 1 == cells_.x.size() || !is_at_rest(point)) return time;
     }

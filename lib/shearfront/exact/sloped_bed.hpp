@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "shearfront/exact/cells.hpp"
+#include "shearfront/exact/law_run.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
 #include "shearfront/exact/sloped_stretches.hpp"
+#include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
@@ -50,6 +52,16 @@ struct SlopedPieces {
   }
 };
 
+/// The fluxes of pieces that are no parabolas.
+template <Real Scalar>
+struct PieceFluxes {
+  std::vector<InverseFlux<Scalar>> fluxes;
+  std::vector<std::size_t> of_piece;
+
+  [[nodiscard]] const InverseFlux<Scalar>& flux(std::size_t piece) const { return fluxes[of_piece[piece]]; }
+  [[nodiscard]] LawSide<Scalar> side(std::size_t piece, bool is_up) const { return {flux(piece), is_up}; }
+};
+
 /// The bed as a path sees it that sets out upwards, cut at all boundaries and all initial jumps. The other view, of
 /// those that set out downwards, is the same turned upside down: heights -z, momenta 1 - p, amounts as they are.
 template <Real Scalar>
@@ -64,14 +76,19 @@ struct SlopedView {
   std::vector<RelativeBends<Scalar>> bends;
   std::vector<Scalar> p,
       missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
-  std::vector<Scalar> p_high;                       ///< at its upper end
-  std::vector<Scalar> q0;                           ///< 2 p - 1
-  std::vector<Scalar> pure_time;                    ///< int dz / r over each cell
-  std::vector<bool> emits;                          ///< a fan can leave the node upwards
-  std::shared_ptr<const StartShape<Scalar>> shape;  ///< of a smooth start
+  std::vector<Scalar> p_high;                         ///< at its upper end
+  std::vector<Scalar> q0;                             ///< 2 p - 1, or twice the distance from the peak
+  std::vector<Scalar> G0, e0;                         ///< 4 H over r, and what it lacks to 1
+  std::vector<Scalar> pure_time;                      ///< of a pure state upwards through each cell
+  std::vector<Scalar> pure_back;                      ///< and downwards
+  std::vector<bool> emits;                            ///< a fan can leave the node upwards
+  std::shared_ptr<const StartShape<Scalar>> shape;    ///< of a smooth start, of parabolas only
+  std::shared_ptr<const PieceFluxes<Scalar>> fluxes;  ///< none: all are parabolas
 
-  SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored)
-      : is_mirror(mirrored), M(cells.M), shape(cells.shape) {
+  SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored,
+             std::shared_ptr<const PieceFluxes<Scalar>> of_pieces = nullptr)
+      : is_mirror(mirrored), M(cells.M), shape(cells.shape), fluxes(std::move(of_pieces)) {
+    SHEARFRONT_EXPECTS(!shape || !fluxes, "a smooth start only with parabolas");
     const Scalar one(1);
     for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
     for (std::size_t i = 0; i < cells.n_cells(); ++i) {
@@ -98,15 +115,70 @@ struct SlopedView {
       std::reverse(piece.begin(), piece.end());
     }
     for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
+    set_fluxes();
     emits.assign(x.size(), false);
     for (std::size_t i = 0; i < n_cells(); ++i) {
-      pure_time.push_back(Crossing<Scalar>(form[i], x[i + 1] - x[i], low[i], one, high[i], one, Scalar(0)).T);
-      emits[i] = i > 0 && may_emit(i);
+      pure_time.push_back(pure_way(i, x[i + 1] - x[i], low[i], high[i], true));
+      pure_back.push_back(fluxes ? pure_way(i, x[i + 1] - x[i], low[i], high[i], false) : pure_time.back());
     }
+    for (std::size_t i = 1; i < n_cells(); ++i) emits[i] = may_emit(i);
+  }
+
+  /// The same with a node at a height of a cell.
+  [[nodiscard]] SlopedView with_node(std::size_t cell, const Scalar& z, const Scalar& r) const {
+    SlopedView view = *this;
+    const auto insert = [&](auto& all, std::size_t at, const auto& value) {
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(at), value);
+    };
+    const auto twice = [&](auto& all) { insert(all, cell, decltype(all[cell] + Scalar(0))(all[cell])); };
+    insert(view.x, cell + 1, z);
+    insert(view.M, cell + 1, amount(cell, z));
+    insert(view.low, cell + 1, r);
+    insert(view.high, cell, r);
+    for (auto* all : {&view.bend, &view.p, &view.p_high, &view.missing, &view.q0, &view.G0, &view.e0})
+      twice(*all);
+    insert(view.piece, cell, piece[cell]);
+    insert(view.form, cell, form[cell]);
+    insert(view.bends, cell, bends[cell]);
+    view.emits.insert(view.emits.begin() + static_cast<std::ptrdiff_t>(cell) + 1, false);
+    const Scalar below = z - x[cell], above = x[cell + 1] - z;
+    view.pure_time[cell] = pure_way(cell, below, low[cell], r, true);
+    view.pure_back[cell] = pure_way(cell, below, low[cell], r, false);
+    insert(view.pure_time, cell + 1, pure_way(cell, above, r, high[cell], true));
+    insert(view.pure_back, cell + 1, pure_way(cell, above, r, high[cell], false));
+    return view;
+  }
+
+  /// At least int p dz of paths that rise by `rise` from a throat, or fall.
+  [[nodiscard]] Scalar least_lean(const Scalar& rise) const {
+    if (!fluxes) return rise / Scalar(2);
+    Scalar least(1), most(0);
+    for (const auto& flux : fluxes->fluxes) {
+      least = std::min(least, flux.peak());
+      most = std::max(most, flux.peak());
+    }
+    return rise * (rise > 0 ? least : most);
+  }
+  /// One side of the flux in a cell, as paths upwards in the view see it, or downwards.
+  [[nodiscard]] LawSide<Scalar> side(std::size_t cell, bool is_up) const {
+    return fluxes->side(piece[cell], is_up != is_mirror);
+  }
+  /// Time of a pure state over d in a cell.
+  [[nodiscard]] Scalar pure_way(std::size_t cell, const Scalar& d, const Scalar& r1, const Scalar& r2,
+                                bool is_up) const {
+    const Scalar one(1);
+    if (!fluxes) return Crossing<Scalar>(form[cell], d, r1, one, r2, one, Scalar(0)).T;
+    const LawSide<Scalar> of = side(cell, is_up);
+    const LawState<Scalar> pure{of.reach(), Scalar(0)};
+    return LawRun<Scalar>(of, form[cell], bend[cell], d, r1, pure, r2, pure, Scalar(0)).T;
   }
 
   [[nodiscard]] std::size_t n_cells() const { return low.size(); }
-  [[nodiscard]] bool is_jump(std::size_t node) const { return high[node - 1] != low[node]; }
+  /// Of what H depends on besides the state.
+  [[nodiscard]] bool is_jump(std::size_t node) const {
+    return high[node - 1] != low[node] ||
+           (fluxes && fluxes->of_piece[piece[node - 1]] != fluxes->of_piece[piece[node]]);
+  }
   /// r at a height of a cell, from the nearer end.
   [[nodiscard]] Scalar rate(std::size_t cell, const Scalar& z) const {
     const Scalar below = z - x[cell], above = x[cell + 1] - z;
@@ -126,9 +198,7 @@ struct SlopedView {
   /// The least of the same in a cell.
   [[nodiscard]] Scalar least_amount(std::size_t cell) const { return std::min(M[cell], M[cell + 1]); }
   /// 4 H of the state of a cell where the rate is r.
-  [[nodiscard]] Scalar h(std::size_t cell, const Scalar& r) const {
-    return Scalar(4) * p[cell] * missing[cell] * r;
-  }
+  [[nodiscard]] Scalar h(std::size_t cell, const Scalar& r) const { return G0[cell] * r; }
 
   /// A path rests at a node at its capacity if leaving it to either side only gains capacity: at jumps next to whose
   /// lower side the rate does not fall, at kinks with a minimum, at the ends of flat minima.
@@ -141,6 +211,31 @@ struct SlopedView {
   [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
 
  private:
+  /// What a curved cell can send upwards through its upper end.
+  [[nodiscard]] Scalar most_at_top(std::size_t cell) const {
+    const Scalar one(1), &u = p_high[cell];
+    return u + u > one ? Scalar(Scalar(4) * u * (one - u) * high[cell]) : high[cell];
+  }
+  void set_fluxes() {
+    for (std::size_t i = 0; i < n_cells(); ++i) {
+      const Scalar half(0.5), one(1);
+      if (!fluxes) {
+        G0.push_back(Scalar(4) * p[i] * missing[i]);
+        e0.push_back(q0[i] * q0[i]);
+        continue;
+      }
+      const InverseFlux<Scalar>& flux = fluxes->flux(piece[i]);
+      const Scalar u = is_mirror ? missing[i] : p[i];
+      const bool is_up = u > flux.peak();
+      const Scalar over = u - flux.peak(), d = is_up ? over : Scalar(-over);
+      q0[i] = Scalar(2) * (is_mirror ? Scalar(-over) : over);
+      e0.push_back(u == 0 || u == 1 ? one : flux.lack(d, is_up));
+      G0.push_back(u == 0 || u == 1 ? Scalar(0)
+                   : e0[i] > half   ? flux.flux_beside(is_up ? Scalar(one - u) : u, is_up)
+                                    : Scalar(one - e0[i]));
+    }
+  }
+
   /// Moving the start must not pay: state below <= p on its lower side, p on its upper side <= state above; upwards p >=
   /// 1/2. The slack keeps rounding from dropping a borderline source.
   [[nodiscard]] bool may_emit(std::size_t node) const {
@@ -149,9 +244,7 @@ struct SlopedView {
     if (!(p_high[b] < p[a]) && !is_jump(node)) return false;
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
-    const Scalar below =
-        p_high[b] + p_high[b] > one ? Scalar(Scalar(4) * p_high[b] * (one - p_high[b]) * high[b]) : high[b];
-    const Scalar most = std::min(low[a], below);
+    const Scalar most = std::min(low[a], is_curved(b) ? most_at_top(b) : q0[b] > 0 ? h(b, high[b]) : high[b]);
     // Between pure states a fan is no more than the path of the state, which is no moving one.
     return most > 0 && least <= most * (one + slack);
   }

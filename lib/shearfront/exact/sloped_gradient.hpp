@@ -3,95 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "shearfront/exact/arc.hpp"
 #include "shearfront/exact/arc_derivatives.hpp"
 #include "shearfront/exact/medium.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_calculus.hpp"
 #include "shearfront/exact/sloped_route.hpp"
 #include "shearfront/model/depth/model.hpp"
 
 namespace shearfront::exact {
-
-/// Derivatives with respect to the rates at both ends of a run: of its time at fixed h, and of int p dz at fixed H, over h / 4:
-/// J_i = int (dr / dr_i) / (r^2 q) dz.
-template <Real Scalar>
-struct CrossingDerivatives {
-  Scalar J1, J2, T1, T2;
-
-  CrossingDerivatives(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
-                      const Scalar& q2, const Scalar& h) {
-    form == RateForm::linear ? linear(d, r1, q1, r2, q2, h) : exponential(d, r1, q1, r2, q2, h);
-  }
-
- private:
-  /// -2 T_i = J_i + L_i, L_i = int hat_i / (r^2 q^3) dz.
-  void linear(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-              const Scalar& h) {
-    const Scalar one(1), two(2), four(4), sum = q1 + q2;
-    const Scalar product = (one + q1) * (one + q2), w1 = r1 * (one + q1) * (one + q1);
-    const Scalar D = w1 + r2 * (one + q2) * (one + q2), y = two * d * product / (sum * D);
-    const Scalar b = (r2 - r1) / d, x = (r2 - r1) * (two * product) / (sum * D);
-    const Scalar c = two / d * b * y * y * y * artanh_rest(Scalar(x * x)),
-                 part = four * d * product / (sum * sum * D);
-    J1 = part * q2 / r1 - c;
-    J2 = part * q1 / r2 + c;
-    T1 = -J1 - h * d / (r1 * r1 * r2 * sum * sum) / q1;
-    T2 = -J2 - h * d / (r1 * r2 * r2 * sum * sum) / q2;
-  }
-  /// r_i dr/dr_i = r times the part of the way that lies on the side of i: the mean of that part over the time for J, over
-  /// int dz / r for T.
-  void exponential(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-                   const Scalar& h) {
-    using std::log;
-    const Scalar one(1), two(2), sum = q1 + q2, T = two * exponential_slowness(d, r1, r2) / sum;
-    const Scalar size = r2 > r1 ? Scalar(log(Scalar(r2 / r1))) : Scalar(log(Scalar(r1 / r2)));
-    const Scalar in_r = r2 > r1 ? Scalar(one - exponential_mean_place(size)) : exponential_mean_place(size);
-    const Scalar in_time = mean_place_in_time(r1, q1, r2, q2, h);
-    J1 = T / r1 * (one - in_time);
-    J2 = T / r2 * in_time;
-    T1 = -T / r1 * ((one - in_r) + h / r1 / (two * q1 * sum));
-    T2 = -T / r2 * (in_r + h / r2 / (two * q2 * sum));
-  }
-  /// q grows evenly in time: the mean of log(r / r1) / log(r2 / r1) over q.
-  [[nodiscard]] static Scalar mean_place_in_time(const Scalar& r1, const Scalar& q1, const Scalar& r2,
-                                                 const Scalar& q2, const Scalar& h) {
-    using std::log1p;
-    const Scalar rise = (r2 - r1) / r1, one(1);
-    if (rise == 0) return Scalar(0.5);
-    const Scalar less = -(rise / (one + rise)) * ((one + q1) / (q1 + q2)),  // (1 - q2) / (1 - q1) - 1
-        more = h / r2 * rise / ((q1 + q2) * (one + q1));                    // (1 + q2) / (1 + q1) - 1
-    return -(mean_log(less) + mean_log(more)) / log1p(rise);
-  }
-  /// int_0^1 log(1 + x u) du = ((1 + x) log(1 + x) - x) / x, by its series sum -(-x)^n / (n (n + 1)) for small x.
-  [[nodiscard]] static Scalar mean_log(const Scalar& x) {
-    using std::log1p;
-    const Scalar size = x < 0 ? Scalar(-x) : x;
-    if (!(x > Scalar(-1))) return Scalar(-1);
-    if (size > Scalar(0.125)) return ((Scalar(1) + x) * log1p(x) - x) / x;
-    Scalar power = x, sum(0);
-    for (int n = 1; n < 400; ++n) {
-      const Scalar term = power / Scalar(n * (n + 1));
-      sum += term;
-      const Scalar term_size = term < 0 ? Scalar(-term) : term, sum_size = sum < 0 ? Scalar(-sum) : sum;
-      if (term_size <= unit_roundoff<Scalar>() * sum_size * Scalar(0.25)) break;
-      power *= -x;
-    }
-    return sum;
-  }
-};
 
 /// Derivatives along a path through sloped pieces, the rates at both ends of each piece as its numbers; a boundary moves with
 /// them. Cost: O(pieces touched).
 ///
 /// Moving a boundary between the slopes b_- and b_+ changes r next to it as changing the rates there by -b_- and -b_+
 /// does, and moves the jump with it.
-template <Real Scalar>
+template <Real Scalar, class Calculus>
 class SlopedGradient {
  public:
-  SlopedGradient(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, const Path<Scalar>& path,
-                 const Scalar& z, const Scalar& t)
-      : pieces_(pieces),
+  SlopedGradient(const Calculus& calculus, const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells,
+                 const Path<Scalar>& path, const Scalar& z, const Scalar& t)
+      : calculus_(calculus),
+        pieces_(pieces),
         cells_(cells),
         path_(path),
         z_(z),
@@ -112,16 +47,22 @@ class SlopedGradient {
     const bool is_state = path_.kind == PathKind::constant;
     start_ =
         is_state ? cells_.layer[path_.source] : cells_.layer[is_set_up_ ? path_.source : path_.source - 1];
-    if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
-      pieces_.form[end_] == RateForm::linear ? in_linear_piece() : in_exponential_piece();
-      move_boundaries();
-      return std::move(out_);
+    if constexpr (kKnowsPieces) {
+      if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
+        pieces_.form[end_] == RateForm::linear ? in_linear_piece() : in_exponential_piece();
+        move_boundaries();
+        return std::move(out_);
+      }
     }
     if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
     if (h_ == 0 && is_state) return pure();
-    if (!is_state && path_.foot == z_ && !path_.turned) return at_its_source();
+    if (path_.foot == z_ && !path_.turned && !(is_state && kKnowsPieces)) return at_its_place(is_state);
     passes();
-    if (is_state)
+    if (path_.x == 0 && !is_state && !path_.turned)
+      rest_on_the_way();
+    else if (is_state && start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_))
+      phi_of_state_inside();
+    else if (is_state)
       phi_of_state();
     else
       phi_of_fan();
@@ -132,15 +73,10 @@ class SlopedGradient {
  private:
   using Pair = typename PathGradient<Scalar>::Pair;
 
-  [[nodiscard]] Scalar q(const Scalar& rate) const {
-    return q_at(rate, path_.r_reference, Scalar(path_.x * path_.x));
-  }
+  /// A path inside one piece has closed forms of its own.
+  static constexpr bool kKnowsPieces = std::is_same_v<Calculus, ParabolaCalculus<Scalar>>;
+
   [[nodiscard]] Scalar at(std::size_t k, const Scalar& z) const { return pieces_.rate(k, z); }
-  /// Where a state of 1/2 starts, dT is divided by q and multiplied by it in the end: half of the digits are kept.
-  [[nodiscard]] static Scalar least_q() {
-    using std::sqrt;
-    return sqrt(unit_roundoff<Scalar>());
-  }
   /// Derivatives of the rate at z by the rates at both ends of its piece, which has the rate `rate` there.
   struct EndParts {
     Scalar low, high;
@@ -163,7 +99,7 @@ class SlopedGradient {
     number(k, true).phi += high * phi;
   }
   [[nodiscard]] StartMomentum<Scalar> momentum(std::size_t k, const Scalar& z, bool upward) const {
-    const Scalar r = at(k, z), less = h_ / r / (Scalar(1) + q(r)) / Scalar(2);
+    const Scalar less = calculus_.less(k, at(k, z), upward);
     return upward ? StartMomentum<Scalar>{Scalar(1) - less, less}
                   : StartMomentum<Scalar>{less, Scalar(1) - less};
   }
@@ -183,103 +119,78 @@ class SlopedGradient {
     out_.boundaries.resize(highest - out_.first + 1);
   }
 
-  /// The run between two heights, passed n times.
-  void add_run(const Scalar& from, const Scalar& to, int n) {
-    const Scalar &lo = std::min(from, to), &hi = std::max(from, to), times(n);
+  /// The run from one height to another.
+  void add_run(const Scalar& from, const Scalar& to) {
+    const Scalar &lo = std::min(from, to), &hi = std::max(from, to);
     for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
       const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
       if (!(b > a)) continue;
-      const Scalar d = b - a, r1 = at(k, a), r2 = at(k, b), q1 = q(r1), q2 = q(r2);
-      const RateForm form = pieces_.form[k];
-      const Scalar some_q1 = std::max(least_q(), q1), some_q2 = std::max(least_q(), q2);
-      const CrossingDerivatives<Scalar> by(form, d, r1, q1, r2, q2, h_),
-          by_time(form, d, r1, some_q1, r2, some_q2, h_);
-      T_h_ += times * crossing_T_h(form, d, r1, some_q1, r2, some_q2);
-      time_ += times * Crossing<Scalar>(form, d, r1, q1, r2, q2, h_).T;
-      const Scalar gain = times * h_ / Scalar(4);
-      add_at(k, a, gain * by.J1, times * by_time.T1);
-      add_at(k, b, gain * by.J2, times * by_time.T2);
+      const RunParts<Scalar> by = calculus_.run(k, from < to, Scalar(b - a), at(k, a), at(k, b));
+      T_h_ += by.T_h;
+      time_ += by.T;
+      const Scalar gain = h_ / Scalar(4);
+      add_at(k, a, gain * by.J1, by.T1);
+      add_at(k, b, gain * by.J2, by.T2);
     }
   }
-  /// The jumps passed n times.
-  void add_jump(std::size_t boundary, int n) {
-    const Scalar &below = pieces_.high[boundary - 1], &above = pieces_.low[boundary];
-    if (below == above) return;
-    const Scalar q_below = q(below), q_above = q(above), times(n);
+  /// The jump at a boundary, passed upwards or downwards.
+  void add_jump(std::size_t boundary, bool is_up) {
+    const std::size_t below = boundary - 1;
+    if (!calculus_.is_jump(below, boundary)) return;
     Pair& by = out_.boundaries[boundary - out_.first];
-    by.M += times * (q_below - q_above) / Scalar(2);
-    by.phi += times * (Scalar(1) / (below * q_below) - Scalar(1) / (above * q_above));
+    by.M += calculus_.change(below, boundary, is_up);
+    by.phi += calculus_.slowness(below, pieces_.high[below], is_up) -
+              calculus_.slowness(boundary, pieces_.low[boundary], is_up);
   }
   /// Of the boundaries between two heights, `from` and `to` left out.
-  void add_jumps(const Scalar& from, const Scalar& to, int n) {
+  void add_jumps(const Scalar& from, const Scalar& to) {
     const Scalar &lo = std::min(from, to), &hi = std::max(from, to);
     for (std::size_t k = pieces_.piece_at(lo) + 1; k < pieces_.size() && pieces_.boundaries[k] < hi; ++k)
-      if (pieces_.boundaries[k] > lo) add_jump(k, n);
+      if (pieces_.boundaries[k] > lo) add_jump(k, from < to);
   }
-  void add_jump_at(const Scalar& z, int n) {
+  void add_jump_at(const Scalar& z, bool is_up) {
     const std::size_t k = pieces_.piece_at(z);
-    if (k > 0 && pieces_.boundaries[k] == z) add_jump(k, n);
+    if (k > 0 && pieces_.boundaries[k] == z) add_jump(k, is_up);
   }
 
   /// The turn in piece j, beyond the height `from`.
   void add_turn(std::size_t j, const Scalar& from) {
-    const Scalar A = at(j, from), qA = q(A),
-                 bend = pieces_.bend[j] < 0 ? Scalar(-pieces_.bend[j]) : pieces_.bend[j];
-    const Scalar& near = is_set_up_ ? pieces_.low[j] : pieces_.high[j];  // on the side it comes from
-    const Scalar& far = is_set_up_ ? pieces_.high[j] : pieces_.low[j];
-    const Turn<Scalar> turn(pieces_.form[j], bend, A, qA, h_);
-    time_ += turn.T;
-    T_h_ -= turn.steep / qA;
+    const TurnParts<Scalar> by = calculus_.turn(j, is_set_up_, at(j, from), from);
+    time_ += by.T;
+    T_h_ += by.T_h;
     Pair &by_near = number(j, !is_set_up_), &by_far = number(j, is_set_up_);
-    const Scalar two(2), four(4);
-    const Scalar cube = qA * qA * qA * artanh_rest(Scalar(qA * qA));  // artanh q - q
-    if (pieces_.form[j] == RateForm::linear) {
-      const Scalar fall = near - far;  // |b| = fall / width
-      // int (near - r) / (r^2 q) and int (r - far) / (r^2 q) over both ways.
-      const Scalar to_far = qA * ((near - A) + A * qA * qA) / h_ - cube;
-      const Scalar to_near = cube + qA * ((A - far) - A * qA * qA) / h_;
-      const Scalar scale = h_ / (bend * fall);
-      by_far.M += scale * to_far;
-      by_near.M += scale * to_near;
-      add_at(j, from, Scalar(0), two / (bend * A * qA));
-      by_far.phi += turn.T / fall;
-      by_near.phi -= turn.T / fall;
-    } else {
-      // The part of the piece passed, in time: that at `from`, and log(A / r) / log(near / far) beyond.
-      const Scalar fall = bend * pieces_.width(j), w_high = (from - pieces_.boundaries[j]) / pieces_.width(j);
-      const Scalar beyond = Scalar(8) / (bend * h_) * cube / fall;
-      const Scalar passed = (is_set_up_ ? w_high : Scalar(Scalar(1) - w_high)) * turn.T + beyond;
-      by_far.M += h_ / four / far * passed;
-      by_near.M += h_ / four / near * (turn.T - passed);
-      add_at(j, from, Scalar(0), two / (bend * A * A * qA));
-      by_far.phi += turn.T / (fall * far);
-      by_near.phi -= turn.T / (fall * near);
-    }
+    by_far.M += by.M_far;
+    by_near.M += by.M_near;
+    add_at(j, from, Scalar(0), by.T_A);
+    by_far.phi += by.T_far;
+    by_near.phi += by.T_near;
   }
 
   /// All runs, jumps and the turn: dM, and into the phi entries dT at fixed h.
   void passes() {
-    add_run(path_.foot, z_, 1);
-    add_jumps(path_.foot, z_, 1);
+    add_run(path_.foot, z_);
+    add_jumps(path_.foot, z_);
     if (!path_.turned) return;
     const std::size_t j = cells_.layer[path_.interface];
     const Scalar& outer = is_set_up_ ? std::max(path_.foot, z_) : std::min(path_.foot, z_);
     const Scalar& entry = pieces_.boundaries[is_set_up_ ? j : j + 1];
     const Scalar& last = is_set_up_ ? std::max(outer, entry) : std::min(outer, entry);
     if (last != outer) {
-      add_run(outer, last, 2);
-      add_jumps(outer, last, 2);
-      add_jump_at(last, 2);
+      add_run(outer, last);
+      add_run(last, outer);
+      add_jumps(outer, last);
+      add_jumps(last, outer);
+      for (const bool is_up : {true, false}) add_jump_at(last, is_up);
     }
     // A boundary at the outer one of start and end is passed once more than counted.
-    if (path_.foot != z_ && (last != outer || entry == outer)) add_jump_at(outer, 1);
+    if (path_.foot != z_ && (last != outer || entry == outer))
+      add_jump_at(outer, (outer == z_) == is_set_up_);
     add_turn(j, last);
   }
 
   /// d phi = +-dq / 2 at z, from dh and the rate at z.
   [[nodiscard]] Scalar phi_by_h() const {
-    const Scalar r = at(end_, z_), tiny = unit_roundoff<Scalar>() * unit_roundoff<Scalar>();
-    const Scalar by = Scalar(-1) / (Scalar(4) * r * std::max(tiny, q(r)));
+    const Scalar by = calculus_.slowness(end_, at(end_, z_), path_.upward) / Scalar(-4);
     return path_.upward ? by : Scalar(-by);
   }
   [[nodiscard]] Scalar phi_by_rate() const { return -phi_by_h() * (h_ / at(end_, z_)); }
@@ -288,7 +199,7 @@ class SlopedGradient {
     const Scalar by_h = phi_by_h(), turn = -by_h / T_h_;  // dh = -dT / T_h
     for (Pair& pair : out_.pieces) pair.phi *= turn;
     for (Pair& pair : out_.boundaries) pair.phi *= turn;
-    const Scalar r = at(start_, path_.foot), slowness = Scalar(1) / (r * q(r));
+    const Scalar slowness = calculus_.slowness(start_, at(start_, path_.foot), is_set_up_);
     out_.phi_start = turn * (is_set_up_ ? Scalar(-slowness) : slowness);
     out_.phi_log_scale = by_h * t_ / T_h_;
     add_at(end_, z_, Scalar(0), phi_by_rate());
@@ -296,21 +207,60 @@ class SlopedGradient {
 
   /// h = 4 g r(y) and T(y, h) = t with y free.
   void phi_of_state() {
-    const Scalar p0 = cells_.phi[path_.source], one(1), four(4), g = p0 * (one - p0);
-    const Scalar r = at(start_, path_.foot);
-    const Scalar q0 = std::max(q(r), least_q());
+    const Scalar &p0 = cells_.phi[path_.source], one(1), G = calculus_.height(start_, p0);
+    const Scalar r = at(start_, path_.foot), speed = one / calculus_.slowness(start_, r, is_set_up_);
     const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
     const Scalar b = is_set_up_ ? slope : Scalar(-slope);
-    const Scalar all = one - four * g * b * r * (q0 * T_h_), by_h = phi_by_h();
-    const Scalar turn = by_h * four * g * b * r * q0 / all;
+    const Scalar all = one - G * b * (speed * T_h_), by_h = phi_by_h();
+    const Scalar turn = by_h * G * b * speed / all;
     for (Pair& pair : out_.pieces) pair.phi *= turn;
     for (Pair& pair : out_.boundaries) pair.phi *= turn;
-    add_at(start_, path_.foot, Scalar(0), by_h * four * g / all);
-    const Scalar lean = one - Scalar(2) * p0, size = lean < 0 ? Scalar(-lean) : lean;
-    const Scalar least = is_set_up_ ? Scalar(-least_q()) : least_q();
-    out_.phi_state = by_h * four * r * (size < least_q() ? least : lean) / all;
+    add_at(start_, path_.foot, Scalar(0), by_h * G / all);
+    out_.phi_state = by_h * r * calculus_.height_slope(start_, p0, is_set_up_) / all;
     out_.phi_log_scale = -turn * t_;
     add_at(end_, z_, Scalar(0), phi_by_rate());
+  }
+
+  /// A state that has not left its piece: of a linear one with the slope b int dp / G rises by b t / 4, of an exponential one with
+  /// r' / r = k, p by k r(z) G(p) t / 4.
+  void phi_of_state_inside() {
+    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
+    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
+    const Scalar &p0 = cells_.phi[path_.source], &bend = pieces_.bend[end_], one(1),
+                 width = pieces_.width(end_);
+    const Scalar r = at(end_, z_), G = h_ / r, unit = t_ / Scalar(4);
+    if (pieces_.form[end_] == RateForm::linear) {
+      const Scalar G0 = calculus_.height(start_, p0);
+      out_.phi_state = G0 > 0 ? Scalar(G / G0) : Scalar(r / at(end_, path_.foot));
+      out_.phi_log_scale = unit * bend * G;
+      number(end_, true).phi += unit * G / width;
+      number(end_, false).phi -= unit * G / width;
+      return;
+    }
+    const Scalar slope = calculus_.height_slope(end_, path_.p, path_.upward),
+                 all = one / (one - unit * bend * r * slope), by_rate = unit * bend * G * all;
+    out_.phi_state = all;
+    out_.phi_log_scale = by_rate * r;
+    add_at(end_, z_, Scalar(0), by_rate);
+    // k = log(r_high / r_low) / width.
+    const Scalar by_bend = unit * r * G * all / width;
+    number(end_, true).phi += by_bend / pieces_.high[end_];
+    number(end_, false).phi -= by_bend / pieces_.low[end_];
+  }
+
+  /// H is the least capacity on the way, where a path through a flux with a kink spends the time that is left.
+  void rest_on_the_way() {
+    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
+    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
+    add_at(end_, z_, Scalar(0), phi_by_rate());
+    const std::size_t lowest = std::min(start_, end_), highest = std::max(start_, end_);
+    for (std::size_t k = lowest; k <= highest; ++k)
+      for (const bool is_high : {false, true}) {
+        if ((is_high ? pieces_.high[k] : pieces_.low[k]) != path_.r_reference) continue;
+        number(k, is_high).M += (t_ - time_) / Scalar(4);
+        number(k, is_high).phi += phi_by_h();
+        return;
+      }
   }
 
   /// A path that does not leave a linear piece: by r at its start or end and by the slope. Of a state logit phi = logit p0 + b t.
@@ -390,15 +340,20 @@ class SlopedGradient {
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
   PathGradient<Scalar> pure() {
-    out_.phi_state = at(start_, path_.foot) / at(end_, z_);  // H = r(y) g is conserved
+    // H = r(y) g is conserved.
+    out_.phi_state = at(start_, path_.foot) / at(end_, z_) * calculus_.pure_ratio(start_, end_, path_.upward);
     return std::move(out_);
   }
 
-  /// A jump in a flat piece, seen from its place: the path rests there.
-  PathGradient<Scalar> at_its_source() {
-    const Scalar r = at(end_, z_);
-    add_at(end_, z_, t_ / Scalar(4), Scalar(0));
-    out_.phi_start = Scalar(-1) / (Scalar(2) * r * t_);
+  /// A jump or a state at the peak in a flat piece, seen from its place: the path rests there.
+  PathGradient<Scalar> at_its_place(bool is_state) {
+    add_at(end_, z_, is_state ? Scalar(path_.H * t_ / at(end_, z_)) : Scalar(t_ / Scalar(4)), Scalar(0));
+    if (is_state && start_ == end_)
+      phi_of_state_inside();
+    else if (is_state)
+      out_.phi_state = Scalar(1);
+    else
+      out_.phi_start = calculus_.at_source(end_) / (at(end_, z_) * t_);
     return std::move(out_);
   }
 
@@ -416,13 +371,13 @@ class SlopedGradient {
     const std::size_t w = cells_.layer[path_.interface];  // the piece above the throat
     const Scalar& z_w = pieces_.boundaries[w];
     const Scalar &low_side = pieces_.low[w], &high_side = pieces_.high[w - 1];
-    add_run(path_.foot, z_w, 1);
-    add_jumps(path_.foot, z_w, 1);
-    add_run(z_w, z_, 1);
-    add_jumps(z_w, z_, 1);
+    add_run(path_.foot, z_w);
+    add_jumps(path_.foot, z_w);
+    add_run(z_w, z_);
+    add_jumps(z_w, z_);
     for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
     for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
-    const bool is_still = !(q(at(end_, z_)) > 0);  // phi = 1/2 at the place of rest
+    const bool is_still = calculus_.is_at_peak(end_, at(end_, z_), path_.upward);  // at the place of rest
     if (!is_still) add_at(end_, z_, Scalar(0), phi_by_rate());
     move_boundaries();
     // What limits the throat; at rest it moves with the boundary.
@@ -447,6 +402,7 @@ class SlopedGradient {
     }
   }
 
+  const Calculus& calculus_;
   const SlopedPieces<Scalar>& pieces_;
   const Cells<Scalar>& cells_;
   const Path<Scalar>& path_;

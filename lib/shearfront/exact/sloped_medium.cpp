@@ -7,8 +7,11 @@
 
 #include "shearfront/exact/arc.hpp"
 #include "shearfront/exact/initial_amount.hpp"
+#include "shearfront/exact/law_calculus.hpp"
+#include "shearfront/exact/law_candidates.hpp"
 #include "shearfront/exact/one_piece_search.hpp"
 #include "shearfront/exact/sloped_arrival.hpp"
+#include "shearfront/exact/sloped_candidates.hpp"
 #include "shearfront/exact/sloped_gradient.hpp"
 #include "shearfront/exact/sloped_search.hpp"
 #include "shearfront/numeric/instantiated.hpp"
@@ -16,11 +19,13 @@
 namespace shearfront::exact {
 
 template <Real Scalar>
-SlopedMedium<Scalar>::SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass)
+SlopedMedium<Scalar>::SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass,
+                                   std::shared_ptr<const PieceFluxes<Scalar>> fluxes)
     : Medium<Scalar>(std::move(cells), std::move(mass)),
+      fluxes_(std::move(fluxes)),
       pieces_(std::move(pieces)),
-      up_(pieces_, cells_, false),
-      down_(pieces_, cells_, true),
+      up_(pieces_, cells_, false, fluxes_),
+      down_(pieces_, cells_, true, fluxes_),
       throats_(up_, down_) {}
 
 template <Real Scalar>
@@ -37,13 +42,15 @@ template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                           bool moving_only) const {
   using std::sqrt;
+  if (fluxes_) return search_for_law(SlopedPlace<Scalar>(up_, z), t, upper, moving_only);
   if (pieces_.size() == 1 && !cells_.shape)
     return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);
   const std::size_t above = place.above;
-  SlopedSearch<Scalar>(up_, place, t, upper, moving_only, best).run();
-  SlopedSearch<Scalar>(down_, place.turned_over(up_), t, upper, moving_only, best).run();
+  SlopedSearch<Scalar, SlopedCandidates<Scalar>>(up_, place, t, upper, moving_only, best).run();
+  SlopedSearch<Scalar, SlopedCandidates<Scalar>>(down_, place.turned_over(up_), t, upper, moving_only, best)
+      .run();
   throats_.search(up_, place, t, upper, best);
   if (best.kind == PathKind::none) return best;
   // The momentum next to z on its upper side. A path that sets out within rounding of a jump may bring a flux that only
@@ -66,25 +73,133 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
 }
 
 template <Real Scalar>
+Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& place, const Scalar& t,
+                                                  const Scalar& upper, bool moving_only) const {
+  using Search = SlopedSearch<Scalar, LawCandidates<Scalar>>;
+  Path<Scalar> best;
+  const Scalar& z = place.z;
+  const std::size_t cell = place.above;
+  if (z == up_.x[cell] || z == up_.x[cell + 1]) {
+    Search(up_, place, t, upper, moving_only, best).run();
+    Search(down_, place.turned_over(up_), t, upper, moving_only, best).run();
+  } else {
+    const SlopedView<Scalar> up = up_.with_node(cell, z, place.rate_above),
+                             down = down_.with_node(up_.n_cells() - 1 - cell, Scalar(-z), place.rate_above);
+    SlopedPlace<Scalar> node = place;
+    node.above = cell + 1;
+    Search(up, node, t, upper, moving_only, best).run();
+    Search(down, node.turned_over(up), t, upper, moving_only, best).run();
+    // Back to the cells of the bed.
+    if (best.source > cell) --best.source;
+    if (best.turned && best.interface > cell) --best.interface;
+  }
+  throats_.search(up_, place, t, upper, best);
+  // In a flat piece a state at the peak stands still.
+  for (const std::size_t k : {place.below, place.above}) {
+    if (up_.bend[k] != 0 || up_.q0[k] != 0) continue;
+    Path<Scalar> still;
+    still.H = up_.low[k] / Scalar(4);
+    still.value = up_.amount(k, z) + still.H * t;
+    still.kind = PathKind::constant;
+    still.source = k;
+    still.foot = z;
+    still.r_reference = up_.low[k];
+    still.x = Scalar(0);
+    if (still.better_than(best)) best = still;
+  }
+  if (best.kind == PathKind::none) return best;
+  // The momentum next to z on its upper side.
+  const std::size_t piece = up_.piece[place.above];
+  const LawState<Scalar> end = state_on(best, piece, place.rate_above, best.upward);
+  const Scalar& peak = fluxes_->flux(piece).peak();
+  const bool by_peak = end.from_peak < end.from_pure;
+  const Scalar of_up = by_peak ? Scalar(peak + end.from_peak) : Scalar(Scalar(1) - end.from_pure),
+               of_down = by_peak ? Scalar(peak - end.from_peak) : end.from_pure;
+  best.p = best.upward ? of_up : of_down;
+  return best;
+}
+
+template <Real Scalar>
+LawState<Scalar> SlopedMedium<Scalar>::state_on(const Path<Scalar>& path, std::size_t piece, const Scalar& r,
+                                                bool is_up) const {
+  const Scalar &least = path.r_reference, lack = path.x * path.x,
+               e = r == least ? lack : Scalar(((r - least) + least * lack) / r);
+  return fluxes_->side(piece, is_up)
+      .at(std::clamp(e, Scalar(0), Scalar(1)), std::min(Scalar(1), Scalar(Scalar(4) * path.H / r)));
+}
+
+template <Real Scalar>
+Scalar SlopedMedium<Scalar>::speed(std::size_t cell, const Scalar& r) const {
+  const Scalar& q0 = up_.q0[cell];
+  const Scalar size = q0 < 0 ? Scalar(-q0) : q0;
+  if (!fluxes_) return r * size;
+  const LawSide<Scalar> side = up_.side(cell, q0 > 0);
+  return r * side.slope(side.at(up_.e0[cell], up_.G0[cell])) / Scalar(4);
+}
+
+template <Real Scalar>
 Scalar SlopedMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& to) const {
   const Scalar &lo = std::min(from, to), &hi = std::max(from, to), one(1);
-  Scalar time(0);
+  Scalar all(0);
   for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
     const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
     if (!(b > a)) continue;
     const Scalar& bend = pieces_.bend[k];
+    Scalar time;
     if (pieces_.form[k] == RateForm::linear)
-      time += Crossing<Scalar>(RateForm::linear, b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
-                               Scalar(0))
-                  .T;
+      time = Crossing<Scalar>(RateForm::linear, b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
+                              Scalar(0))
+                 .T;
     else if (a == pieces_.boundaries[k])
-      time += exponential_time(bend, pieces_.low[k], Scalar(b - a));
+      time = exponential_time(bend, pieces_.low[k], Scalar(b - a));
     else if (b == pieces_.boundaries[k + 1])
-      time += exponential_time(Scalar(-bend), pieces_.high[k], Scalar(b - a));
+      time = exponential_time(Scalar(-bend), pieces_.high[k], Scalar(b - a));
     else
-      time += exponential_time(bend, pieces_.rate(k, a), Scalar(b - a));
+      time = exponential_time(bend, pieces_.rate(k, a), Scalar(b - a));
+    if (fluxes_) {
+      const LawSide<Scalar> side = fluxes_->side(k, from < to);
+      time *= Scalar(4) / side.slope({side.reach(), Scalar(0)});
+    }
+    all += time;
   }
-  return time;
+  return all;
+}
+
+template <Real Scalar>
+void SlopedMedium<Scalar>::add_run(const Path<Scalar>& path, const Scalar& from, const Scalar& to,
+                                   Costs& costs) const {
+  const Scalar &lo = std::min(from, to), &hi = std::max(from, to), h = Scalar(4) * path.H;
+  const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
+  const bool is_up = from < to;
+  for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
+    const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
+    if (!(b > a)) continue;
+    const Scalar r1 = pieces_.rate(k, a), r2 = pieces_.rate(k, b), d = b - a;
+    const auto add = [&](const auto& run) {
+      costs.T += run.T;
+      costs.X += run.X;
+    };
+    if (fluxes_)
+      add(LawRun<Scalar>(fluxes_->side(k, is_up), pieces_.form[k], pieces_.bend[k], d, r1,
+                         state_on(path, k, r1, is_up), r2, state_on(path, k, r2, is_up), h));
+    else
+      add(Crossing<Scalar>(pieces_.form[k], d, r1, q(r1), r2, q(r2), h));
+  }
+}
+
+template <Real Scalar>
+void SlopedMedium<Scalar>::add_turn(const Path<Scalar>& path, std::size_t piece, const Scalar& r,
+                                    bool is_set_up, Costs& costs) const {
+  const Scalar h = Scalar(4) * path.H, bend = is_set_up ? Scalar(-pieces_.bend[piece]) : pieces_.bend[piece];
+  const auto add = [&](const auto& turn) {
+    costs.T += turn.T;
+    costs.X += turn.X;
+  };
+  if (fluxes_)
+    add(LawTurn<Scalar>(fluxes_->side(piece, true), fluxes_->side(piece, false), pieces_.form[piece], bend, r,
+                        state_on(path, piece, r, true), state_on(path, piece, r, false), h));
+  else
+    add(Turn<Scalar>(pieces_.form[piece], bend, r, q_at(r, path.r_reference, Scalar(path.x * path.x)), h));
 }
 
 /// The value of a path is (M0 at its start + U) + sum X + H (t - sum T), U the height gained on its ways up, those in a turn
@@ -96,30 +211,19 @@ Scalar SlopedMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
   CompensatedSum<Scalar> sum;
   add_final_less_initial(cells_, path, z, amount, sum);
   const Scalar h = Scalar(4) * path.H;
-  const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
   const auto rise = [&](const Scalar& from, const Scalar& to) {
     if (!(from < to)) return;
     sum += from;
     sum += -to;
   };
-  Scalar T(0), X(0);
-  const auto run = [&](const Scalar& from, const Scalar& to, int times) {
-    const Scalar &lo = std::min(from, to), &hi = std::max(from, to), n(times);
-    for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
-      const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
-      if (!(b > a)) continue;
-      const Scalar r1 = pieces_.rate(k, a), r2 = pieces_.rate(k, b);
-      const Crossing<Scalar> c(pieces_.form[k], b - a, r1, q(r1), r2, q(r2), h);
-      T += n * c.T;
-      X += n * c.X;
-    }
-  };
+  Costs costs;
+  auto& [T, X] = costs;
   if (path.kind == PathKind::waiting) {
     const Scalar& rest = cells_.x[path.interface];
     rise(path.foot, rest);
     rise(rest, z);
-    run(path.foot, rest, 1);
-    run(rest, z, 1);
+    add_run(path, path.foot, rest, costs);
+    add_run(path, rest, z, costs);
   } else if (path.turned) {
     const bool is_up = path.upward != path.turned;
     const std::size_t j = cells_.layer[path.interface];
@@ -127,19 +231,19 @@ Scalar SlopedMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
     const Scalar outer = is_up ? std::max(path.foot, z) : std::min(path.foot, z);
     const Scalar last = is_up ? std::max(outer, near) : std::min(outer, near);
     is_up ? rise(path.foot, far) : rise(far, z);
-    run(path.foot, z, 1);
-    run(outer, last, 2);
+    add_run(path, path.foot, z, costs);
+    add_run(path, outer, last, costs);
+    add_run(path, last, outer, costs);
     const Scalar r = pieces_.rate(j, last), &r_end = is_up ? pieces_.high[j] : pieces_.low[j];
-    const Scalar bend = is_up ? Scalar(-pieces_.bend[j]) : pieces_.bend[j];
-    const Turn<Scalar> turn(pieces_.form[j], bend, r, q(r), h);
-    T += turn.T;
-    if (pieces_.form[j] == RateForm::linear)
-      X += (r_end - h / (Scalar(1) + q(r))) / bend;
+    const Scalar bend = is_up ? Scalar(-pieces_.bend[j]) : pieces_.bend[j], X_before = X;
+    add_turn(path, j, r, is_up, costs);
+    if (!fluxes_ && pieces_.form[j] == RateForm::linear)
+      X = X_before + (r_end - h / (Scalar(1) + q_at(r, path.r_reference, Scalar(path.x * path.x)))) / bend;
     else
-      X += turn.X - (is_up ? Scalar(far - last) : Scalar(last - far));
+      X -= is_up ? Scalar(far - last) : Scalar(last - far);
   } else {
     rise(path.foot, z);
-    if (h > 0) run(path.foot, z, 1);
+    if (h > 0) add_run(path, path.foot, z, costs);
   }
   if (!is_finite(T)) T = t, X = Scalar(0);
   sum += Scalar(-X);
@@ -155,7 +259,12 @@ std::optional<Scalar> SlopedMedium<Scalar>::first_wave(std::size_t i) const {
 template <Real Scalar>
 PathGradient<Scalar> SlopedMedium<Scalar>::gradient(const Path<Scalar>& path, const Scalar& z,
                                                     const Scalar& t) const {
-  return SlopedGradient<Scalar>(pieces_, cells_, path, z, t).run();
+  if (fluxes_) {
+    const LawCalculus<Scalar> calculus(*fluxes_, pieces_, path);
+    return SlopedGradient<Scalar, LawCalculus<Scalar>>(calculus, pieces_, cells_, path, z, t).run();
+  }
+  const ParabolaCalculus<Scalar> calculus(pieces_, path);
+  return SlopedGradient<Scalar, ParabolaCalculus<Scalar>>(calculus, pieces_, cells_, path, z, t).run();
 }
 
 template class SlopedMedium<Instantiated>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,9 @@ namespace shearfront::exact {
 template <Real Scalar>
 class SlopedMedium final : public Medium<Scalar> {
  public:
-  SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass);
+  /// Without fluxes all are parabolas.
+  SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> cells, Scalar mass,
+               std::shared_ptr<const PieceFluxes<Scalar>> fluxes = nullptr);
 
   [[nodiscard]] const std::vector<Scalar>& boundaries() const override { return pieces_.boundaries; }
   /// s a at the lower and at the upper end.
@@ -40,20 +43,36 @@ class SlopedMedium final : public Medium<Scalar> {
     return pieces_.rate(pieces_.piece_at(z), z);
   }
   [[nodiscard]] Scalar flux_at(const Scalar& z, const Scalar& phi) const override {
-    return rate_at(z) * phi * (Scalar(1) - phi);
+    if (!fluxes_) return rate_at(z) * phi * (Scalar(1) - phi);
+    return rate_at(z) * fluxes_->flux(pieces_.piece_at(z)).height_of(phi) / Scalar(4);
   }
   [[nodiscard]] std::optional<Scalar> first_wave(std::size_t i) const override;
   [[nodiscard]] PathGradient<Scalar> gradient(const Path<Scalar>& path, const Scalar& z,
                                               const Scalar& t) const override;
 
   [[nodiscard]] const SlopedPieces<Scalar>& pieces() const { return pieces_; }
+  /// Of a constant state in a cell at a height with the rate r.
+  [[nodiscard]] Scalar speed(std::size_t cell, const Scalar& r) const;
   [[nodiscard]] const SlopedView<Scalar>& view(bool is_mirror) const { return is_mirror ? down_ : up_; }
 
  private:
   using Medium<Scalar>::cells_;
   [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                     bool moving_only) const;
+  /// Fluxes that are no parabolas.
+  [[nodiscard]] Path<Scalar> search_for_law(const SlopedPlace<Scalar>& place, const Scalar& t,
+                                            const Scalar& upper, bool moving_only) const;
+  /// Of a path at the rate r of a piece.
+  [[nodiscard]] LawState<Scalar> state_on(const Path<Scalar>& path, std::size_t piece, const Scalar& r,
+                                          bool is_up) const;
+  struct Costs {
+    Scalar T{0}, X{0};
+  };
+  void add_run(const Path<Scalar>& path, const Scalar& from, const Scalar& to, Costs& costs) const;
+  void add_turn(const Path<Scalar>& path, std::size_t piece, const Scalar& r, bool is_set_up,
+                Costs& costs) const;
 
+  std::shared_ptr<const PieceFluxes<Scalar>> fluxes_;
   SlopedPieces<Scalar> pieces_;
   SlopedView<Scalar> up_, down_;
   SlopedThroats<Scalar> throats_;

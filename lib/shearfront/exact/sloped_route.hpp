@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "shearfront/exact/middle.hpp"
+#include "shearfront/exact/sloped_bed.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
 #include "shearfront/exact/sloped_stretches.hpp"
 #include "shearfront/numeric/scalar.hpp"
@@ -19,22 +20,32 @@ struct SlopedRoute {
   struct Run {
     Scalar d, r1, r2;
     RateForm form;
-    bool twice;
+    Passes passes;
+    std::size_t cell;
+    bool is_upwards;  ///< from r1 to r2
   };
   boost::container::small_vector<Run, 24> runs;
   SlopedStretches<Scalar> stretches;  ///< of the runs
   Scalar least = infinity<Scalar>();
   Scalar turn_bend{0};  ///< |bend| of the piece in which it turns; 0: it does not
   RateForm turn_form = RateForm::linear;
+  std::size_t turn_cell = 0;
   Scalar turn_rate{0};  ///< r where it enters that piece for good
 
-  explicit SlopedRoute(std::size_t n_pieces) : stretches(n_pieces) {}
+  explicit SlopedRoute(bool has_bounds) : stretches(has_bounds) {}
 
-  void add(RateForm form, const RelativeBends<Scalar>& bends, const Scalar& d, const Scalar& r1,
-           const Scalar& r2, bool twice) {
+  void add_bounds(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
+                  const Scalar& r2, Passes passes) {
+    const bool is_same_flux = !view.fluxes || stretches.all().empty() ||
+                              view.fluxes->of_piece[view.piece[cell]] ==
+                                  view.fluxes->of_piece[view.piece[stretches.all().back().cell]];
+    stretches.add(view.bends[cell], d, r1, r2, passes, cell, is_same_flux);
+  }
+  void add(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
+           const Scalar& r2, Passes passes, bool is_upwards) {
     least = std::min({least, r1, r2});
-    if (d > 0) runs.push_back({d, r1, r2, form, twice});
-    stretches.add(bends, d, r1, r2, twice);
+    if (d > 0) runs.push_back({d, r1, r2, view.form[cell], passes, cell, is_upwards});
+    add_bounds(view, cell, d, r1, r2, passes);
   }
 };
 
@@ -72,7 +83,7 @@ void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
     r_last = run.r2;
     q_last = q2;
     const Crossing<Scalar> c(run.form, run.d, run.r1, q1, run.r2, q2, s.h);
-    const Scalar n(run.twice ? 2 : 1);
+    const Scalar n(run.passes == Passes::both ? 2 : 1);
     s.T += n * c.T;
     s.X += n * c.X;
     if (run.form == RateForm::linear) {

@@ -4,37 +4,52 @@
 #include <cstddef>
 
 #include "shearfront/exact/arc.hpp"
-#include "shearfront/exact/sloped_candidates.hpp"
-#include "shearfront/exact/sloped_curved.hpp"
+#include "shearfront/exact/sloped_starts.hpp"
 
 namespace shearfront::exact {
 
 /// The best path to (z, t), heights of the view, among those that set out upwards in the view, and those inside one piece.
-template <Real Scalar>
-class SlopedSearch : private SlopedCandidates<Scalar> {
+template <Real Scalar, class Candidates>
+class SlopedSearch : private Candidates {
  public:
-  using SlopedCandidates<Scalar>::SlopedCandidates;
+  using Candidates::Candidates;
 
   void run() {
-    for (const std::size_t cell : {below_, above_}) {
-      inside(cell);
-      if (is_of_piece(above_, below_)) break;
+    if constexpr (Candidates::kKnowsPieces) {
+      for (const std::size_t cell : {below_, above_}) {
+        inside(cell);
+        if (is_of_piece(above_, below_)) break;
+      }
     }
     from_below();
     from_above();
   }
 
  private:
-  using Base = SlopedCandidates<Scalar>;
+  using Base = Candidates;
   using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::rate_above_,
-      Base::rate_below_, Base::slack_, Base::t_, Base::time_above_, Base::time_below_, Base::view_, Base::z_;
+      Base::rate_below_, Base::slack_, Base::back_above_, Base::t_, Base::time_above_, Base::time_below_,
+      Base::view_, Base::z_;
   using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
       Base::straight_fan, Base::turned_fan;
   using typename Base::Leaves;
+  using typename Base::Range;
   using typename Base::Route;
 
+  [[nodiscard]] bool is_curved(std::size_t cell) const {
+    return Candidates::kTakesCurved && view_.is_curved(cell);
+  }
+  void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
+                    bool turned, std::size_t turn) {
+    if constexpr (Candidates::kTakesCurved)
+      Candidates::search_curved(route, k, leaves_up, h_low, top, turned, turn);
+  }
   [[nodiscard]] bool is_of_piece(std::size_t cell, std::size_t other) const {
     return view_.piece[cell] == view_.piece[other];
+  }
+  /// Whether what starts in one and ends in the other without leaving the piece is known without a search.
+  [[nodiscard]] bool is_known(std::size_t cell, std::size_t other) const {
+    return Candidates::kKnowsPieces && is_of_piece(cell, other);
   }
 
   /// What does not leave the piece of a cell at z, in closed form: states (in the upright view only) and fans.
@@ -43,7 +58,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     while (first > 0 && is_of_piece(first - 1, cell)) --first;
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
-      const bool is_pure = !view_.is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
+      const bool is_pure = !is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
       if (!view_.is_mirror && !(moving_only_ && is_pure)) state_inside(cell, k, first, last);
     };
     const auto fan = [&](std::size_t k) {
@@ -68,7 +83,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
   /// From cell k; `first` and `last` are the outermost cells of the piece.
   void state_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
-    if (view_.is_curved(k)) return curved_inside(cell, k, first, last);
+    if (is_curved(k)) return curved_inside(cell, k, first, last);
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
@@ -95,31 +110,6 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const auto arc = arc_from(y);
       if (moving_only_ && (arc.p == 0 || arc.missing == 0)) return;
       accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y), first, last);
-    });
-  }
-  /// From the height of a curved cell whose path comes along the route at the time t.
-  void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
-                    bool turned, std::size_t turn) {
-    Scalar lo = view_.x[k], hi = view_.x[k + 1];
-    const auto h = [&](const Scalar& y) {
-      const CurvedState<Scalar> state(view_, k, y);
-      return Scalar(Scalar(4) * state.p * state.missing * view_.rate(k, y));
-    };
-    if (!keep_where<Scalar>([&](const Scalar& y) { return CurvedState<Scalar>(view_, k, y).q0; }, lo, hi) ||
-        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(route.least - h(y)); }, lo, hi) ||
-        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
-      return;
-    const auto late = [&](const Scalar& y) -> std::optional<Scalar> {
-      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
-      return start ? std::optional(Scalar(start->s.T - t_)) : std::nullopt;
-    };
-    sign_changes<Scalar>(late, lo, hi, [&](const Scalar& y) {
-      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
-      if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
-      const SlopedSample<Scalar>& s = start->s;
-      const Scalar value =
-          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s.X + s.h / Scalar(4) * (t_ - s.T);
-      offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
     });
   }
   /// From the lower node of cell k.
@@ -149,51 +139,53 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
   }
 
-  /// Where a way begins at which a path turns: a height, its cell, r there, and the time of a pure state to the end of the cell.
+  /// Where a way begins at which a path turns: a height, its cell, r there, and the times of pure states to the end of the cell and
+  /// back.
   struct Entrance {
     Scalar z;
     std::size_t cell;
-    Scalar rate, time;
+    Scalar rate, time, back;
   };
-  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_}; }
+  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_, back_above_}; }
   [[nodiscard]] Entrance at_node(std::size_t node) const {
-    return {view_.x[node], node, view_.low[node], view_.pure_time[node]};
+    return {view_.x[node], node, view_.low[node], view_.pure_time[node], view_.pure_back[node]};
   }
 
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
-    Route route(n_);
-    if (below_ != above_) turned_states(route, below_, Scalar(0), at_z());
-    route.add(view_.form[below_], view_.bends[below_], z_ - view_.x[below_], rate_below_, view_.low[below_],
-              false);
+    Route route(Candidates::has_bounds(n_));
+    if (below_ != above_) {
+      if (!is_known(below_, below_)) state(route, below_, Scalar(0));
+      turned_states(route, below_, Scalar(0), at_z());
+    }
+    route.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
     Scalar time = time_below_;
     for (std::size_t k = below_; k-- > 0; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
       if (time > late_) return;
       if (view_.emits[node]) {
-        if (!is_of_piece(node, below_)) straight_fan(route, node, time);
+        if (!is_known(node, below_)) straight_fan(route, node, time);
         turned_fans(route, node, time, at_z());
       }
-      if (!is_of_piece(k, below_)) state(route, k, time);
+      if (!is_known(k, below_)) state(route, k, time);
       turned_states(route, k, time, at_z());
-      route.add(view_.form[k], view_.bends[k], view_.x[node] - view_.x[k], view_.high[k], view_.low[k],
-                false);
+      route.add(view_, k, view_.x[node] - view_.x[k], view_.high[k], view_.low[k], Passes::upwards, false);
     }
   }
 
   /// Everything that starts at or above z, sets out upwards and turns.
   void from_above() {
-    Route route(n_);
+    Route route(Candidates::has_bounds(n_));
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
       turned_fans(route, above_, Scalar(0), at_z());
     Scalar time(0);
     for (std::size_t k = above_; k < n_; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
-      if (!is_of_piece(k, above_)) state_that_turns_at_once(route, k);
+      if (!is_known(k, above_)) state_that_turns_at_once(route, k);
       const Entrance from = k == above_ ? at_z() : at_node(k);
-      route.add(view_.form[k], view_.bends[k], view_.x[k + 1] - from.z, from.rate, view_.high[k], false);
-      time += from.time;
+      route.add(view_, k, view_.x[k + 1] - from.z, from.rate, view_.high[k], Passes::downwards, true);
+      time += from.back;
       const std::size_t node = k + 1;
       if (node == n_ || time > late_) return;
       turned_states(route, k, time, at_node(node));
@@ -202,7 +194,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
   }
 
   [[nodiscard]] bool has_moving_state(std::size_t k) const {
-    if (view_.is_curved(k)) return std::max(view_.p[k], view_.p_high[k]) > Scalar(0.5);
+    if (is_curved(k)) return std::max(view_.p[k], view_.p_high[k]) > Scalar(0.5);
     return view_.p[k] > 0 && view_.missing[k] > 0 &&
            (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
   }
@@ -211,7 +203,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     turns(once, time, view_.M[node], node, node, from, {Scalar(0), infinity<Scalar>()},
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
-            if (!turn_times(way, j, lo, hi).may_be(t_)) return;
+            if (!this->may_turn(way, j, {lo, hi})) return;
             fill();
             turned_fan(way, node, j, lo, hi, top);
           });
@@ -222,38 +214,18 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
               const auto& fill) {
             const Range h = h_of_cell(k);
-            const Scalar h0 = std::max(lo, h.least), h1 = std::min(hi, h.most);
-            auto times = turn_times(way, j, h0, h1);
-            times.most += most_from_state(k, h0, h1);
-            if (!times.may_be(t_)) return;
+            if (!this->may_turn_from_state(way, j, k, {std::max(lo, h.least), std::min(hi, h.most)})) return;
             fill();
             turned_state(way, k, j, lo, hi, top);
           });
   }
 
-  struct Range {
-    Scalar least, most;
-  };
   /// h of the state of cell k.
   [[nodiscard]] Range h_of_cell(std::size_t k) const {
-    const Scalar &least = std::min(view_.low[k], view_.high[k]),
-                 &most = std::max(view_.low[k], view_.high[k]);
-    if (!view_.is_curved(k)) return {view_.h(k, least), view_.h(k, most)};
-    const Scalar &p = std::min(view_.p[k], view_.p_high[k]), &q = std::max(view_.p[k], view_.p_high[k]);
-    const Scalar one(1), four_g = Scalar(4) * p * (one - p), other = Scalar(4) * q * (one - q);
-    const bool has_peak = p + p < one && q + q > one;
-    return {std::min(four_g, other) * least, (has_peak ? one : std::max(four_g, other)) * most};
-  }
-  using Stretches = SlopedStretches<Scalar>;
-  [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Scalar& h0,
-                                                     const Scalar& h1) const {
-    return way.stretches.times_with_turn(h0, h1, way.turn_rate, view_.bends[j]);
-  }
-  /// Most time from a start in cell k to its upper end.
-  [[nodiscard]] Scalar most_from_state(std::size_t k, const Scalar& h0, const Scalar& h1) const {
-    if (view_.is_curved(k)) return infinity<Scalar>();
-    if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
-    return Stretches::most_from_state(h0, h1, view_.q0[k], view_.high[k], view_.bends[k]);
+    if constexpr (Candidates::kTakesCurved)
+      if (is_curved(k)) return this->h_of_curved(k);
+    return {view_.h(k, std::min(view_.low[k], view_.high[k])),
+            view_.h(k, std::max(view_.low[k], view_.high[k]))};
   }
 
   /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, that of `from` and above, in which
@@ -282,10 +254,11 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
       const Scalar least = std::min(way.least, entry);
       if (least < range.least) return;
       if (view_.bend[j] < 0 && view_.high[j] < least && !(view_.high[j] > range.most) &&
-          !(is_of_piece(start, above_) && is_of_piece(j, above_))) {
+          !(is_known(start, above_) && is_known(j, above_))) {
         const Scalar kept = way.least;
         way.least = least;
         way.turn_form = view_.form[j];
+        way.turn_cell = j;
         way.turn_bend = -view_.bend[j];
         way.turn_rate = entry;
         const auto fill = [&] {
@@ -294,32 +267,31 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
           for (; filled < j; ++filled) {
             const Scalar d = view_.x[filled + 1] - height_of(filled);
             if (d > 0)
-              way.runs.push_back({d, entry_of(filled), view_.high[filled], view_.form[filled], true});
+              way.runs.push_back(
+                  {d, entry_of(filled), view_.high[filled], view_.form[filled], Passes::both, filled, true});
           }
         };
         found(way, j, view_.high[j], least, height, fill);
         way.least = kept;
         way.turn_bend = Scalar(0);
       }
-      way.stretches.add(view_.bends[j], Scalar(view_.x[j + 1] - height), entry, view_.high[j], true);
+      way.add_bounds(view_, j, Scalar(view_.x[j + 1] - height), entry, view_.high[j], Passes::both);
       way.least = std::min(least, view_.high[j]);
-      time += Scalar(2) * (j == first ? from.time : view_.pure_time[j]);
+      time += j == first ? Scalar(from.time + from.back) : Scalar(view_.pure_time[j] + view_.pure_back[j]);
     }
   }
 
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
-    if (!view_.is_curved(k) && view_.missing[k] == 0) return pure_state(k, time);
+    if (!is_curved(k) && view_.missing[k] == 0) return this->pure_state(k, time);
     if (!has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
     if (h.least > route.least) return;
-    auto times = route.stretches.times(h.least, std::min(h.most, route.least));
-    times.most += most_from_state(k, h.least, std::min(h.most, route.least));
-    if (!times.may_be(t_)) return;
+    if (!this->may_come_from_state(route, k, {h.least, std::min(h.most, route.least)})) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
-    if (view_.is_curved(k))
+    if (is_curved(k))
       curved_state(route, k, true, Scalar(0), z_, false, 0);
     else if (view_.bend[k] == 0)
       flat_state(route, k, z_, false, 0, Scalar(0));
@@ -336,7 +308,7 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (h.most < lo || h.least > hi) return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
-    if (view_.is_curved(k))
+    if (is_curved(k))
       curved_state(route, k, true, lo, top, true, j);
     else if (view_.bend[k] == 0)
       flat_state(route, k, top, true, j, lo);
@@ -352,36 +324,14 @@ class SlopedSearch : private SlopedCandidates<Scalar> {
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
-    if (view_.is_curved(k))
+    if (is_curved(k))
       curved_state(route, k, false, view_.high[k], z_, true, k);
     else
       search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
     route.least = kept;
   }
 
-  /// H = 0: the time from the start is int dz / r.
-  void pure_state(std::size_t k, const Scalar& time) {
-    using std::expm1;
-    using std::log1p;
-    if (moving_only_) return;
-    const Scalar left = t_ - time;
-    // By time, as the cells beside this one: in a thin cell heights within rounding may be far away in time.
-    if (time > late_ || left - view_.pure_time[k] > late_ - t_) return;
-    const Scalar &b = view_.bend[k], x = -b * left, way = view_.high[k] * left;
-    Scalar d = way;
-    if (view_.form[k] == RateForm::exponential) {
-      const Scalar lost = b * way;
-      d = lost > Scalar(-1) ? Scalar(log1p(lost) / b) : infinity<Scalar>();
-    } else if (x != 0) {
-      d = way * (expm1(x) / x);
-    }
-    const Scalar width = view_.x[k + 1] - view_.x[k];
-    const Scalar y = view_.x[k + 1] - std::clamp(d, Scalar(0), width);
-    offer(view_.amount(k, y) + gained(y, z_), Scalar(0), PathKind::constant, true, false, k, y, 0,
-          view_.high[k], Scalar(1));
-  }
-
-  Route scratch_{n_};
+  Route scratch_{Candidates::has_bounds(n_)};
 };
 
 }  // namespace shearfront::exact

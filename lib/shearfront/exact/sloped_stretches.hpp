@@ -4,11 +4,15 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "shearfront/exact/rate_form.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::exact {
+
+/// How a route passes a run.
+enum class Passes : std::uint8_t { upwards, downwards, both };
 
 /// Bounds of |r'| / r in a piece from the rate r1 to r2.
 template <Real Scalar>
@@ -43,15 +47,28 @@ class SlopedStretches {
   };
   using Bends = RelativeBends<Scalar>;
 
-  explicit SlopedStretches(std::size_t n_pieces) : is_off_(n_pieces < kFew) {}
+  /// A stretch from the rate `begin`, away from z, to `end`.
+  struct Stretch {
+    Scalar begin, end, flat;  ///< flat: its length
+    Bends bends;
+    int slope;
+    Passes passes;
+    std::size_t cell;  ///< one that has its flux
+  };
 
-  /// The next run away from z, over d from the rate r1 to r2.
-  void add(const Bends& bends, const Scalar& d, const Scalar& r1, const Scalar& r2, bool twice) {
+  explicit SlopedStretches(bool is_on) : is_off_(!is_on) {}
+  /// In a bed of fewer pieces they cost more than the runs.
+  static constexpr std::size_t kFew = 24;
+
+  /// The next run away from z, over d of a cell from the rate r1 to r2; the last one had the same flux or not.
+  void add(const Bends& bends, const Scalar& d, const Scalar& r1, const Scalar& r2, Passes passes,
+           std::size_t cell, bool is_same_flux) {
     if (!(d > 0) || is_full()) return;
     const int slope = r2 > r1 ? 1 : r2 < r1 ? -1 : 0;
     Stretch* last = all_.empty() ? nullptr : &all_.back();
-    if (last == nullptr || last->slope != slope || last->twice != twice || !(last->end == r1)) {
-      all_.push_back({r1, r2, d, bends, slope, twice});
+    if (last == nullptr || last->slope != slope || last->passes != passes || !is_same_flux ||
+        !(last->end == r1)) {
+      all_.push_back({r1, r2, d, bends, slope, passes, cell});
       return;
     }
     last->end = r2;
@@ -60,6 +77,9 @@ class SlopedStretches {
     last->bends.most = std::max(last->bends.most, bends.most);
   }
 
+  /// Whether there are no bounds.
+  [[nodiscard]] bool is_full() const { return is_off_ || all_.size() > kMost; }
+  [[nodiscard]] const auto& all() const { return all_; }
   /// h from h0 to h1, of all runs.
   [[nodiscard]] Times times(const Scalar& h0, const Scalar& h1) const {
     if (is_full()) return {Scalar(0), infinity<Scalar>()};
@@ -74,7 +94,7 @@ class SlopedStretches {
     Times all{Scalar(0), Scalar(0)};
     Scalar begin = entry;
     std::size_t n = all_.size();
-    if (n > 0 && all_.back().twice && all_.back().slope < 0 && all_.back().end == entry) {
+    if (n > 0 && all_.back().passes == Passes::both && all_.back().slope < 0 && all_.back().end == entry) {
       const Stretch& last = all_[--n];
       begin = last.begin;
       bends.least = std::min(bends.least, last.bends.least);
@@ -95,17 +115,10 @@ class SlopedStretches {
   }
 
  private:
-  struct Stretch {
-    Scalar begin, end, flat;  ///< flat: its length
-    Bends bends;
-    int slope;
-    bool twice;
-  };
-  static constexpr std::size_t kMost = 12, kFew = 24;
+  static constexpr std::size_t kMost = 12;
   /// What q may be off by where r - h is all rounding.
   static constexpr double kRoot = 0x1p-24;
 
-  [[nodiscard]] bool is_full() const { return is_off_ || all_.size() > kMost; }
   [[nodiscard]] static Scalar q(const Scalar& h, const Scalar& r) {
     using std::sqrt;
     return h < r ? Scalar(sqrt(Scalar((r - h) / r))) : Scalar(0);
@@ -114,7 +127,7 @@ class SlopedStretches {
     for (std::size_t i = 0; i < n; ++i) {
       const Stretch& s = all_[i];
       // By the fastest and the slowest place; where r changes by more than rounding, also as above.
-      const Scalar passes(s.twice ? 2 : 1), two(2);
+      const Scalar passes(s.passes == Passes::both ? 2 : 1), two(2);
       const Scalar &most = std::max(s.begin, s.end), &least = std::min(s.begin, s.end);
       const Scalar fast = most * (q(h0, most) + kRoot),
                    slow = least * std::max(Scalar(0), Scalar(q(h1, least) - kRoot));

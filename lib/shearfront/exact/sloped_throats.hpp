@@ -20,29 +20,36 @@ struct SlopedWay {
   Scalar excess{
       0};  ///< r - h where it has come to: next to a throat by how r runs, for the rates there may be equal
 
-  /// Over d through a cell, or a part of it, in which r goes from r1 to r2 and has the bend `bend` that way.
-  void add(RateForm form, const Scalar& bend, const Scalar& d, const Scalar& r1, const Scalar& r2,
-           const Scalar& h, bool is_new_piece) {
+  /// Over d through cell k, or a part of it, in which r goes from r1 to r2 and has the bend `bend` that way; the path moves up there or
+  /// down.
+  void add(const SlopedView<Scalar>& view, std::size_t k, bool moves_up, const Scalar& bend, const Scalar& d,
+           const Scalar& r1, const Scalar& r2, const Scalar& h, bool is_new_piece) {
     if (is_new_piece) excess = r1 - h;
     if (!(d > 0)) return;
-    const Scalar q1 = q_of(excess, r1);
-    excess += rise_of(form, bend, r1, d);
-    add_run(form, d, r1, q1, r2, excess < 0 ? Scalar(-1) : q_of(excess, r2), h);
-  }
-  /// To where a state with |2 p - 1| = q2 starts.
-  void add_run(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
-               const Scalar& q2, const Scalar& h) {
-    if (q2 < 0) {
+    const Scalar e1 = std::max(Scalar(0), excess) / r1;
+    excess += rise_of(view.form[k], bend, r1, d);
+    if (excess < 0)
       T = infinity<Scalar>();
-      return;
-    }
-    const Crossing<Scalar> c(form, d, r1, q1, r2, q2, h);
-    T += c.T;
-    if (is_finite(c.T)) gain += c.X - h / Scalar(4) * c.T;
+    else
+      add_run(view, k, moves_up, bend, d, r1, e1, r2, Scalar(excess / r2), h);
   }
-  [[nodiscard]] static Scalar q_of(const Scalar& excess, const Scalar& rate) {
+  /// By what the path lacks to the capacities at both ends.
+  void add_run(const SlopedView<Scalar>& view, std::size_t k, bool moves_up, const Scalar& bend,
+               const Scalar& d, const Scalar& r1, const Scalar& e1, const Scalar& r2, const Scalar& e2,
+               const Scalar& h) {
     using std::sqrt;
-    return excess > 0 ? Scalar(sqrt(Scalar(excess / rate))) : Scalar(0);
+    if (!view.fluxes) return add_costs(Crossing<Scalar>(view.form[k], d, r1, sqrt(e1), r2, sqrt(e2), h), h);
+    const LawSide<Scalar> side = view.side(k, moves_up);
+    add_costs(LawRun<Scalar>(side, view.form[k], bend, d, r1, side.at(e1, Scalar(h / r1)), r2,
+                             side.at(e2, Scalar(h / r2)), h),
+              h);
+  }
+
+ private:
+  template <class Run>
+  void add_costs(const Run& run, const Scalar& h) {
+    T += run.T;
+    if (is_finite(run.T)) gain += run.X - h / Scalar(4) * run.T;
   }
 };
 
@@ -88,18 +95,18 @@ class SlopedThroats {
       if (is_above ? rate_below < throat.h : z < z_i && rate_above < throat.h) continue;
       const Scalar H = throat.h / Scalar(4), gained = is_above ? Scalar(z - z_i) : Scalar(0);
       const Scalar limit = std::min(upper, best.value);
-      const Scalar shift = (z - z_i) / Scalar(2) + H * t;  // q = 0 all the way
+      const Scalar shift = up.least_lean(z - z_i) + H * t;  // at the peak all the way
       if (throat.starts.back().A + shift > limit) continue;
       SlopedWay<Scalar> way;
       if (is_above) {
         std::size_t k = throat.node;
-        for (; k < cell_below && way.T <= t; ++k) cross(up, k, true, throat.node, throat.h, way);
-        way.add(up.form[k], up.bend[k], z - up.x[k], up.low[k], rate_below, throat.h,
+        for (; k < cell_below && way.T <= t; ++k) cross(up, k, true, true, throat.node, throat.h, way);
+        way.add(up, k, true, up.bend[k], z - up.x[k], up.low[k], rate_below, throat.h,
                 is_new_piece(up, k, true, throat.node));
       } else if (z < z_i) {
         std::size_t k = throat.node - 1;
-        for (; k > cell_above && way.T <= t; --k) cross(up, k, false, throat.node, throat.h, way);
-        way.add(up.form[k], Scalar(-up.bend[k]), up.x[k + 1] - z, up.high[k], rate_above, throat.h,
+        for (; k > cell_above && way.T <= t; --k) cross(up, k, false, false, throat.node, throat.h, way);
+        way.add(up, k, false, Scalar(-up.bend[k]), up.x[k + 1] - z, up.high[k], rate_above, throat.h,
                 is_new_piece(up, k, false, throat.node));
       }
       if (!(way.T <= t)) continue;
@@ -133,9 +140,9 @@ class SlopedThroats {
     return is_upward ? k == node || view.piece[k - 1] != view.piece[k]
                      : k + 1 == node || view.piece[k + 1] != view.piece[k];
   }
-  static void cross(const SlopedView<Scalar>& view, std::size_t k, bool is_upward, std::size_t node,
-                    const Scalar& h, SlopedWay<Scalar>& way) {
-    way.add(view.form[k], is_upward ? view.bend[k] : Scalar(-view.bend[k]), view.x[k + 1] - view.x[k],
+  static void cross(const SlopedView<Scalar>& view, std::size_t k, bool is_upward, bool moves_up,
+                    std::size_t node, const Scalar& h, SlopedWay<Scalar>& way) {
+    way.add(view, k, moves_up, is_upward ? view.bend[k] : Scalar(-view.bend[k]), view.x[k + 1] - view.x[k],
             is_upward ? view.low[k] : view.high[k], is_upward ? view.high[k] : view.low[k], h,
             is_new_piece(view, k, is_upward, node));
   }
@@ -155,7 +162,7 @@ class SlopedThroats {
         start.source = is_state ? cell : view.is_mirror ? n - k : k;
         throat.starts.push_back(start);
       };
-      const Scalar four_g = view.is_curved(k) ? Scalar(0) : Scalar(Scalar(4) * view.p[k] * view.missing[k]);
+      const Scalar G0 = view.is_curved(k) ? Scalar(0) : view.G0[k];
       const Scalar excess = is_new_piece(view, k, false, node) ? Scalar(view.high[k] - h) : way.excess;
       if (view.is_curved(k)) {
         // The start whose state has the h of the throat.
@@ -167,35 +174,36 @@ class SlopedThroats {
         };
         if (keep_where<Scalar>(over, lo, hi))
           if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
+            const Scalar q0 = CurvedState<Scalar>(view, k, *y).q0;
             SlopedWay<Scalar> to = way;
-            to.add_run(view.form[k], Scalar(view.x[k + 1] - *y), view.high[k],
-                       SlopedWay<Scalar>::q_of(excess, view.high[k]), view.rate(k, *y),
-                       CurvedState<Scalar>(view, k, *y).q0, h);
+            to.add_run(view, k, true, Scalar(-view.bend[k]), Scalar(view.x[k + 1] - *y), view.high[k],
+                       Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y), Scalar(q0 * q0),
+                       h);
             add(*y, to, true);
           }
       }
-      if (view.q0[k] > 0 && four_g > 0 && view.bend[k] != 0) {
+      if (view.q0[k] > 0 && G0 > 0 && view.bend[k] != 0) {
         // Its start, from the end where r is least.
-        const Scalar r = h / four_g, q2 = view.q0[k] * view.q0[k], width = view.x[k + 1] - view.x[k];
+        const Scalar r = h / G0, q2 = view.e0[k], width = view.x[k + 1] - view.x[k];
         const bool is_rising = view.bend[k] > 0;
         const Scalar& least = is_rising ? view.low[k] : view.high[k];
         const Scalar over =
             is_rising ? Scalar(excess + rise_of(view.form[k], Scalar(-view.bend[k]), view.high[k], width))
                       : excess;
-        // h / (4 g) - r, where g has lost what 1 - 4 g keeps from r - h.
-        const Scalar rise = q2 > Scalar(0.5) ? Scalar(r - least) : Scalar((least * q2 - over) / four_g);
+        // h / G - r, where G has lost what 1 - G keeps from r - h.
+        const Scalar rise = q2 > Scalar(0.5) ? Scalar(r - least) : Scalar((least * q2 - over) / G0);
         const Scalar d =
             distance_of(view.form[k], is_rising ? view.bend[k] : Scalar(-view.bend[k]), least, rise);
         if (d >= 0 && d <= width) {
           SlopedWay<Scalar> to = way;
           const Scalar left = is_rising ? Scalar(width - d) : d;
-          to.add_run(view.form[k], left, view.high[k], SlopedWay<Scalar>::q_of(excess, view.high[k]), r,
-                     view.q0[k], h);
+          to.add_run(view, k, true, Scalar(-view.bend[k]), left, view.high[k],
+                     Scalar(std::max(Scalar(0), excess) / view.high[k]), r, view.e0[k], h);
           add(Scalar(view.x[k + 1] - left), to, true);
         }
       }
       if (view.low[k] < h) return;
-      cross(view, k, false, node, h, way);
+      cross(view, k, false, true, node, h, way);
       if (!is_finite(way.T)) return;
       const std::size_t reached = view.is_mirror ? n - k : k;
       throat.lowest = std::min(throat.lowest, reached);

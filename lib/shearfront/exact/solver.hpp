@@ -14,7 +14,7 @@ struct ExactSolver {
 
   struct Options {
     double tolerance = 0;      ///< 0: that of ExactSolution::Options
-    std::uint64_t layers = 0;  ///< 0: ExactSolution::kDefaultLayers
+    std::uint64_t layers = 0;  ///< 0: by the tolerance
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
@@ -26,13 +26,15 @@ struct ExactSolver {
                      {},
                      "1e-6"},
           self.tolerance);
-      visit(OptionInfo{"layers",
-                       "layers that stand for a smooth bed with a flux that is no parabola; with parabolas, "
-                       "so many pieces instead of the tolerance",
-                       {1, 1e6},
-                       {},
-                       "128 layers, pieces by the tolerance"},
-            self.layers);
+      visit(
+          OptionInfo{
+              "layers",
+              "so many pieces for a smooth bed instead of the tolerance; layers (128) from a smooth start "
+              "with a flux that is no parabola",
+              {1, 1e6},
+              {},
+              "as the tolerance asks"},
+          self.layers);
     }
   };
 

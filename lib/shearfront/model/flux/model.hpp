@@ -28,6 +28,7 @@ struct StateRange {
 ///   kIsParabola         f = 4 f(m) u (1 - u) with u the place of phi in its range and m the extremum: the
 ///                       engines then use the closed forms of the quadratic flux
 ///   second_derivative   f'', only if the model has it: otherwise engines take differences of f'
+///   joints              places inside the range where f is not analytic, only if there are some: engines cut integrals there
 ///
 /// A flux that is one polynomial of degree two for all real states without being such a parabola says so by
 /// kIsQuadraticPolynomial = true.

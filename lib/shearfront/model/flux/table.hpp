@@ -59,6 +59,8 @@ struct FluxTable {
     const Piece piece = piece_at(x);
     return Scalar(2) * piece.square + Scalar(6) * piece.cube * (x - piece.begin);
   }
+  /// Between them f is a cubic.
+  [[nodiscard]] std::vector<Scalar> joints() const { return {phi.begin() + 1, phi.end() - 1}; }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const {
     const Scalar& lo = std::min(p, q);
     const Scalar& hi = std::max(p, q);

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "shearfront/exact/law_run.hpp"
+#include "shearfront/exact/sloped_starts.hpp"
+
+namespace shearfront::exact {
+
+/// As SlopedCandidates, for any flux with one extremum: no path is known without a search, so z has to be a node of the view.
+///
+/// Along a route T is a sum of what rises with h, the runs and starts where r falls along the way, and of what falls, turns and
+/// other starts. So an interval of h is dropped only where T cannot be t; the others are halved, and one whose ends enclose t the
+/// way a minimising path asks for is trusted to have one root once it is narrow.
+template <Real Scalar>
+class LawCandidates : protected SlopedStarts<Scalar> {
+ public:
+  static constexpr bool kKnowsPieces = false, kTakesCurved = false;
+
+  using SlopedStarts<Scalar>::SlopedStarts;
+
+  [[nodiscard]] static bool has_bounds(std::size_t n_pieces) { return n_pieces >= kFew; }
+
+ protected:
+  using Base = SlopedStarts<Scalar>;
+  using Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer, Base::size_of_bend,
+      Base::slack_, Base::start_at, Base::t_, Base::view_, Base::w_of, Base::z_;
+  using typename Base::Leaves;
+  using typename Base::Range;
+  using typename Base::Route;
+  using typename Base::Sample;
+  using typename Base::Start;
+  using typename Base::StateRange;
+  using State = LawState<Scalar>;
+
+  // Whether a time along a route may be t, h within a range. Runs and starts from which r falls take longer with h, turns and other
+  // starts less; all of them take (4 / (k h)) |change of p| with some k between the bounds of |r'| / r.
+  using Times = typename SlopedStretches<Scalar>::Times;
+  using Bends = RelativeBends<Scalar>;
+  [[nodiscard]] Scalar from_peak(std::size_t cell, bool is_up, const Scalar& h, const Scalar& r) const {
+    if (!(h < r)) return Scalar(0);
+    return view_.side(cell, is_up).at(Scalar((r - h) / r), Scalar(h / r)).from_peak;
+  }
+  void add_stretch(const typename SlopedStretches<Scalar>::Stretch& s, const Range& h, Times& all) const {
+    const Scalar four(4), slack(kSlack);
+    const Scalar &most = std::max(s.begin, s.end), &least = std::min(s.begin, s.end);
+    for (const bool is_up : {true, false}) {
+      if (s.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
+      const LawSide<Scalar> side = view_.side(s.cell, is_up);
+      const auto slope = [&](const Scalar& at_h, const Scalar& r) {
+        const Scalar d = from_peak(s.cell, is_up, at_h, r);
+        return side.slope({d, side.reach() - d});
+      };
+      Scalar lower = four * s.flat / (most * slope(h.least, most));
+      const Scalar slow = least * slope(h.most, least);
+      Scalar upper = slow > 0 ? Scalar(four * s.flat / slow) : infinity<Scalar>();
+      if (most - least > slack * most) {
+        const auto change = [&](const Scalar& at_h) {
+          const Scalar x = from_peak(s.cell, is_up, at_h, most) - from_peak(s.cell, is_up, at_h, least);
+          return x < 0 ? Scalar(-x) : x;
+        };
+        if (h.least > 0)
+          lower = std::max(lower, Scalar(four * (change(h.least) - slack) / (s.bends.most * h.least)));
+        if (h.most < least)
+          upper = std::min(upper, Scalar(four * (change(h.most) + slack) / (s.bends.least * h.most)));
+      }
+      all.least += lower;
+      all.most += upper;
+    }
+  }
+  [[nodiscard]] Times times(const Route& route, const Range& h) const {
+    if (route.stretches.is_full()) return {Scalar(0), infinity<Scalar>()};
+    Times all{Scalar(0), Scalar(0)};
+    for (const auto& stretch : route.stretches.all()) add_stretch(stretch, h, all);
+    return all;
+  }
+  [[nodiscard]] Times turn_times(const Route& way, std::size_t j, const Range& h) const {
+    Times all = times(way, h);
+    if (way.stretches.is_full()) return all;
+    const Bends& bends = view_.bends[j];
+    const auto change = [&](const Scalar& at_h) {
+      return Scalar(from_peak(j, true, at_h, way.turn_rate) + from_peak(j, false, at_h, way.turn_rate));
+    };
+    const Scalar four(4), slack(kSlack);
+    all.least += four * std::max(Scalar(0), Scalar(change(h.most) - slack)) / (bends.most * h.most);
+    all.most +=
+        h.least > 0 ? Scalar(four * (change(h.least) + slack) / (bends.least * h.least)) : infinity<Scalar>();
+    return all;
+  }
+  /// Most time from a start in cell k to its upper end.
+  [[nodiscard]] Scalar most_from_state(std::size_t k, const Range& h) const {
+    const State from = initial_state(k);
+    const LawSide<Scalar> side = view_.side(k, true);
+    if (view_.bend[k] == 0)
+      return Scalar(4) * (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * side.slope(from));
+    Scalar change(0);
+    for (const Scalar* at_h : {&h.least, &h.most}) {
+      const Scalar x = from_peak(k, true, *at_h, view_.high[k]) - from.from_peak;
+      change = std::max(change, x < 0 ? Scalar(-x) : x);
+    }
+    return h.least > 0 ? Scalar(Scalar(4) * (change + Scalar(kSlack)) / (view_.bends[k].least * h.least))
+                       : infinity<Scalar>();
+  }
+  [[nodiscard]] bool may_turn(const Route& way, std::size_t j, const Range& h) const {
+    return turn_times(way, j, h).may_be(t_);
+  }
+  [[nodiscard]] bool may_turn_from_state(const Route& way, std::size_t j, std::size_t k,
+                                         const Range& h) const {
+    Times all = turn_times(way, j, h);
+    if (is_finite(all.most)) all.most += most_from_state(k, h);
+    return all.may_be(t_);
+  }
+  [[nodiscard]] bool may_come_from_state(const Route& route, std::size_t k, const Range& h) const {
+    Times all = times(route, h);
+    if (is_finite(all.most)) all.most += most_from_state(k, h);
+    return all.may_be(t_);
+  }
+
+  /// The state at a rate r in a cell, on the way of a route on which h = least (1 - lack).
+  [[nodiscard]] State state_at(std::size_t cell, bool is_up, const Scalar& r, const Scalar& least,
+                               const Scalar& lack, const Scalar& h) const {
+    const Scalar e = r == least ? lack : Scalar(((r - least) + least * lack) / r);
+    return view_.side(cell, is_up)
+        .at(std::clamp(e, Scalar(0), Scalar(1)), std::min(Scalar(1), Scalar(h / r)));
+  }
+  [[nodiscard]] State initial_state(std::size_t k) const {
+    const Scalar half = view_.q0[k] / Scalar(2);
+    const LawSide<Scalar> side = view_.side(k, true);
+    return {std::max(Scalar(0), half), std::min(view_.missing[k], side.reach())};
+  }
+
+  /// Adds all runs and the turn of a route to a sample that has h and qm2.
+  void add_law_route(const Route& route, Sample& s) const {
+    for (const auto& run : route.runs) {
+      const Scalar bend = run.is_upwards ? view_.bend[run.cell] : Scalar(-view_.bend[run.cell]);
+      for (const bool is_up : {true, false}) {
+        if (run.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
+        const LawRun<Scalar> law(view_.side(run.cell, is_up), run.form, bend, run.d, run.r1,
+                                 state_at(run.cell, is_up, run.r1, route.least, s.qm2, s.h), run.r2,
+                                 state_at(run.cell, is_up, run.r2, route.least, s.qm2, s.h), s.h);
+        s.T += law.T;
+        s.X += law.X;
+      }
+    }
+    if (!(route.turn_bend > 0)) return;
+    const std::size_t j = route.turn_cell;
+    const Scalar& r = route.turn_rate;
+    const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend, r,
+                               state_at(j, true, r, route.least, s.qm2, s.h),
+                               state_at(j, false, r, route.least, s.qm2, s.h), s.h);
+    s.T += turn.T;
+    s.T_falling += turn.T;
+    s.X += turn.X;
+    s.X_falling += turn.X;
+  }
+
+  // Fans.
+  [[nodiscard]] Sample fan_sample(const Route& route, const Scalar& w) const {
+    const Scalar one(1), more = one + w;
+    Sample s;
+    s.v = w;
+    s.qm = (one - w) / more;
+    s.qm2 = s.qm * s.qm;
+    s.h = Scalar(4) * route.least * w / (more * more);
+    add_law_route(route, s);
+    return s;
+  }
+  void offer_fan(const Route& route, std::size_t node, const Scalar& base, const Sample& s, bool turned,
+                 std::size_t turn) {
+    offer(base + s.X + s.h / Scalar(4) * (t_ - s.T), s.h, PathKind::fan, !turned, turned, node, view_.x[node],
+          turn, route.least, s.qm);
+  }
+  /// Whether a path may pass the place with the least rate at less than its speed.
+  [[nodiscard]] bool has_kink(const Route& route) const {
+    return std::any_of(route.runs.begin(), route.runs.end(), [&](const auto& run) {
+      const LawSide<Scalar> side = view_.side(run.cell, true);
+      return (run.r1 == route.least || run.r2 == route.least) && side.slope({Scalar(0), side.reach()}) > 0;
+    });
+  }
+  void straight_fan(const Route& route, std::size_t node, const Scalar& time) {
+    const Scalar base = view_.M[node] + gained(view_.x[node], z_);
+    if (base > limit() || time > late_) return;  // L >= max(0, v)
+    if (time >= t_) {
+      if (!moving_only_) offer_fan(route, node, base, fan_sample(route, Scalar(0)), false, 0);
+      return;
+    }
+    const Sample top = fan_sample(route, Scalar(1));
+    // It comes too early: it dawdles where the rate is least, in a flux with a kink. Any other rests at a throat.
+    if (top.T <= t_ && has_kink(route)) return offer_fan(route, node, base, top, false, 0);
+    // Right then both are the path, and rounding must not drop both.
+    if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
+    Sample zero;
+    zero.T = time;
+    const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
+    roots(
+        1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); }, kSure);
+  }
+  void turned_fan(const Route& route, std::size_t node, std::size_t j, const Scalar& lo, const Scalar& hi,
+                  const Scalar& top) {
+    const Scalar base = view_.M[node] + gained(view_.x[node], top);
+    if (base > limit()) return;
+    const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
+    const Sample a = at(w_of(lo, route.least));
+    // No path along the route with a larger h costs less: H' t + int p dz at a smaller H'.
+    if (base + (a.X - a.X_falling) + a.h / Scalar(4) * (t_ - (a.T - a.T_falling)) > limit()) return;
+    roots(
+        -1, a, at(w_of(hi, route.least)), at,
+        [&](const Sample& s) { offer_fan(route, node, base, s, true, j); }, 0);
+  }
+
+  // States.
+  [[nodiscard]] Sample state_sample(const Route& route, const StateRange& range, const Scalar& v) const {
+    using std::sqrt;
+    const std::size_t k = range.cell;
+    const Start start = start_at(range, v);
+    Sample s;
+    s.v = v;
+    s.y = start.y;
+    s.rate = start.rate;
+    s.h = start.h;
+    s.qm2 = range.qa2 + range.kappa * start.lost;
+    s.qm = sqrt(s.qm2);
+    add_law_route(route, s);
+    const bool up = range.leaves == Leaves::upwards;
+    const Scalar& exit = up ? view_.high[k] : view_.low[k];
+    const State from = initial_state(k);
+    if (up) {
+      const LawRun<Scalar> run(view_.side(k, true), view_.form[k], view_.bend[k], start.d, s.rate, from, exit,
+                               state_at(k, true, exit, route.least, s.qm2, s.h), s.h);
+      s.T += run.T;
+      s.X += run.X;
+      if (!(view_.bend[k] < 0)) s.T_falling += run.T;
+      return s;
+    }
+    // It turns, comes back to its start and goes on to the end below: all of that falls.
+    const Scalar e0 = view_.e0[k], G0 = view_.G0[k];
+    const State back = view_.side(k, false).at(e0, G0);
+    const LawTurn<Scalar> turn(view_.side(k, true), view_.side(k, false), view_.form[k], size_of_bend(k),
+                               s.rate, from, back, s.h);
+    const LawRun<Scalar> run(view_.side(k, false), view_.form[k], Scalar(-view_.bend[k]), start.d, s.rate,
+                             back, exit, state_at(k, false, exit, route.least, s.qm2, s.h), s.h);
+    s.T += turn.T + run.T;
+    s.T_falling += turn.T + run.T;
+    s.X += turn.X + run.X;
+    return s;
+  }
+  void search_state(const Route& route, const StateRange& range, int sign, const Scalar& top, bool turned,
+                    std::size_t turn) {
+    if (range.is_empty) return;
+    const std::size_t k = range.cell;
+    const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
+    const auto found = [&](const Sample& s) {
+      const Scalar height = range.leaves == Leaves::downwards ? s.y : top;
+      const Scalar value = view_.amount(k, s.y) + gained(s.y, height) + s.X + s.h / Scalar(4) * (t_ - s.T);
+      offer(value, s.h, PathKind::constant, !turned, turned, k, s.y, turn, route.least, s.qm);
+    };
+    const Sample b = at(Scalar(0)), a = at(Scalar(1));
+    roots(sign, a, b, at, found, 0);
+  }
+  /// Where r is constant in cell k: h is given and the time linear in the start.
+  void flat_state(Route& route, std::size_t k, const Scalar& top, bool turned, std::size_t turn,
+                  const Scalar& h_low) {
+    using std::sqrt;
+    const Scalar& r = view_.low[k];
+    Sample s;
+    s.h = view_.h(k, r);
+    if (!(view_.q0[k] > 0) || s.h < h_low) return;
+    s.qm2 = ((route.least - r) + r * view_.e0[k]) / route.least;
+    if (s.qm2 < 0) return;
+    s.qm = sqrt(s.qm2);
+    add_law_route(route, s);
+    if (!(s.T <= late_)) return;
+    const LawSide<Scalar> side = view_.side(k, true);
+    const State from = initial_state(k);
+    const Scalar left = std::max(Scalar(0), Scalar(t_ - s.T)), width = view_.x[k + 1] - view_.x[k];
+    Scalar d = left * r * side.slope(from) / Scalar(4);
+    if (d > width + slack_) return;
+    d = std::min(d, width);
+    const LawRun<Scalar> run(side, RateForm::linear, Scalar(0), d, r, from, r, from, s.h);
+    const Scalar y = view_.x[k + 1] - d;
+    const Scalar value =
+        view_.amount(k, y) + gained(y, top) + (s.X + run.X) + s.h / Scalar(4) * (t_ - (s.T + run.T));
+    offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+  }
+
+ private:
+  static constexpr std::size_t kFew = 6;
+  /// What a distance from the peak may be off by where r - h is all rounding.
+  static constexpr double kSlack = 0x1p-20;
+  /// Of a search for roots: where they meet in a stationary point of T intervals stay in doubt.
+  static constexpr int kMostSamples = 200;
+  static constexpr int kSure = 4;  ///< so many halvings make an interval narrow
+
+  /// Calls found() next to every root of T = t between samples a and b, a.h < b.h, where T rises with h for `sign` 1 and falls for -1.
+  template <class At, class Found>
+  void roots(int sign, const Sample& a, const Sample& b, const At& at, const Found& found, int depth) {
+    int left = kMostSamples;
+    const Scalar tolerance = Scalar(256) * unit_roundoff<Scalar>() * t_;
+    for (const Sample* s : {&a, &b})
+      if (is_close(s->T, tolerance)) found(*s);
+    halve(sign, a, b, at, found, tolerance, depth, left);
+  }
+  template <class At, class Found>
+  void halve(int sign, const Sample& a, const Sample& b, const At& at, const Found& found,
+             const Scalar& tolerance, int depth, int& left) {
+    if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance) return;
+    if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance) return;
+    // In a flux with straight branches T may be the same for all of them.
+    if (is_close(a.T, tolerance) && is_close(b.T, tolerance)) return;
+    const bool encloses = sign > 0 ? a.T < t_ && b.T > t_ : a.T > t_ && b.T < t_;
+    if (depth >= kSure && encloses) return found(root(a, b, at));
+    const Scalar middle = a.v + (b.v - a.v) / Scalar(2);
+    if (left <= 0 || !(middle > std::min(a.v, b.v) && middle < std::max(a.v, b.v))) return;
+    --left;
+    const Sample m = at(middle);
+    if (is_close(m.T, tolerance)) found(m);
+    halve(sign, a, m, at, found, tolerance, depth + 1, left);
+    halve(sign, m, b, at, found, tolerance, depth + 1, left);
+  }
+  [[nodiscard]] bool is_close(const Scalar& T, const Scalar& tolerance) const {
+    return T - t_ <= tolerance && t_ - T <= tolerance;
+  }
+  /// Of T - t between two samples of which one is less than t and the other more: by the false position of 1 / T, in the form of
+  /// Anderson and Bjorck.
+  template <class At>
+  [[nodiscard]] Sample root(const Sample& a, const Sample& b, const At& at) const {
+    const auto f = [&](const Scalar& T) { return is_finite(T) ? Scalar((T - t_) / T) : Scalar(1); };
+    Scalar x0 = a.v, f0 = a.T > 0 ? f(a.T) : Scalar(-1), x1 = b.v, f1 = b.T > 0 ? f(b.T) : Scalar(-1);
+    Sample best = a;
+    const Scalar u = unit_roundoff<Scalar>();
+    for (int n = 0; n < 300; ++n) {
+      Scalar x = x1 - f1 * ((x1 - x0) / (f1 - f0));
+      const Scalar lo = std::min(x0, x1), hi = std::max(x0, x1);
+      if (n % 8 == 7 || !(x > lo && x < hi)) x = lo + (hi - lo) / Scalar(2);
+      if (!(x > lo && x < hi)) break;
+      best = at(x);
+      const Scalar fx = best.T > 0 ? f(best.T) : Scalar(-1), size = fx < 0 ? Scalar(-fx) : fx;
+      if (size <= Scalar(4) * u || hi - lo <= Scalar(2) * u * hi) break;
+      if ((fx > 0) != (f1 > 0)) {
+        x0 = x1, f0 = f1;
+      } else {
+        const Scalar m = Scalar(1) - fx / f1;
+        f0 *= m > 0 ? m : Scalar(0.5);
+      }
+      x1 = x, f1 = fx;
+    }
+    return best;
+  }
+};
+
+}  // namespace shearfront::exact
