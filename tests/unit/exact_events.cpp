@@ -14,7 +14,7 @@ namespace {
 using support::SceneMaker;
 
 Scene<double> layered_bed(std::vector<double> breaks, std::vector<double> a, std::vector<double> jumps,
-                      std::vector<double> values) {
+                          std::vector<double> values) {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{std::move(breaks), std::move(a)};
   spec.initial_breaks = std::move(jumps);
