@@ -53,7 +53,7 @@ struct Units {
 };
 
 void expect_same(const SceneSpec<double>& spec, const Units& units, SceneMaker& maker) {
-  const auto& [L, T] = units;
+  const double L = units.L, T = units.T;
   SCOPED_TRACE("L = " + std::to_string(L) + ", T = " + std::to_string(T));
   const SceneSpec<double> other = support::in_units(spec, L, T);
   const ExactSolution<double>::Options options{static_cast<std::size_t>(maker.integer(0, 1) * 16), 1e-3};

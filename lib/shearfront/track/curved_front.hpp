@@ -190,7 +190,7 @@ template <class Evaluate>
 [[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
   constexpr int kMostSteps = 200, kPatience = 6;
   constexpr double kLastStep = 1e-10;  // the next one would be its square
-  const double width = std::abs(hi - lo);
+  const double bracket = std::abs(hi - lo);
   double z = start;
   for (int n = 0; n < kMostSteps; ++n) {
     const Passage at = evaluate(z);
@@ -202,7 +202,7 @@ template <class Evaluate>
     const bool is_newton = is_inside && !(n > kPatience && n % 3 == 0);
     if (!is_newton) next = middle;
     const double step = std::abs(next - z);
-    if (step <= 2e-16 * (width + std::abs(z)) || next == lo || next == hi) return next;
+    if (step <= 2e-16 * (bracket + std::abs(z)) || next == lo || next == hi) return next;
     if (is_newton && step < kLastStep * std::abs(hi - lo)) return next;
     z = next;
   }
