@@ -188,11 +188,11 @@ inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double 
 /// towards `hi` and the other one towards `lo`, lo and hi in any order.
 template <class Evaluate>
 [[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
-  constexpr int kMostSteps = 200, kPatience = 6;
+  constexpr int kMostNewtonSteps = 200, kPatience = 6;
   constexpr double kLastStep = 1e-10;  // the next one would be its square
   const double bracket = std::abs(hi - lo);
   double z = start;
-  for (int n = 0; n < kMostSteps; ++n) {
+  for (int n = 0; n < kMostNewtonSteps; ++n) {
     const Passage at = evaluate(z);
     if (at.t == 0) return z;
     (at.t < 0 ? lo : hi) = z;

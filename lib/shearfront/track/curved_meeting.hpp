@@ -133,8 +133,8 @@ class CurvedMeetings {
     if (difference(rear, lead, from).t <= 0) return root(rear, lead, from, lo, lo + (from - lo) / 2);
     if (!(growth(from) < 0) || !(growth(hi) > 0)) return std::nullopt;
     double falling = from, rising = hi;
-    constexpr int kMostSteps = 60;
-    for (int n = 0; n < kMostSteps; ++n) {
+    constexpr int kMostHalvings = 60;
+    for (int n = 0; n < kMostHalvings; ++n) {
       const double z = falling + (rising - falling) / 2;
       if (z == falling || z == rising) break;
       const Passage d = difference(rear, lead, z);
