@@ -381,21 +381,28 @@ class ObservationsReader {
   void average(const std::vector<std::size_t>& order) {
     std::vector<Observation>& rows = result_.rows;
     std::vector<std::size_t> counts(rows.size(), 0);  // of the values a kept row stands for
-    double sum_of_squares = 0;
+    double spread = 0;  // the root of a sum of squares, of numbers as large as doubles are
     std::size_t n_free = 0;
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       for (end = first; end < order.size() && place_of(rows[order[end]]) == place_of(rows[order[first]]);)
         ++end;
       const auto n = static_cast<double>(end - first);
-      double mean = 0;
-      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n;
-      for (std::size_t i = first; i < end; ++i)
-        sum_of_squares += (rows[order[i]].value - mean) * (rows[order[i]].value - mean);
+      const double one = rows[order[first]].value;
+      double mean = one;  // to the bit, where all are the same
+      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n - one / n;
+      for (std::size_t i = first; i < end; ++i) spread = std::hypot(spread, rows[order[i]].value - mean);
       n_free += end - first - 1;
       rows[order[first]].value = mean;
       counts[order[first]] = end - first;
     }
-    const double spread = n_free > 0 ? std::sqrt(sum_of_squares / static_cast<double>(n_free)) : 0;
+    if (n_free > 0) spread /= std::sqrt(static_cast<double>(n_free));
+    if (!std::isfinite(spread)) {
+      const Observation& row = rows[order[0]];
+      report_.add(position_of(origins_[order[0]], columns_->value()),
+                  {std::string(name_of(columns_->value())), number_text(row.value),
+                   "must be among values that differ by less than 1e308, to be averaged"});
+      return;
+    }
     const std::size_t n_values = rows.size();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < n_values; ++i) {
