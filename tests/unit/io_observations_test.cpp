@@ -166,6 +166,17 @@ TEST(Observations, TextReadsBackToTheBit) {
   }
 }
 
+// Found by mutations of files: comments copied from averages over chunks made a table one of these.
+TEST(Observations, CommentsOfChunksAboveATableAreComments) {
+  const std::string text =
+      "# Chunk-averaged data for fix profile\n# Timestep Number-of-chunks Total-count\n"
+      "# Chunk Coord1 Ncount c_phi\nt,z,phi\n0,0.5,0.25\n";
+  const Observations data = parse(text);
+  ASSERT_EQ(data.rows.size(), 1u);
+  EXPECT_EQ(data.rows[0].value, 0.25);
+  EXPECT_EQ(observations_text(data), text);
+}
+
 TEST(Observations, FileIsReadAndWritten) {
   const std::string path = (std::filesystem::temp_directory_path() / "shearfront-observations.csv").string();
   OutputFile file(path);

@@ -46,16 +46,21 @@ std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const
   return std::nullopt;
 }
 
-/// Offset of the line that names the columns of averages over chunks.
+/// Offset of the line that names the columns of averages over chunks. A step stands below it; below comments that were
+/// copied from such a file to another one stands a header.
 std::optional<std::size_t> header_of_chunks(std::string_view text) {
-  std::size_t begin = 0;
-  for (int i = 0; i < 3 && begin < text.size(); ++i) {
+  std::optional<std::size_t> header;
+  int i = 0;
+  for (std::size_t begin = 0; begin < text.size(); ++i) {
     const std::string_view line = line_at(text, begin), content = trimmed(line);
-    if (!content.starts_with('#')) return std::nullopt;
-    if (i == 2) return trimmed(content.substr(1)).starts_with("Chunk ") ? std::optional(begin) : std::nullopt;
+    if (i < 3 && !content.starts_with('#')) return std::nullopt;
+    if (i == 2 && !trimmed(content.substr(1)).starts_with("Chunk ")) return std::nullopt;
+    if (i == 2) header = begin;
+    if (i > 2 && !content.empty() && content[0] != '#')
+      return content[0] >= '0' && content[0] <= '9' ? header : std::nullopt;
     begin += line.size() + 1;
   }
-  return std::nullopt;
+  return header;
 }
 
 bool is_units_row(const std::vector<CsvField>& fields) {
