@@ -30,6 +30,7 @@ constexpr double kTail = 0.025;
 /// The same search if it is a local one.
 std::string local_algorithm(const std::string& algorithm) {
   constexpr std::string_view kNlopt = "nlopt:";
+  if (algorithm == "pattern") return algorithm;
   if (!algorithm.starts_with(kNlopt)) return "ceres";
   const NloptAlgorithm* of_nlopt = find_nlopt_algorithm(std::string_view(algorithm).substr(kNlopt.size()));
   if (!of_nlopt || !of_nlopt->is_global) return algorithm;
