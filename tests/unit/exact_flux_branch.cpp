@@ -34,7 +34,8 @@ FluxTable<double> random_flux_table(SceneMaker& make) {
     }
     Complaints complaints;
     flux.check("", complaints);
-    if (complaints.empty() && flux.curvature() == Curvature::convex && flux.extrema().size() == 1) return flux;
+    if (complaints.empty() && flux.curvature() == Curvature::convex && flux.extrema().size() == 1)
+      return flux;
   }
 }
 
@@ -49,7 +50,8 @@ FluxTable<Real110> in_many_digits(const FluxTable<double>& flux) {
 struct PlainMeans {
   Real110 inverse{0}, bow{0}, bow_over_height{0};
 
-  PlainMeans(const FluxTable<Real110>& flux, const Real110& depth, bool is_up, const Real110& m1, const Real110& m2) {
+  PlainMeans(const FluxTable<Real110>& flux, const Real110& depth, bool is_up, const Real110& m1,
+             const Real110& m2) {
     using Rule = boost::math::quadrature::gauss<Real110, 30>;
     const Real110 end = is_up ? flux.phi.back() : flux.phi.front();
     std::vector<Real110> cuts{m1, m2};
@@ -96,7 +98,8 @@ TEST(FluxBranch, MeansOfTablesAreThoseOfThinPanels) {
       const double m1 = side.reach() * std::exp(make.uniform(-4, -0.1));
       const double m2 = n % 3 == 0 ? m1 * (1 + 1e-3) : m1 + (side.reach() - m1) * make.uniform(0.1, 0.999);
       const PlainMeans plain(fine, depth, is_up, Real110(m1), Real110(m2));
-      const std::string at = "table " + std::to_string(n) + " from " + std::to_string(m1) + " to " + std::to_string(m2);
+      const std::string at =
+          "table " + std::to_string(n) + " from " + std::to_string(m1) + " to " + std::to_string(m2);
       const Real110 a(m1), b(m2);
       expect_close(precise_side.mean_inverse(a, b), plain.inverse, 1e-98, at);
       expect_close(precise_side.mean_bow(a, b), plain.bow, 1e-98, at);
@@ -139,7 +142,9 @@ TEST(FluxBranch, KnowsWhatItsModelKnows) {
     const double width = range.highest - range.lowest, depth = std::abs(model.value(model.extrema().front()));
     const bool is_concave = model.curvature() == Curvature::concave;
     for (const bool is_up : {false, true}) {
-      const auto place = [&](double u) { return is_concave ? range.highest - width * u : range.lowest + width * u; };
+      const auto place = [&](double u) {
+        return is_concave ? range.highest - width * u : range.lowest + width * u;
+      };
       for (int i = 0; i < 50; ++i) {
         const double reach = flux.reach(is_up), d = reach * make.uniform(0, 1), m = reach - d;
         const double u = is_up ? flux.peak() + d : flux.peak() - d;
@@ -147,7 +152,8 @@ TEST(FluxBranch, KnowsWhatItsModelKnows) {
         EXPECT_NEAR(flux.lack(d, is_up), 1 - G, 1e-15);
         EXPECT_NEAR(flux.flux_beside(m, is_up), G, 1e-15);
         EXPECT_NEAR(flux.slope(d, is_up), std::abs(model.derivative(place(u))) * width / depth, 1e-13);
-        EXPECT_NEAR(flux.inverse(flux.lack(d, is_up), is_up), d, 1e-15 + 4e-16 * reach / std::sqrt(1e-16 + 1 - G));
+        EXPECT_NEAR(flux.inverse(flux.lack(d, is_up), is_up), d,
+                    1e-15 + 4e-16 * reach / std::sqrt(1e-16 + 1 - G));
         const double tiny = std::exp(make.uniform(-600, -1)) * reach;
         EXPECT_NEAR(flux.distance_beside(flux.flux_beside(tiny, is_up), is_up) / tiny, 1, 4e-15);
       }

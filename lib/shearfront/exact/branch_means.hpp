@@ -39,9 +39,10 @@ class BranchMeans {
       const Scalar to = first_end - lo_;
       all = log1p(Scalar(to / lo_)) / first.slope;
       if (first.square != 0 || first.cube != 0)
-        all -= over(lo_, first_end, [&](const Scalar& m) {
-                 return Scalar((first.square + m * first.cube) / first.chord_at(m));
-               }) /
+        all -= over(lo_, first_end,
+                    [&](const Scalar& m) {
+                      return Scalar((first.square + m * first.cube) / first.chord_at(m));
+                    }) /
                first.slope;
     }
     all += over_others([&](const Piece& piece, const Scalar& m) { return Scalar(one / piece.at(m)); });
@@ -49,9 +50,8 @@ class BranchMeans {
   }
   /// Of (G - m G') / G = -m c' / c.
   [[nodiscard]] Scalar bow() const {
-    return mean([](const Scalar& chord, const Scalar& fall, const Scalar& m) {
-      return Scalar(m * fall / chord);
-    });
+    return mean(
+        [](const Scalar& chord, const Scalar& fall, const Scalar& m) { return Scalar(m * fall / chord); });
   }
   /// Of (G - m G') / G^2 = -c' / c^2.
   [[nodiscard]] Scalar bow_over_height() const {

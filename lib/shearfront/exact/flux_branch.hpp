@@ -91,8 +91,9 @@ class FluxBranch {
     if (begin > 0 && e > lack(most)) return reach_ - distance(Scalar(Scalar(1) - e));
     if (square_ == 0 && cube_ == 0) return std::min(most, Scalar(e / kink_));
     // e(d) is convex: from above Newton's steps fall, from below the first one leads above.
-    Scalar d = kink_ > 0 ? Scalar(Scalar(2) * e / (kink_ + sqrt(Scalar(kink_ * kink_ + Scalar(4) * square_ * e))))
-                         : Scalar(sqrt(Scalar(e / (square_ + std::min(Scalar(0), Scalar(cube_ * most))))));
+    Scalar d = kink_ > 0
+                   ? Scalar(Scalar(2) * e / (kink_ + sqrt(Scalar(kink_ * kink_ + Scalar(4) * square_ * e))))
+                   : Scalar(sqrt(Scalar(e / (square_ + std::min(Scalar(0), Scalar(cube_ * most))))));
     d = std::min(d, most);
     for (int n = 0; n < kMostSteps; ++n) {
       const Scalar by = kink_ + d * (Scalar(2) * square_ + Scalar(3) * d * cube_);
@@ -110,7 +111,8 @@ class FluxBranch {
     const Piece& piece = pieces_[i];
     const Scalar width = (i + 1 < pieces_.size() ? pieces_[i + 1].begin : reach_) - piece.begin;
     const Scalar more = G - piece.G0;
-    if (piece.square == 0 && piece.cube == 0) return piece.begin + std::min(width, Scalar(more / piece.slope));
+    if (piece.square == 0 && piece.cube == 0)
+      return piece.begin + std::min(width, Scalar(more / piece.slope));
     // G is concave: from below Newton's steps rise.
     Scalar x = std::min(width, Scalar(more / piece.slope));
     for (int n = 0; n < kMostSteps; ++n) {

@@ -50,8 +50,7 @@ template <Real Scalar>
 template <class Model>
 FluxBranch<Scalar> InverseFlux<Scalar>::branch_of(const Model& f, bool up) const {
   const Scalar zero(0), two(2), four(4), six(6);
-  if constexpr (Model::kIsParabola)
-    return {reach(up), {{zero, zero, four, -four, zero}}, zero, four, zero};
+  if constexpr (Model::kIsParabola) return {reach(up), {{zero, zero, four, -four, zero}}, zero, four, zero};
   // As functions of m.
   const auto slope = [&](const Scalar& m) { return Scalar(slope_of(f, Scalar(reach(up) - m), up)); };
   const auto bend = [&](const Scalar& m) -> Scalar {  // G''

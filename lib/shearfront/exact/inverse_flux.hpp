@@ -97,7 +97,7 @@ class InverseFlux {
   Scalar lowest_{0}, highest_{1}, width_{1}, extremum_{0}, depth_{1}, peak_{0};
   std::vector<Scalar> joints_[2];
   std::vector<FluxBranch<Scalar>> branches_;  ///< down and up, or none
-  Scalar kink_[2] = {Scalar(0), Scalar(0)};  ///< e'(0) down and up
+  Scalar kink_[2] = {Scalar(0), Scalar(0)};   ///< e'(0) down and up
 };
 
 }  // namespace shearfront::exact
