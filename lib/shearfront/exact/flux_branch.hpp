@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace shearfront::exact {
 /// multiplications what InverseFlux says by the model.
 ///
 /// Guarantees: G, G / m and the inverse next to the pure state to a few u of themselves, all else to a few u. Precondition: G is concave
-/// and does not fall from m = 0 to the peak. Cost: 4 to 6 Newton steps per inverse, to half of the digits and one more.
+/// and does not fall from m = 0 to the peak. Cost: 2 or 3 steps of third order per inverse.
 template <Real Scalar>
 class FluxBranch {
  public:
@@ -90,19 +91,10 @@ class FluxBranch {
     const Scalar most = reach_ - begin;
     if (begin > 0 && e > lack(most)) return reach_ - distance(Scalar(Scalar(1) - e));
     if (square_ == 0 && cube_ == 0) return std::min(most, Scalar(e / kink_));
-    // e(d) is convex: from above Newton's steps fall, from below the first one leads above.
-    Scalar d = kink_ > 0
-                   ? Scalar(Scalar(2) * e / (kink_ + sqrt(Scalar(kink_ * kink_ + Scalar(4) * square_ * e))))
-                   : Scalar(sqrt(Scalar(e / (square_ + std::min(Scalar(0), Scalar(cube_ * most))))));
-    d = std::min(d, most);
-    for (int n = 0; n < kMostSteps; ++n) {
-      const Scalar by = kink_ + d * (Scalar(2) * square_ + Scalar(3) * d * cube_);
-      if (!(by > 0)) break;
-      const Scalar step = (d * (kink_ + d * (square_ + d * cube_)) - e) / by;
-      d = std::min(most, Scalar(d - step));
-      if (is_last(step, d)) break;
-    }
-    return d;
+    const Scalar root = sqrt(e);
+    const Scalar guess = kink_ > 0 ? first_guess(kink_, square_, e)
+                                   : Scalar(root / sqrt(Scalar(square_ + cube_ * (most * root))));
+    return solve(kink_, square_, cube_, e, guess, most);
   }
   /// m with G(m) = G, 0 < G < 1.
   [[nodiscard]] Scalar distance(const Scalar& G) const {
@@ -113,29 +105,47 @@ class FluxBranch {
     const Scalar more = G - piece.G0;
     if (piece.square == 0 && piece.cube == 0)
       return piece.begin + std::min(width, Scalar(more / piece.slope));
-    // G is concave: from below Newton's steps rise.
-    Scalar x = std::min(width, Scalar(more / piece.slope));
-    for (int n = 0; n < kMostSteps; ++n) {
-      const Scalar by = piece.slope + x * (Scalar(2) * piece.square + Scalar(3) * x * piece.cube);
-      if (!(by > 0)) break;
-      const Scalar step = (more - x * (piece.slope + x * (piece.square + x * piece.cube))) / by;
-      x = std::clamp(Scalar(x + step), Scalar(0), width);
-      if (is_last(step, x)) break;
-    }
-    return piece.begin + x;
+    return piece.begin + solve(piece.slope, piece.square, piece.cube, more,
+                               first_guess(piece.slope, piece.square, more), width);
   }
 
  private:
-  static constexpr int kMostSteps = 200;
-
   [[nodiscard]] bool is_in_last(const Scalar& d) const {
     return pieces_.size() == 1 || d <= reach_ - pieces_.back().begin;
   }
-  /// A step that leaves an error below rounding, the next being of the size of its square.
-  [[nodiscard]] static bool is_last(const Scalar& step, const Scalar& x) {
+  /// Of a parabola; where that does not come so far, of a line.
+  [[nodiscard]] static Scalar first_guess(const Scalar& slope, const Scalar& square, const Scalar& y) {
     using std::sqrt;
-    static const Scalar half = sqrt(unit_roundoff<Scalar>()) / Scalar(16);
-    return (step < 0 ? Scalar(-step) : step) <= half * x;
+    const Scalar under = slope * slope + Scalar(4) * square * y;
+    return Scalar(2) * y / (slope + (under > 0 ? Scalar(sqrt(under)) : Scalar(0)));
+  }
+  /// x of [0, most] with x (slope + x (square + x cube)) = y, of which that rises with x: by Halley's steps, the error after one being of the
+  /// size of its cube.
+  [[nodiscard]] static Scalar solve(const Scalar& slope, const Scalar& square, const Scalar& cube,
+                                    const Scalar& y, const Scalar& guess, const Scalar& most) {
+    static const Scalar close(std::ldexp(1.0, -4 - std::numeric_limits<Scalar>::digits / 3));
+    const Scalar zero(0), half(0.5), one(1), two(2), three(3);
+    Scalar x = guess < most ? guess : most, lo = zero, hi = most;
+    constexpr int kMostSteps = 200;
+    for (int n = 0; n < kMostSteps; ++n) {
+      const Scalar over = x * (slope + x * (square + x * cube)) - y, x3 = three * x * cube,
+                   by = slope + x * (two * square + x3);
+      (over > 0 ? hi : lo) = x;
+      Scalar step = over / by;
+      if (const Scalar bow = step * (square + x3) / by; bow < half) step /= one - bow;
+      if ((step < 0 ? Scalar(-step) : step) <= close * x) return std::min(most, Scalar(x - step));
+      Scalar next = x - step;
+      if (!(next > lo && next < hi)) {
+        if (next >= most && hi == most && x < most) {
+          next = most;
+        } else {
+          next = lo + (hi - lo) * half;
+          if (!(next > lo && next < hi)) break;
+        }
+      }
+      x = next;
+    }
+    return x;
   }
 
   Scalar reach_;
