@@ -153,20 +153,21 @@ class LawCandidates : protected SlopedStarts<Scalar> {
         of = flux;
         const LawRun<Scalar> law(view_.side(run.cell, is_up), run.form, bend, run.d, run.r1, begin, run.r2,
                                  state, s.h);
-        s.T += law.T;
+        s.T_rising += law.T;
         s.X += law.X;
       }
     }
-    if (!(route.turn_bend > 0)) return;
-    const std::size_t j = route.turn_cell;
-    const Scalar& r = route.turn_rate;
-    const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend, r,
-                               state_at(j, true, r, route.least, s.qm2, s.h),
-                               state_at(j, false, r, route.least, s.qm2, s.h), s.h);
-    s.T += turn.T;
-    s.T_falling += turn.T;
-    s.X += turn.X;
-    s.X_falling += turn.X;
+    if (route.turn_bend > 0) {
+      const std::size_t j = route.turn_cell;
+      const Scalar& r = route.turn_rate;
+      const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend,
+                                 r, state_at(j, true, r, route.least, s.qm2, s.h),
+                                 state_at(j, false, r, route.least, s.qm2, s.h), s.h);
+      s.T_falling += turn.T;
+      s.X += turn.X;
+      s.X_falling += turn.X;
+    }
+    s.T = s.T_rising + s.T_falling;
   }
 
   // Fans.
@@ -219,7 +220,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     const Sample a = at(w_of(lo, route.least));
     // No path along the route with a larger h costs less: H' t + int p dz at a smaller H'.
     const auto is_dear = [&](const Sample& s) {
-      return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - (s.T - s.T_falling)) > limit();
+      return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising) > limit();
     };
     if (is_dear(a)) return;
     roots(
@@ -248,7 +249,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
                                state_at(k, true, exit, route.least, s.qm2, s.h), s.h);
       s.T += run.T;
       s.X += run.X;
-      if (!(view_.bend[k] < 0)) s.T_falling += run.T;
+      (view_.bend[k] < 0 ? s.T_rising : s.T_falling) += run.T;
       return s;
     }
     // It turns, comes back to its start and goes on to the end below: all of that falls.
@@ -324,8 +325,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   template <class At, class Found, class IsDear>
   void halve(int sign, const Sample& a, const Sample& b, const At& at, const Found& found,
              const IsDear& is_dear, const Scalar& tolerance, int depth, int& left) {
-    if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance) return;
-    if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance) return;
+    if (a.T_rising + b.T_falling > t_ + tolerance) return;
+    if (b.T_rising + a.T_falling < t_ - tolerance) return;
     // In a flux with straight branches T may be the same for all of them.
     if (is_close(a.T, tolerance) && is_close(b.T, tolerance)) return;
     if (is_dear(a)) return;
