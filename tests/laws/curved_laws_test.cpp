@@ -37,7 +37,7 @@ struct CurvedRun {
     unit_time = 1 / rate;
   }
   static std::shared_ptr<const CurvedBed> make(const Scene<double>& scene, double resolution) {
-    CurvedScene curved = *curved_scene(scene);
+    CurvedScene curved = curved_scene(scene);
     LevelPlan plan = plan_levels(curved.problem, resolution);
     return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), resolution);
   }

@@ -49,11 +49,39 @@ struct Passage {
   double t, slope;
 };
 
+namespace curved_front_detail {
+
+/// Levels whose capacities differ by less than this part are taken for one where a difference would be rounding.
+inline constexpr double kNearLevels = 1e-7;
+
+/// front_slope() for fluxes that are no parabola.
+[[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
+                                         double q_below, double q_above) {
+  const FluxBranches& flux = *grid.flux();
+  const double h_below = grid.capacity(grid.level(f.below)), h_above = grid.capacity(grid.level(f.above));
+  const bool is_below_high = grid.is_high(f.below), is_above_high = grid.is_high(f.above);
+  const auto lack = [&](bool is_high, double h, double q) {
+    return q > 0 ? flux.lack(is_high, q, h / rate) : flux.spread(is_high);
+  };
+  const double s_j = is_above_high ? 1 : -1;
+  if (is_below_high != is_above_high)
+    return 2 * s_j * (2 - lack(is_below_high, h_below, q_below) - lack(is_above_high, h_above, q_above)) /
+           (h_below - h_above);
+  if (std::abs(h_below - h_above) < kNearLevels * h_below && q_below > 0 && q_above > 0)
+    return 2 * s_j *
+           flux.lack_slope(is_above_high, (q_below + q_above) / 2, (h_below + h_above) / (2 * rate)) / rate;
+  return 2 * s_j * (lack(is_below_high, h_below, q_below) - lack(is_above_high, h_above, q_above)) /
+         (h_below - h_above);
+}
+
+}  // namespace curved_front_detail
+
 /// dt/dz of a front where the rate is `rate` and its levels have these q. The difference of two that are near to each other comes
 /// from what they are.
 [[nodiscard]] inline double front_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
                                         double q_below, double q_above) {
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  if (grid.flux()) return curved_front_detail::branch_slope(grid, f, rate, q_below, q_above);
   if (s_i == s_j && q_below > 0 && q_above > 0) return 2 * s_j / (rate * (q_below + q_above));
   return 2 * (s_j * q_above - s_i * q_below) /
          (grid.capacity(grid.level(f.below)) - grid.capacity(grid.level(f.above)));
@@ -92,13 +120,23 @@ namespace curved_front_detail {
 [[nodiscard]] inline std::optional<double> mean_characteristic(const LevelCurves& grid, const CurvedNode& f,
                                                                double h_below, double h_above, double z,
                                                                double rate, double q_below, double q_above) {
-  constexpr double kNear = 1e-7, kFarFromTurn = 1e3;
+  constexpr double kFarFromTurn = 1e3;
   const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
-  if (!(spread < kNear)) return std::nullopt;
+  if (!(spread < kNearLevels)) return std::nullopt;
   const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
   const double least = std::min(f.q_below, f.q_above);
   if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
+  if (grid.flux()) {
+    const LevelCurves::Place origin{q_origin == 0 ? piece.height_of(h) : f.z, q_origin == 0 ? h : f.rate,
+                                    q_origin},
+        here{z, rate, q};
+    if (q_origin > 0 && !(least * least > kFarFromTurn * spread)) return std::nullopt;
+    const bool rises = z > origin.z;
+    const double time = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
+                                                 rises ? here : origin);
+    return rises ? time : -time;
+  }
   if (q_origin == 0)
     return (piece.curve == RateCurve::exponential ? q / h : std::atanh(q)) * (2 / piece.bend);
   if (!(least * least > kFarFromTurn * spread)) return std::nullopt;
@@ -121,7 +159,7 @@ namespace curved_front_detail {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
-  if (piece.curve == RateCurve::exponential) {
+  if (piece.curve == RateCurve::exponential && !grid.flux()) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
@@ -147,8 +185,8 @@ namespace curved_front_detail {
     if (const auto mean = curved_front_detail::mean_characteristic(
             grid, f, grid.capacity(i), grid.capacity(j), z, rate, below.q, above.q))
       return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
-  const double E_i = grid.deficit(p, i, {f.z, f.rate, f.q_below}, below),
-               E_j = grid.deficit(p, j, {f.z, f.rate, f.q_above}, above);
+  const double E_i = grid.deficit(p, f.below, {f.z, f.rate, f.q_below}, below),
+               E_j = grid.deficit(p, f.above, {f.z, f.rate, f.q_above}, above);
   const double way = s_i == s_j ? E_i - E_j : 2 * d - E_i - E_j;
   return {f.t + factor * s_j * way, front_slope(grid, f, rate, below.q, above.q)};
 }

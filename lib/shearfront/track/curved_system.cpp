@@ -115,8 +115,7 @@ void CurvedSystem<Observer>::set_edge(FrontIndex i, double t) {
 /// When the characteristic of the state ahead of an edge reaches z.
 template <class Observer>
 double CurvedSystem<Observer>::arrival_of_edge(const Node& f, double z) const {
-  return f.edge_t +
-         grid_->characteristic_time(f.layer, grid_->level(f.direction > 0 ? f.above : f.below), f.z, z);
+  return f.edge_t + grid_->characteristic_time(f.layer, f.direction > 0 ? f.above : f.below, f.z, z);
 }
 
 /// The waves that go down from z where the flux has become that of `level`; `at` is the state left there.
