@@ -175,6 +175,81 @@ TEST(CurvedFronts, OtherParabolas) {
   EXPECT_EQ(n, 3);
 }
 
+/// Error of M of steps and lines at t = 0.3 and of the first arrivals, in a bed of one flux with 0 above and below a jump.
+struct OtherFluxErrors {
+  double steps, lines, arrivals;
+};
+OtherFluxErrors other_flux_errors(const Scene<double>& scene, const ExactSolution<double>& exact,
+                                  double resolution) {
+  OtherFluxErrors errors{0, 0, 0};
+  for (const Reconstruction kind : {Reconstruction::constant, Reconstruction::linear}) {
+    Tracking tracking(scene, {.resolution = resolution, .reconstruct = kind});
+    EXPECT_LE(tracking.summary().layers, 10u);  // no staircase
+    tracking.advance(0.3);
+    const auto field = tracking.field(scene);
+    double& largest = kind == Reconstruction::constant ? errors.steps : errors.lines;
+    for (int i = 1; i < 40; ++i)
+      largest = std::max(largest, std::abs(field->at(i / 40.0).M - exact.M(i / 40.0, 0.3)));
+    EXPECT_NEAR(field->at(1).M, scene.mass(), 1e-13);
+    const Timeline<double> tracked = *tracking.timeline(), timeline = exact_timeline(exact);
+    errors.arrivals = std::max({errors.arrivals, std::abs(*tracked.t0 / *timeline.t0 - 1),
+                                std::abs(*tracked.t1 / *timeline.t1 - 1)});
+  }
+  return errors;
+}
+
+// Convex and concave fluxes that are no parabolas, with and without layers of the solid fraction.
+TEST(CurvedFronts, OtherFluxes) {
+  int n = 0;
+  double coarse = 0, fine = 0;
+  for (const Flux<double>& flux : {Flux<double>(Cubic<double>{0.25}), Flux<double>(Cubic<double>{0.5}),
+                                   Flux<double>(LwrCubic<double>{0.8, 0.4})})
+    for (const DepthFunction<double>& rate :
+         {DepthFunction<double>(Exponential<double>{2, 0.4}),
+          DepthFunction<double>(Table<double>{{0, 0.4, 0.7, 1}, {1, 2, 0.6, 1.4}})})
+      for (const bool has_layers_of_c : {false, true}) {
+        SceneSpec<double> spec;
+        spec.fluxes = {flux};
+        spec.shear_rate = rate;
+        spec.initial_breaks = {0.5};
+        const double most = flux.range().highest;
+        spec.initial_values = {0, most};
+        if (flux.value(flux.extrema().front()) > 0) spec.initial_values = {most, 0};
+        if (has_layers_of_c) spec.solid_fraction = Piecewise<double>{{0.35}, {0.62, 0.5}};
+        const Scene<double> scene(spec);
+        const ExactSolution<double> exact(scene);
+        ASSERT_TRUE(exact.is_exact());
+        const OtherFluxErrors a = other_flux_errors(scene, exact, 0.02),
+                              b = other_flux_errors(scene, exact, 0.0025);
+        EXPECT_LE(b.arrivals, 1e-12) << flux.name();
+        EXPECT_LE(b.steps, 2e-5) << flux.name();
+        EXPECT_LE(b.lines, 2e-5) << flux.name();
+        coarse += std::log2(a.steps);
+        fine += std::log2(b.steps);
+        ++n;
+      }
+  EXPECT_EQ(n, 12);
+  EXPECT_GE((coarse - fine) / n / 3, 1.7);
+}
+
+// A flux with straight branches has contacts instead of fans: they are carried beyond turning heights, to first order.
+TEST(CurvedFronts, StraightBranches) {
+  SceneSpec<double> spec;
+  spec.fluxes = {Triangular<double>{0.25, 1}};
+  spec.shear_rate = Table<double>{{0, 0.4, 0.7, 1}, {1, 2, 0.6, 1.4}};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {1, 0};
+  const Scene<double> scene(spec);
+  const ExactSolution<double> exact(scene);
+  for (const double resolution : {0.04, 0.01, 0.0025}) {
+    Tracking tracking(scene, {.resolution = resolution});
+    tracking.advance(0.6);
+    const auto field = tracking.field(scene);
+    for (int i = 0; i <= 40; ++i)
+      EXPECT_NEAR(field->at(i / 40.0).M, exact.M(i / 40.0, 0.6), 0.05 * resolution) << resolution;
+  }
+}
+
 // What rests beyond an end is a wall.
 TEST(CurvedFronts, OpenEndsWithPureStatesAreWalls) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -34,8 +34,9 @@ Turned characteristic_after_turn(const LevelCurves& grid, std::size_t p, double 
     // As characteristic_time() from the turning height on, where q = 0.
     const auto late = [&](double q) -> Passage {
       const double x = (1 - q) * (1 + q);
-      const double ways = flux->rest_integral(is_high, 0, q, q * q) - flux->pure_shape(is_high) * std::log(x) +
-                          flux->shape(is_high, 0) - flux->shape(is_high, q);
+      const double ways = flux->rest_integral(is_high, 0, q, q * q) -
+                          flux->pure_shape(is_high) * std::log(x) + flux->shape(is_high, 0) -
+                          flux->shape(is_high, q);
       return {2 * ways / bend - t, 4 * q * flux->lack_slope(is_high, q, x) / x / bend};
     };
     constexpr double kMost = 1 - 1e-12;

@@ -97,8 +97,8 @@ CurvedScene scene_with(const Scene<double>& scene, std::shared_ptr<const FluxBra
     return std::clamp((share - curved.offset) / curved.slope, 0.0, 1.0);
   };
   CurvedProblem& problem = curved.problem;
-  problem.pieces = pieces_of(scene, ends, curved.heights, *curve_of(scene.shear_rate()),
-                             4 * std::abs(extremum) / width);
+  problem.pieces =
+      pieces_of(scene, ends, curved.heights, *curve_of(scene.shear_rate()), 4 * std::abs(extremum) / width);
   problem.start = start_of(scene, problem.pieces, curved.heights, state_of);
   problem.ends.is_periodic = scene.spec().is_periodic;
   const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};

@@ -59,8 +59,7 @@ Stretch stretch_of(const FluxBranches* flux) {
   Stretch stretch{0, 0};
   for (const bool is_high : {false, true}) {
     stretch.far = std::max(stretch.far, flux->lack_slope(is_high, kFar, 1 - kFar * kFar));
-    stretch.near =
-        std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
+    stretch.near = std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
   }
   return stretch;
 }
@@ -190,9 +189,9 @@ double step_height(const LevelCurves& grid, std::size_t p, State below, State ab
   const LevelCurves::Place at_a = grid.place(p, first, a), at_b = grid.place(p, second, b);
   const auto excess = [&](double z) -> Passage {
     const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
-    const double slope = grid.flux() ? 2 * std::abs(grid.phi(p, below, z) - grid.phi(p, above, z)) *
-                                           (first < second ? -1 : 1)
-                                     : other.q - one.q;
+    const double slope =
+        grid.flux() ? 2 * std::abs(grid.phi(p, below, z) - grid.phi(p, above, z)) * (first < second ? -1 : 1)
+                    : other.q - one.q;
     return {grid.deficit(p, below, at_a, one) + grid.deficit(p, above, other, at_b) - wanted, slope};
   };
   const bool falls = first < second;  // then q_first > q_second
@@ -275,7 +274,9 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
   const bool is_high = segment.u > grid.top() || (is_top && !piece.is_constant() && !piece.falls());
   const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
   if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
-  const auto level_at = [&](double z) { return grid.cap(capacity_of(grid.flux(), piece.rate(z), segment.u)); };
+  const auto level_at = [&](double z) {
+    return grid.cap(capacity_of(grid.flux(), piece.rate(z), segment.u));
+  };
   const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
   if (from == to && piece.is_constant()) return constant_state(grid, segment, state(from));
   if (from == to) return {state(from), state(to), {}};

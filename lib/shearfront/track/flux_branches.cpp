@@ -53,9 +53,9 @@ double horner(const std::array<double, kNodes>& c, double x) {
 
 constexpr std::array<double, 5> kGauss{0, 0.5384693101056830910, -0.5384693101056830910,
                                        0.9061798459386639928, -0.9061798459386639928};
-constexpr std::array<double, 5> kGaussWeight{
-    0.5688888888888888889 / 2, 0.4786286704993664680 / 2, 0.4786286704993664680 / 2,
-    0.2369268850561890875 / 2, 0.2369268850561890875 / 2};
+constexpr std::array<double, 5> kGaussWeight{0.5688888888888888889 / 2, 0.4786286704993664680 / 2,
+                                             0.4786286704993664680 / 2, 0.2369268850561890875 / 2,
+                                             0.2369268850561890875 / 2};
 
 /// The distance d at which value(d) = `target`, value rising from 0 on, by Newton's method in a bracket.
 double distance_of(double target, double most, double start, const std::function<double(double)>& value,
@@ -106,9 +106,8 @@ double FluxBranches::value(double u) const {
 }
 double FluxBranches::root_of(double u) const {
   const double d = std::abs(u - top_);
-  return std::sqrt(std::min(
-      1.0,
-      std::abs(flux_.secant(end_ + slope_ * top_, end_ + slope_ * u)) * std::abs(slope_) * d / extremum_));
+  return std::sqrt(std::min(1.0, std::abs(flux_.secant(end_ + slope_ * top_, end_ + slope_ * u)) *
+                                     std::abs(slope_) * d / extremum_));
 }
 double FluxBranches::steepness(double u) const {
   return std::abs(flux_.derivative(end_ + slope_ * u) * slope_) / extremum_;
@@ -116,7 +115,8 @@ double FluxBranches::steepness(double u) const {
 
 void FluxBranches::build(const Flux<double>& flux, bool is_high) {
   Side& side = sides_[is_high ? 1 : 0];
-  const double pure = is_high ? end_ + slope_ : end_, extreme = end_ + slope_ * top_, width = std::abs(slope_);
+  const double pure = is_high ? end_ + slope_ : end_, extreme = end_ + slope_ * top_,
+               width = std::abs(slope_);
   const double way = is_high ? 1 - top_ : top_;  // from the pure state to the maximum, in u
   const double inward = (extreme > pure ? 1 : -1) * width;
   side.spread = 2 * way;
@@ -154,8 +154,8 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
   });
   std::sort(cuts.begin(), cuts.end());
   constexpr double kThinnest = 1e-5, kTolerance = 4e-15;
-  cuts.erase(
-      std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kThinnest; }), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kThinnest; }),
+             cuts.end());
   cuts.back() = 1;
   struct Panel {
     double low, high;

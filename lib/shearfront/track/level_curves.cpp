@@ -66,8 +66,7 @@ double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a
   const double rise = piece.bend * (b.z - a.z);
   const double delta = h * rise / (a.rate * b.rate * (a.q + b.q));
   return (rise * (a.rate + b.rate - h) / (a.q * a.rate + b.q * b.rate) -
-          h * (std::log1p(delta / (1 + a.q)) +
-               0.5 * log_of_rates(a, b, rise))) /
+          h * (std::log1p(delta / (1 + a.q)) + 0.5 * log_of_rates(a, b, rise))) /
          piece.bend;
 }
 
@@ -114,8 +113,7 @@ double LevelCurves::branch_deficit(std::size_t p, State s, Place a, Place b) con
   const RatePiece& piece = pieces_[p];
   const bool is_upper = is_high(s);
   const double h = h_[k], spread = flux_->spread(is_upper);
-  if (piece.is_constant())
-    return (b.z - a.z) * (a.q > 0 ? flux_->lack(is_upper, a.q, h / a.rate) : spread);
+  if (piece.is_constant()) return (b.z - a.z) * (a.q > 0 ? flux_->lack(is_upper, a.q, h / a.rate) : spread);
   if (!(a.q + b.q > 0)) return spread * (b.z - a.z);
   double dead = 0;  // the part beyond the turning height
   if (!(a.q > 0)) {
@@ -165,7 +163,8 @@ double LevelCurves::characteristic_time(std::size_t p, bool is_high, double h, c
             flux_->shape(is_high, b.q)) /
            piece.bend;
   }
-  const double share = flux_ ? 2 * flux_->pure_shape(is_high) : 1;  // of pure states, whose speed is that of g'
+  const double share =
+      flux_ ? 2 * flux_->pure_shape(is_high) : 1;  // of pure states, whose speed is that of g'
   if (piece.is_constant()) return share * d / (a.rate * a.q);
   // q' = h r' / (2 q r^2): int dz / (r q) is 2 q / (h bend), and 2 artanh q / bend in a linear piece.
   if (piece.curve == RateCurve::exponential)

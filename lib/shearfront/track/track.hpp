@@ -51,7 +51,7 @@ struct TrackOptions {
     visit(OptionInfo{"reconstruct", "phi between fronts", {}, kReconstructionNames}, self.reconstruct);
     visit(
         OptionInfo{
-            "edges", "first arrivals of fans where the rate varies smoothly", {}, kFanEdgeNames, {}, true},
+            "edges", "first arrivals of fans", {}, kFanEdgeNames, {}, true},
         self.edges);
     visit(OptionInfo{"layers",
                      "smooth shear rates: number of layers of the staircase",
