@@ -66,15 +66,12 @@ inline SceneSpec<double> random_curved_spec(std::uint64_t seed) {
 inline SceneSpec<double> random_curved_flux_spec(std::uint64_t seed) {
   SceneMaker maker(seed);
   SceneSpec<double> spec = random_curved_spec(seed);
-  switch (maker.integer(0, 3)) {
+  switch (maker.integer(0, 2)) {
     case 0:
       spec.fluxes = {Cubic<double>{maker.uniform(0.01, 0.5)}};
       break;
     case 1:
       spec.fluxes = {LwrCubic<double>{maker.uniform(0.3, 1), maker.uniform(0.01, 0.5)}};
-      break;
-    case 2:
-      spec.fluxes = {Triangular<double>{maker.uniform(0.1, 0.5), maker.uniform(0.6, 1)}};
       break;
     default:  // its slope changes slowly, but not smoothly
       spec.fluxes = {FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.18, -0.24, -0.18, 0}}};

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <memory>
@@ -16,14 +17,13 @@
 namespace shearfront {
 namespace {
 
-/// Convex, concave, with a kink, with joints; the first two are parabolas that do not say so.
+/// Convex, concave, with joints; the first two are parabolas that do not say so.
 std::vector<Flux<double>> branched_fluxes() {
   return {Cubic<double>{0},
           LwrCubic<double>{0.5, 0},
           Cubic<double>{0.3},
           Cubic<double>{0.5},
           LwrCubic<double>{0.7, 0.45},
-          Triangular<double>{0.25, 1},
           FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.18, -0.24, -0.18, 0}}};
 }
 
@@ -31,6 +31,8 @@ TEST(FluxBranches, FluxesThatSuit) {
   for (const Flux<double>& flux : branched_fluxes()) EXPECT_TRUE(FluxBranches::suits(flux)) << flux.name();
   EXPECT_FALSE(FluxBranches::suits(Cubic<double>{0.6}));
   EXPECT_FALSE(FluxBranches::suits(RichardsonZaki<double>{3}));
+  EXPECT_FALSE(FluxBranches::suits(Triangular<double>{}));
+  EXPECT_FALSE(FluxBranches::suits(FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.2, -0.3, -0.2, 0}}));
   EXPECT_FALSE(FluxBranches::suits(BuckleyLeverett<double>{}));
   EXPECT_FALSE(FluxBranches::suits(Burgers<double>{}));
 }
@@ -73,13 +75,17 @@ TEST(FluxBranches, IntegralsAreIntegrals) {
   for (const Flux<double>& flux : branched_fluxes()) {
     const FluxBranches branches(flux);
     for (const bool is_high : {false, true})
-      for (const double from : {0.1, 0.4, 0.9})
+      for (const double from : {0.1, 0.4, 0.495, 0.9})
         for (const double width : {1e-9, 0.01, 0.05, 0.09}) {
           const double to = from + width, dx = width * (from + to);
+          const double joint = std::clamp((0.5 - from) / width, 0.0, 1.0);  // of the table
           const auto integral = [&](auto&& f) {  // in w, as a mean
-            return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-                [&](double part) { return f(from + width * part) * 2 * (from + width * part) * width; }, 0.0,
-                1.0, 8, 1e-14);
+            const auto g = [&](double part) {
+              return f(from + width * part) * 2 * (from + width * part) * width;
+            };
+            using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+            return (joint > 0 ? Quadrature::integrate(g, 0.0, joint, 8, 1e-14) : 0) +
+                   (joint < 1 ? Quadrature::integrate(g, joint, 1.0, 8, 1e-14) : 0);
           };
           const double wanted = integral([&](double w) { return branches.shape(is_high, w); });
           EXPECT_NEAR(branches.shape_integral(is_high, from, to, dx) / wanted, 1, 1e-13)
@@ -165,7 +171,7 @@ TEST(FluxBranches, FrontsMoveByRankineAndHugoniot) {
         }
     }
   }
-  EXPECT_EQ(n, 7 * 4 * 80);
+  EXPECT_EQ(n, 6 * 4 * 80);
 }
 
 }  // namespace

@@ -100,17 +100,26 @@ namespace curved_front_detail {
   if (level == 0) return {1, 0, 0, 0};
   constexpr double kSmallRoot = 0.1;  // below it terms cancel: LevelCurves::area knows how
   const std::size_t p = f.layer;
-  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
+  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend, x = h / rate;
+  constexpr double kFarFromTurn = 0.75;
   if (!(q_origin > 0)) {  // from its turning height on
-    const double turn = grid.turning_height(p, level), q = grid.q(p, level, z, rate);
+    const double turn = grid.turning_height(p, level);
+    const double q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
     if (q < kSmallRoot) return {q, (z - f.z) - grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
     return {q, (turn - f.z) + factor * q, factor, q};
   }
-  constexpr double kFarFromTurn = 0.75;
-  const double x = h / rate, q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
+  const double lost = (h / f.rate) * shrink;  // q^2 is less by so much
+  double q;
+  if (x < kFarFromTurn) {
+    q = std::sqrt(1 - x);
+  } else {
+    constexpr double kCancelling = 0.1;
+    const double origin_square = q_origin * q_origin, square = origin_square - lost;
+    q = square > kCancelling * origin_square ? std::sqrt(square) : grid.q(p, level, z, rate);
+  }
   if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
     return {q, (z - f.z) - grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
-  const double delta = -(h / f.rate) * shrink / (q_origin + q);
+  const double delta = -lost / (q_origin + q);
   return {q, factor * delta, factor, delta / (1 + q_origin)};
 }
 
@@ -122,7 +131,6 @@ namespace curved_front_detail {
                                                                double rate, double q_below, double q_above) {
   constexpr double kFarFromTurn = 1e3;
   const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
-  if (!(spread < kNearLevels)) return std::nullopt;
   const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
   const double least = std::min(f.q_below, f.q_above);
   if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
@@ -157,17 +165,18 @@ namespace curved_front_detail {
     return {f.t + slope * d, slope};
   }
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
-  const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
+  const double h_i = grid.capacity(i), h_j = grid.capacity(j), factor = 2 / (h_i - h_j);
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  const bool is_near_pair = s_i == s_j && std::abs(h_i - h_j) < curved_front_detail::kNearLevels * h_i;
   if (piece.curve == RateCurve::exponential && !grid.flux()) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
-    if (s_i == s_j && i > 0 && j > 0)
-      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, grid.capacity(i),
-                                                                     grid.capacity(j), z, rate, a.q, b.q))
+    if (is_near_pair)
+      if (const auto mean =
+              curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, a.q, b.q))
         return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
     const bool is_same_side = s_i == s_j;
@@ -181,9 +190,9 @@ namespace curved_front_detail {
   }
   const double rate = piece.rate(z);
   const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
-  if (s_i == s_j && i > 0 && j > 0)
-    if (const auto mean = curved_front_detail::mean_characteristic(
-            grid, f, grid.capacity(i), grid.capacity(j), z, rate, below.q, above.q))
+  if (is_near_pair)
+    if (const auto mean =
+            curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, below.q, above.q))
       return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
   const double E_i = grid.deficit(p, f.below, {f.z, f.rate, f.q_below}, below),
                E_j = grid.deficit(p, f.above, {f.z, f.rate, f.q_above}, above);

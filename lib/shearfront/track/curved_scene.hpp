@@ -49,7 +49,7 @@ struct CurvedScene {
 };
 
 /// Whether the rate of a scene varies and is constant, linear or exponential in pieces, as its models say, its one flux is convex
-/// or concave between zeros, and c and T are constant in layers; else a staircase stands for it.
+/// or concave between zeros and nowhere straight, and c and T are constant in layers; else a staircase stands for it.
 [[nodiscard]] bool has_curved_fronts(const Scene<double>& scene);
 /// Precondition: has_curved_fronts().
 [[nodiscard]] CurvedScene curved_scene(const Scene<double>& scene);

@@ -75,13 +75,31 @@ double distance_of(double target, double most, double start, const std::function
   return d;
 }
 
+/// Places where the flux is not analytic, as far as its model knows.
+std::vector<double> joints_of(const Flux<double>& flux) {
+  return with_model(flux, [](const auto& model) -> std::vector<double> {
+    if constexpr (requires { model.joints(); }) return model.joints();
+    return {};
+  });
+}
+
 }  // namespace
 
 bool FluxBranches::suits(const Flux<double>& flux) {
   const StateRange<double> range = flux.range();
-  return flux.extrema().size() == 1 && flux.curvature() != Curvature::mixed &&
-         flux.value(range.lowest) == 0 && flux.value(range.highest) == 0 &&
-         flux.value(flux.extrema().front()) != 0;
+  if (flux.extrema().size() != 1 || flux.curvature() == Curvature::mixed || flux.value(range.lowest) != 0 ||
+      flux.value(range.highest) != 0 || flux.value(flux.extrema().front()) == 0)
+    return false;
+  std::vector<double> ends = joints_of(flux);
+  ends.insert(ends.end(), {range.lowest, flux.extrema().front(), range.highest});
+  std::sort(ends.begin(), ends.end());
+  constexpr int kParts = 4;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    for (int k = 0; k < kParts && ends[i + 1] > ends[i]; ++k) {
+      const double width = (ends[i + 1] - ends[i]) / kParts;
+      if (is_straight(flux, ends[i] + k * width, ends[i] + (k + 1) * width)) return false;
+    }
+  return true;
 }
 
 FluxBranches::FluxBranches(const Flux<double>& flux) : flux_(flux) {
@@ -145,13 +163,10 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
   std::vector<double> cuts;
   for (std::size_t i = 0; i <= kBins; ++i)
     cuts.push_back(static_cast<double>(i) / static_cast<double>(kBins));
-  with_model(flux, [&](const auto& model) {
-    if constexpr (requires { model.joints(); })
-      for (const double joint : model.joints()) {
-        const double u = (joint - end_) / slope_;
-        if (u > 0 && u < 1 && (u > top_) == is_high && u != top_) cuts.push_back(root_of(u));
-      }
-  });
+  for (const double joint : joints_of(flux)) {
+    const double u = (joint - end_) / slope_;
+    if (u > 0 && u < 1 && (u > top_) == is_high && u != top_) cuts.push_back(root_of(u));
+  }
   std::sort(cuts.begin(), cuts.end());
   constexpr double kThinnest = 1e-5, kTolerance = 4e-15;
   cuts.erase(std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kThinnest; }),
@@ -245,13 +260,27 @@ double FluxBranches::integral(const Side& side, Function function, Function prim
   constexpr double kThin = 0.05;
   if (std::abs(to - from) > kThin) return evaluate(side, primitive, from) - evaluate(side, primitive, to);
   if (!(from + to > 0)) return 0;
-  const double middle = (from + to) / 2, half = (to - from) / 2;
-  double sum = 0;
-  for (std::size_t i = 0; i < kGauss.size(); ++i) {
-    const double w = middle + half * kGauss[i];
-    sum += kGaussWeight[i] * evaluate(side, function, w) * w;
+  // int f 2 w dw over one panel as a part of int 2 w dw.
+  const auto part = [&](double lo, double hi) {
+    const double middle = (lo + hi) / 2, half = (hi - lo) / 2;
+    double sum = 0;
+    for (std::size_t i = 0; i < kGauss.size(); ++i) {
+      const double w = middle + half * kGauss[i];
+      sum += kGaussWeight[i] * evaluate(side, function, w) * w;
+    }
+    return sum / middle;
+  };
+  const double lo = std::min(from, to), hi = std::max(from, to);
+  const std::size_t last = panel_of(side, hi);
+  std::size_t panel = panel_of(side, lo);
+  if (panel == last) return part(lo, hi) * dx;
+  double sum = 0, below = lo;
+  for (; panel <= last; ++panel) {
+    const double above = panel == last ? hi : side.ends[panel];
+    if (above > below) sum += (above - below) * (above + below) * part(below, above);
+    below = above;
   }
-  return sum * dx / middle;  // 2 w dw, dw = dx / (2 middle)
+  return dx * (sum / ((hi - lo) * (hi + lo)));
 }
 
 }  // namespace shearfront

@@ -8,7 +8,7 @@
 
 namespace shearfront {
 
-/// Both branches of a flux g(u), 0 <= u <= 1, with one maximum g(m) = 1, -g convex and g = 0 at both ends, as functions of
+/// Both branches of a flux g(u), 0 <= u <= 1, with one maximum g(m) = 1, -g strictly convex and g = 0 at both ends, as functions of
 /// w = sqrt(1 - x), x = g: the distance of u from the pure state of its side is
 ///
 ///     lack / 2,   lack(w) = x shape(w),   spread - lack = 2 |u - m|,   spread = 2 m (low side) or 2 (1 - m).
@@ -21,7 +21,8 @@ class FluxBranches {
  public:
   /// Precondition: suits(flux).
   explicit FluxBranches(const Flux<double>& flux);
-  /// Whether a flux is convex or concave, with one extremum inside its range and 0 at both ends.
+  /// Whether a flux is convex or concave and nowhere straight, with one extremum inside its range and 0 at both ends. (Along a
+  /// straight piece all characteristics run in parallel, and which of them meet would be decided by rounding.)
   [[nodiscard]] static bool suits(const Flux<double>& flux);
 
   /// u = (phi - end) / slope, such that g has a maximum: the pure state u = 0 is phi = `end`.
