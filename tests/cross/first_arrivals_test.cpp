@@ -45,8 +45,7 @@ TEST(FirstArrivals, AreExactInLayersAtEveryResolution) {
     const Scene<double> scene(random_layered_arrivals(seed));
     const Timeline<double> exact = exact_timeline(scene),
                            tracked = *Tracking(scene, {.resolution = 0.1}).timeline(),
-                           late =
-                               *Tracking(scene, {.resolution = 0.1, .edges = FanEdges::secant}).timeline();
+                           late = *Tracking(scene, {.resolution = 0.1, .edges = FanEdges::secant}).timeline();
     const auto same = [&](const std::optional<double>& t, const std::optional<double>& wanted,
                           const std::optional<double>& of_polygon) {
       ASSERT_EQ(t.has_value(), wanted.has_value()) << seed;
@@ -72,7 +71,10 @@ TEST(FirstArrivals, SecantsAreLate) {
   const Timeline<double> exact = exact_timeline(scene);
   for (const GridKind grid : {GridKind::levels, GridKind::singular_mapping}) {
     const auto t_c = [&](FanEdges edges) {
-      return *Tracking(scene, {.resolution = 0.04, .grid = grid, .edges = edges}).timeline()->interfaces[0].first;
+      return *Tracking(scene, {.resolution = 0.04, .grid = grid, .edges = edges})
+                  .timeline()
+                  ->interfaces[0]
+                  .first;
     };
     if (grid == GridKind::levels)
       EXPECT_NEAR(t_c(FanEdges::characteristic), *exact.interfaces[0].first, 1e-14);

@@ -79,7 +79,7 @@ TEST(FluxBranches, IntegralsAreIntegrals) {
         for (const double width : {1e-9, 0.01, 0.05, 0.09}) {
           const double to = from + width, dx = width * (from + to);
           const double joint = std::clamp((0.5 - from) / width, 0.0, 1.0);  // of the table
-          const auto integral = [&](auto&& f) {  // in w, as a mean
+          const auto integral = [&](auto&& f) {                             // in w, as a mean
             const auto g = [&](double part) {
               return f(from + width * part) * 2 * (from + width * part) * width;
             };

@@ -123,6 +123,33 @@ namespace curved_front_detail {
   return {q, factor * delta, factor, delta / (1 + q_origin)};
 }
 
+/// Whether the levels of a front in an exponential piece live at its origin and where r is less by `shrink`, by so much that no
+/// term cancels.
+[[nodiscard]] inline bool is_far_from_turns(const CurvedNode& f, double h_below, double h_above,
+                                            double shrink) {
+  constexpr double kFarRoot = 0.316, kFarShare = 0.9;  // q^2 >= 1 / 10
+  return f.q_below > kFarRoot && f.q_above > kFarRoot &&
+         std::max(h_below, h_above) * (1 + shrink) < kFarShare * f.rate;
+}
+/// passage() there: as by exponential_way(), with as few divisions as it takes.
+[[nodiscard]] inline Passage far_passage(const CurvedNode& f, double h_below, double h_above, double s_below,
+                                         double s_above, double bend, double d, double shrink) {
+  const double at_origin = 1 / f.rate, here = at_origin * (1 + shrink);  // 1 / r
+  const double q_below = std::sqrt(1 - h_below * here), q_above = std::sqrt(1 - h_above * here);
+  const double delta_below = -h_below * at_origin * shrink / (f.q_below + q_below),
+               delta_above = -h_above * at_origin * shrink / (f.q_above + q_above);
+  const double a = 1 + f.q_below, b = 1 + f.q_above, scale = 2 / bend, over = 2 / (h_below - h_above);
+  if (s_below == s_above) {
+    const double logarithm = std::log1p((delta_above * a - delta_below * b) / (b * (a + delta_below)));
+    const double way = scale * ((delta_below - delta_above) + logarithm);
+    return {f.t + over * s_above * way, 2 * s_above * here / (q_below + q_above)};
+  }
+  const double logarithm =
+      std::log1p((delta_below * b + delta_above * a + delta_below * delta_above) / (a * b));
+  const double way = 2 * d + scale * (logarithm - delta_below - delta_above);
+  return {f.t + over * s_above * way, over * s_above * (q_below + q_above)};
+}
+
 /// int dz / (r q) from the origin to z for the mean of two levels of one side that are so near to each other that the difference
 /// of their areas would be rounding: the front is the characteristic between them. Nothing where that is not so, or too near to
 /// its turning height.
@@ -171,12 +198,13 @@ namespace curved_front_detail {
   if (piece.curve == RateCurve::exponential && !grid.flux()) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
+    if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink) && !is_near_pair)
+      return curved_front_detail::far_passage(f, h_i, h_j, s_i, s_j, piece.bend, d, shrink);
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
     if (is_near_pair)
-      if (const auto mean =
-              curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, a.q, b.q))
+      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, a.q, b.q))
         return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
     const bool is_same_side = s_i == s_j;
@@ -206,14 +234,16 @@ namespace curved_front_detail {
                      grid.q(p, grid.level(f.above), z, rate));
 }
 
-/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there.
-inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t) {
+/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there. Its lower state may be
+/// the upper one of another front that begins there.
+inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t,
+                       const CurvedNode* neighbour = nullptr) {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const RatePiece& piece = grid.piece(p);
   f.z = z;
   f.t = t;
-  f.rate = piece.rate(z);
-  f.q_below = grid.q(p, i, z, f.rate);
+  f.rate = neighbour ? neighbour->rate : piece.rate(z);
+  f.q_below = neighbour ? neighbour->q_above : grid.q(p, i, z, f.rate);
   f.q_above = grid.q(p, j, z, f.rate);
   f.turns = false;
   f.end = z;

@@ -41,6 +41,13 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
+  /// The same without the slope; when a front turns is known.
+  [[nodiscard]] double lag(const CurvedNode& later, const CurvedNode& sooner, double z) const {
+    const auto time = [&](const CurvedNode& f) {
+      return f.turns && z == f.end ? f.end_t : passage(grid_, f, z).t;
+    };
+    return time(later) - time(sooner);
+  }
   /// Both fronts at a height.
   struct Pair {
     double z;
@@ -144,7 +151,7 @@ class CurvedMeetings {
     const bool is_fan = f_.below < g_.below && g_.below < g_.above;
     if (is_fan) {
       if (!ahead(hi, dead)) return std::nullopt;
-      if (difference(rear, lead, hi).t >= 0) return std::nullopt;
+      if (lag(rear, lead, hi) >= 0) return std::nullopt;
       const double from = ahead(dead, lo) ? (ahead(dead, hi) ? hi : dead) : lo;
       const Passage at_from = difference(rear, lead, from);
       if (!(at_from.t > 0)) return at(from);
@@ -155,7 +162,7 @@ class CurvedMeetings {
     if (at_lo.t <= 0 && !touches) return at(lo);
     const bool may_part = gets_smaller && ahead(hi, dead);
     if (!touches && !may_part) return first_zero(s, lo, at_lo, hi);
-    if (difference(rear, lead, hi).t <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
+    if (lag(rear, lead, hi) <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
     if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
   }
