@@ -286,18 +286,47 @@ template <class Evaluate>
   return z;
 }
 
+/// Where the characteristic of the mean flux of a front is at a time, which is next to it if its levels are; a height outside of
+/// its way, or not a number, where that is not known.
+[[nodiscard]] inline double mean_position(const LevelCurves& grid, const CurvedNode& f, double t) {
+  const RatePiece& piece = grid.piece(f.layer);
+  const double h = (grid.capacity(grid.level(f.below)) + grid.capacity(grid.level(f.above))) / 2;
+  const double q = (f.q_below + f.q_above) / 2, turn = f.direction * piece.bend * (t - f.t) / 2;
+  double lack = q > 0 ? h / f.rate / (1 + q) : 1;  // 1 - q, which changes by h turn or as artanh q by turn
+  if (piece.curve == RateCurve::exponential) {
+    lack -= h * turn;
+  } else {
+    const double change = std::tanh(turn);
+    lack *= (1 - change) / (1 + q * change);
+  }
+  return piece.height_of(h / (lack * (2 - lack)));
+}
+
 /// Where a front is at a time. Precondition: it has begun; after its end it is there.
 [[nodiscard]] inline double position_of(const LevelCurves& grid, const CurvedNode& f, double t) {
   if (f.direction == 0 || !(t > f.t)) return f.z;
-  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
-  if (!(t < t_end)) return f.end;
-  const double share = (t - f.t) / (t_end - f.t);
-  const double start = f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99);
-  return bracketed_root(f.z, f.end, start, [&](double z) {
+  const auto late = [&](double z) {
     Passage at = passage(grid, f, z);
     at.t -= t;
     return at;
-  });
+  };
+  const bool is_curved = !grid.piece(f.layer).is_constant();
+  if (is_curved && !grid.flux() && grid.is_high(f.below) == grid.is_high(f.above)) {
+    constexpr int kFewSteps = 4;
+    constexpr double kLastStep = 1e-10;
+    const double lo = std::min(f.z, f.end), hi = std::max(f.z, f.end);
+    double z = mean_position(grid, f, t);
+    for (int n = 0; n < kFewSteps && z > lo && z < hi; ++n) {
+      const Passage at = late(z);
+      const double step = at.t / at.slope, next = z - step;
+      if (std::abs(step) < kLastStep * (hi - lo) && next >= lo && next <= hi) return next;
+      z = next;
+    }
+  }
+  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
+  if (!(t < t_end)) return f.end;
+  const double share = (t - f.t) / (t_end - f.t);
+  return bracketed_root(f.z, f.end, f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99), late);
 }
 
 }  // namespace shearfront
