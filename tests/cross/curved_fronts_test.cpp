@@ -91,7 +91,7 @@ TEST(CurvedFronts, ShocksAreOfSecondOrder) {
 // Tables with throats, humps and jumps, exponentials, chutes; scenes that have come to rest say nothing.
 void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
   double coarse[3]{}, fine[3]{};
-  int counted = 0, missed = 0;
+  int counted = 0;
   for (int i = 0; i < n; ++i) {
     const SceneSpec<double> spec =
         support::random_curved_spec(support::seed_of(first + static_cast<std::uint64_t>(i)));
@@ -100,12 +100,8 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     const double t = t_scaled / spec.scale;
     const CurvedErrors a = curved_errors(scene, exact, 0.02, t), b = curved_errors(scene, exact, 0.0025, t);
     if (a.steps < 1e-6 || b.M < 1e-12) continue;
-    // The exact solution can miss a path at a single height, next to where two kinds of paths meet: then the integral, which
-    // bisects to there, is not that of the error.
-    if (std::max(a.M_at_pieces, b.M_at_pieces) > 1e-2) {
-      ++missed;
-      continue;
-    }
+    // At all heights to which the integrals bisect, next to where two kinds of paths meet above all.
+    EXPECT_LE(b.M_at_pieces, 1e-3) << "seed " << first + static_cast<std::uint64_t>(i);
     ++counted;
     const double now[3]{a.steps, a.lines, a.M}, then[3]{b.steps, b.lines, b.M};
     for (int k = 0; k < 3; ++k) coarse[k] += std::log2(now[k]), fine[k] += std::log2(then[k]);
@@ -113,7 +109,6 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     EXPECT_LE(b.steps, 1e-2) << "seed " << first + static_cast<std::uint64_t>(i);
   }
   EXPECT_GE(counted, n / 2);
-  EXPECT_LE(missed, 1 + n / 100);
   const auto order = [&](int k) { return (coarse[k] - fine[k]) / counted / 3; };
   std::printf("%d scenes: mean orders of steps %.2f, lines %.2f, M %.2f; mean errors %.1e, %.1e, %.1e\n",
               counted, order(0), order(1), order(2), std::exp2(fine[0] / counted),

@@ -61,12 +61,14 @@ class CurvedMeetings {
     return {z == near.z ? of.t : of.t + of.slope * (z - near.z), z};
   }
   [[nodiscard]] CurvedMeeting at(double z) const { return meeting(pair_at(z), z); }
-  /// Of the time, in units of rounding.
+  /// Of the time, in units of rounding: of heights, which are found to a part of their piece, and of areas.
   [[nodiscard]] double uncertainty(const CurvedNode& f, const Passage& at, double z) const {
     const double h_below = grid_.capacity(grid_.level(f.below)),
                  h_above = grid_.capacity(grid_.level(f.above));
+    const RatePiece& piece = grid_.piece(f.layer);
     const double area = std::abs(z - f.z) * std::min(1.0, std::max(h_below, h_above) / f.rate);
-    return std::abs(at.slope * z) + 2 * area / std::abs(h_below - h_above);
+    return std::abs(at.slope) * (std::abs(z) + (piece.z_high - piece.z_low)) +
+           2 * area / std::abs(h_below - h_above);
   }
 
   /// A height with the difference of times there.
@@ -86,6 +88,7 @@ class CurvedMeetings {
                                                         double to) const {
     constexpr int kMostSteps = 200, kPatience = 8;
     constexpr double kLastStep = 1e-9;  // the next one would be its square at least
+    constexpr double kRounding = 2e-16;
     const double length = std::abs(to - from);
     double positive = from, beyond = to;
     bool has_bracket = false;
@@ -99,9 +102,10 @@ class CurvedMeetings {
       const Pair both = pair_at(z);
       const Point now{z, {sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)}};
       if (z == to && !has_bracket && now.d.t > 0) return std::nullopt;
-      if (now.d.t == 0 || n == kMostSteps) return meeting(both, z);
+      if (n == kMostSteps) return meeting(both, z);
       has_bracket = has_bracket || now.d.t < 0;
       (now.d.t < 0 ? beyond : positive) = z;
+      if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
       double next = interpolated(last, now);
       if (!is_inside(next)) next = z - now.d.t / now.d.slope;
       bool is_guess = is_inside(next);
@@ -109,7 +113,7 @@ class CurvedMeetings {
       if (!is_guess) next = has_bracket ? positive + (beyond - positive) / 2 : to;
       const double step = std::abs(next - z);
       if (has_bracket && (next == positive || next == beyond)) return meeting(both, next);
-      if (step <= 2e-16 * (length + std::abs(z))) return meeting(both, next);
+      if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
       if (is_guess && step < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
       last = now;
       z = next;
