@@ -57,6 +57,7 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   const LevelCurves& grid = bed_.grid;
   const std::size_t i = grid.level(front.below), j = grid.level(front.above), p = front.layer;
   if (i + 1 != j && j + 1 != i) return {};
+  if (bed_.is_plateau[i] && bed_.is_plateau[j]) return {};  // a jump from one initial state to another
   const double rate = grid.piece(p).rate(z);
   const bool is_dead = !(grid.q(p, std::max(i, j), z, rate) > 0);
   if (!is_dead && grid.is_high(front.below) != grid.is_high(front.above)) return {};
