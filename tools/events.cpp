@@ -240,9 +240,9 @@ int events(EventsArguments& arguments) {
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   std::optional<fit::PredictedEvents> bands;
-  if (const auto& fitted = arguments.scene.fit()) {
-    bands = fit::predict_events(scene, fitted->draws, method);
-    note_draws(fitted->draws, bands->n_failed);
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
+    bands = fit::predict_events(scene, *draws, method);
+    note_draws(*draws, bands->n_failed);
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);

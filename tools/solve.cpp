@@ -138,10 +138,10 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
-  if (const auto& fitted = arguments.scene.fit()) {
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     const fit::PredictedSamples samples =
-        fit::predict_samples(task.scene, fitted->draws, task.method, request.times, request.heights);
-    note_draws(fitted->draws, samples.n_failed);
+        fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
+    note_draws(*draws, samples.n_failed);
     write_prediction_csv(output, times, request.heights, samples);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
@@ -165,8 +165,8 @@ int solve_scene(SolveArguments& arguments) {
   const Method method = arguments.method.method();
   check_arguments(arguments, method);
   const auto scene = arguments.scene.read();
-  if (arguments.scene.fit() && arguments.json)
-    throw InputError("--json", "", "must not be given with a fit file, whose bands are CSV");
+  if (arguments.scene.draws() && arguments.json)
+    throw InputError("--json", "", "must not be given with a fit file or [uncertain], whose bands are CSV");
   const Task task{scene, method, list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed)};
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);

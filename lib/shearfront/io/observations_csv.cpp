@@ -14,6 +14,7 @@
 
 #include "shearfront/io/detail/dialect.hpp"
 #include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/state_range.hpp"

@@ -10,6 +10,7 @@
 #include "shearfront/fit/study/study_spec.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/scene_file.hpp"
+#include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/entries.hpp"
@@ -66,8 +67,8 @@ class StudyReader {
     const std::string path =
         (std::filesystem::path(source_.name()).parent_path() / (scene ? *scene : *fit)).string();
     if (scene) {
-      spec_.scene_text = detail::TextSource::read(path).text();
-      spec_.scene = parse_scene<double>(spec_.scene_text, path);
+      spec_.scene = read_scene<double>(path);
+      spec_.scene_text = scene_text(spec_.scene->spec());
     } else {
       spec_.scene_text = detail::TextSource::read(path).text();
       spec_.fit_file = read_fit_file(path);

@@ -35,10 +35,4 @@ struct Dialect {
 /// What a format says of a file of averages over chunks: t is Timestep, z is Coord1 unless it says otherwise.
 [[nodiscard]] ObservationFormat format_of_chunks(ObservationFormat format);
 
-/// The line that begins at `offset`, without its end.
-[[nodiscard]] std::string_view line_at(std::string_view text, std::size_t offset);
-
-/// A number with this decimal mark; nothing for anything else.
-[[nodiscard]] std::optional<double> number_with_mark(std::string_view text, char decimal);
-
 }  // namespace shearfront::detail
