@@ -34,6 +34,7 @@ constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
+  PictureOptions pictures;
   SceneArgument scene;
   std::string digits, plot;
   bool json = false;
@@ -213,6 +214,7 @@ int events(EventsArguments& arguments) {
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
                        method.name(), Method().name()));
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene.file(), {{"--plot", arguments.plot}});
   const auto scene = arguments.scene.read();
@@ -265,6 +267,7 @@ Command add_events(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of the fronts in the (t, z) plane: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   return {app, "SCENE", [arguments] { return events(*arguments); }};
 }

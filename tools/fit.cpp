@@ -25,6 +25,7 @@ namespace shearfront::tools {
 namespace {
 
 struct FitArguments {
+  PictureOptions pictures;
   std::vector<std::string> files;
   std::string output, plot, scene_out, band, predict, times, heights;
   bool json = false;
@@ -190,6 +191,7 @@ int fit_files(const FitArguments& arguments) {
   for (const Output& output : outputs)
     if (!is_one && !output.option.empty() && !output.path.empty())
       refuse(output.option, output.path, "needs a single fit file");
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   std::vector<fit::FitFile> files = read_files(arguments.files);
   for (std::size_t i = 0; !is_one && i < files.size(); ++i)
@@ -267,6 +269,7 @@ Command add_fit(CLI::App& program) {
   app->add_option("--times", arguments->times, "of --predict: 0.5,6 or start:stop:count")->type_name("LIST");
   app->add_option("--heights", arguments->heights, "of --predict; default 101 over the whole domain")
       ->type_name("LIST");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   app->footer(
       "Ctrl-C ends the search with the best point so far (status interrupted); a second one ends the "

@@ -181,15 +181,17 @@ int run_study(const StudyArguments& arguments) {
   ProgressLine progress;
   std::size_t n = n_done, n_failed = 0;
   std::vector<std::vector<double>> outputs;
-  runs.run_all(which, threads, [&](const fit::StudyRow& row) {
-    to_file ? file->write(line_of(row)) : standard.write(line_of(row));
-    n_failed += row.failure.empty() ? 0 : 1;
-    if (!arguments.indices.empty()) outputs.push_back(row.outputs);
-    ++n;
-    if (to_file && n % 64 == 0) file->flush();
-    progress.show_part(n, n_all);
-    return !InterruptGuard::is_interrupted();
-  });
+  runs.run_all(
+      which, threads,
+      [&](const fit::StudyRow& row) {
+        to_file ? file->write(line_of(row)) : standard.write(line_of(row));
+        n_failed += row.failure.empty() ? 0 : 1;
+        if (!arguments.indices.empty()) outputs.push_back(row.outputs);
+        ++n;
+        if (to_file && n % 64 == 0) file->flush();
+        progress.show_part(n, n_all);
+      },
+      [] { return !InterruptGuard::is_interrupted(); });
   if (to_file)
     file->flush();
   else

@@ -125,8 +125,8 @@ TEST(StudyRuns, EveryRunIsTheSceneWithItsNumbersWhateverTheThreads) {
   std::vector<std::size_t> all(runs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::vector<StudyRow> one, three;
-  runs.run_all(all, 1, [&](const StudyRow& row) { return one.push_back(row), true; });
-  runs.run_all(all, 3, [&](const StudyRow& row) { return three.push_back(row), true; });
+  runs.run_all(all, 1, [&](const StudyRow& row) { one.push_back(row); });
+  runs.run_all(all, 3, [&](const StudyRow& row) { three.push_back(row); });
   ASSERT_EQ(one.size(), 300u);
   ASSERT_EQ(three.size(), 300u);
   for (std::size_t i = 0; i < one.size(); ++i) {

@@ -27,6 +27,13 @@ void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate&
   const StateRange<double> states =
       is_cumulative ? StateRange<double>{0, std::max(estimate.scene->mass(), 1e-300)} : states_of(spec.scene);
   picture.set("title", printable(spec.name, 120));
+  picture.set("subtitle", described(spec.forward.method));
+  constexpr std::size_t kMostEstimates = 7;
+  std::string estimates;
+  for (const fit::ParameterEstimate& p : estimate.parameters)
+    estimates += fmt::format("{}{}={:.4g}{}", estimates.empty() ? "" : " ", p.name, p.estimate,
+                             p.std_error ? fmt::format("±{:.2g}", *p.std_error) : "");
+  picture.set("estimates", estimate.parameters.size() > kMostEstimates ? "" : estimates);
   picture.set("symbol", is_cumulative ? "{/:Italic M}" : "{/:Italic φ}");
   picture.set("unit_t", without_markup(data.units.t));
   picture.set("unit_z", without_markup(data.units.z));

@@ -34,6 +34,9 @@ int draw_bed_course(const std::string& path, const Scene<double>& scene, const M
 /// search (fit.gp). Without a usable estimate no picture, one line on standard error and kNoResult.
 int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate);
 
+/// "front-tracking, resolution 0.01", for the small line of a picture.
+[[nodiscard]] std::string described(const Method& method);
+
 /// All states allowed anywhere in the bed: what an axis or a colour bar of phi has to show.
 [[nodiscard]] StateRange<double> states_of(const Scene<double>& scene);
 

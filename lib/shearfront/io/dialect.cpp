@@ -28,28 +28,10 @@ std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const
   return std::nullopt;
 }
 
-/// Offset of the line that names the columns of averages over chunks.
-std::optional<std::size_t> header_of_chunks(std::string_view text) {
-  std::size_t begin = 0;
-  for (int i = 0; i < 3 && begin < text.size(); ++i) {
-    const std::string_view line = line_at(text, begin), content = trimmed(line);
-    if (!content.starts_with('#')) return std::nullopt;
-    if (i == 2) return trimmed(content.substr(1)).starts_with("Chunk ") ? std::optional(begin) : std::nullopt;
-    begin += line.size() + 1;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
-ObservationFormat format_of_chunks(ObservationFormat format) {
-  if (format[Column::t].name.empty()) format[Column::t].name = "Timestep";
-  if (format[Column::z].name.empty()) format[Column::z].name = "Coord1";
-  return format;
-}
-
 std::string Dialect::text() const {
-  if (are_chunks) return "averages over chunks";
+  if (is_simulated()) return std::string(text_of(code));
   std::string text = separator == ';'    ? "separated by semicolons"
                      : separator == '\t' ? "separated by tabs"
                                          : "";
@@ -92,9 +74,9 @@ Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {
   };
   const bool is_asked_wide = format.layout && *format.layout != TableLayout::rows;
   const bool is_asked_rows = format.layout && !is_asked_wide;
-  if (const auto chunks = header_of_chunks(text)) {
-    found.are_chunks = true;
-    found.header = *chunks;
+  if (const SimulationHeader header = simulation_header(text); header.code != SimulationCode::none) {
+    found.code = header.code;
+    found.header = header.offset;
     found.separator = ' ';
     return found;
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shearfront/fit/method_table.hpp"
+#include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/study/study_spec.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/scene_file.hpp"
@@ -209,9 +210,23 @@ class StudyReader {
                                    fmt::format("{}({};{})", name, number_text(t), number_text(z))});
       }
     }
+    if (table.boolean("estimates", Need::optional).value_or(false)) estimates(table);
     if (spec_.outputs.empty() && report_.is_empty())
-      report_.add(table.position(), {"outputs", "", "must ask for events or quantities"});
+      report_.add(table.position(), {"outputs", "", "must ask for events, quantities or estimates"});
     table.finish();
+  }
+
+  void estimates(TableReader& table) {
+    if (spec_.design != DesignKind::replicates || !spec_.fit_file)
+      return table.add(*table.node("estimates"), table.path("estimates"),
+                       "must be of a fit file with design.kind = \"replicates\"");
+    const FitSpec& fit = spec_.fit_file->spec;
+    std::size_t i = 0;
+    for (const Parameter& p : Parameters(fit.scene, fit.unknown)) {
+      spec_.outputs.push_back({Kind::estimate, i, 0, 0, p.name()});
+      spec_.outputs.push_back({Kind::std_error, i++, 0, 0, "std_error(" + p.name() + ")"});
+    }
+    spec_.outputs.push_back({Kind::misfit, 0, 0, 0, "misfit"});
   }
 
   /// "t_0", "t_1", "t*", "t_c(1)", "t^_c(1)", as `events` calls them.
@@ -246,9 +261,11 @@ class StudyReader {
     const auto refuse = [&](const std::string& key, const std::string& constraint) {
       report_.add(design ? TomlSource::position(*design) : detail::Position{1, 1}, {key, "", constraint});
     };
-    const bool is_fit = spec_.design == DesignKind::fit;
+    const bool is_fit = spec_.design == DesignKind::fit || spec_.design == DesignKind::replicates;
     if (is_fit != spec_.fit_file.has_value())
-      return refuse("design.kind", "must be fit for a fit file, and only for one");
+      return refuse("design.kind", "must be fit or replicates for a fit file, and only for one");
+    if (spec_.fit_file && spec_.fit_file->choice)
+      return refuse("fit", "must be a file of one model, without [compare]");
     if (!is_fit && spec_.variations.empty())
       return refuse("vary", "missing; must be [[vary]] tables, what is to vary");
     if (is_fit && !spec_.variations.empty()) return refuse("vary", "must not stand beside fit");
