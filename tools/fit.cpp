@@ -18,6 +18,7 @@
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/rate_band.hpp"
 #include "shearfront/io/file_error.hpp"
+#include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 struct FitArguments {
   PictureOptions pictures;
   std::vector<std::string> files;
-  std::string output, plot, scene_out, band, predict, times, heights;
+  std::string output, plot, truth, scene_out, band, predict, times, heights;
   bool json = false;
 };
 
@@ -201,6 +202,9 @@ int fit_files(const FitArguments& arguments) {
   check_comparable(arguments.files, files);
   for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
     check_outputs(input, outputs);
+  if (!arguments.truth.empty() && arguments.plot.empty()) refuse("--truth", arguments.truth, "needs --plot");
+  std::optional<Scene<double>> truth;
+  if (!arguments.truth.empty()) truth = with_remarks(read_scene<double>(arguments.truth));
   const PredictionPlan plan = plan_of(arguments, files[0].spec.scene);
   std::optional<OutputFile> output, scene_out, band, prediction;
   if (!arguments.output.empty()) output.emplace(arguments.output);
@@ -246,7 +250,7 @@ int fit_files(const FitArguments& arguments) {
   }
   const int code = files[0].choice ? kDone : print_one(estimate, arguments.json);
   if (arguments.plot.empty()) return code;
-  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate));
+  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate, truth));
 }
 
 }  // namespace
@@ -261,6 +265,7 @@ Command add_fit(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of data, fit, shear rate and search: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  app->add_option("--truth", arguments->truth, "scene whose s a(z) --plot shows as well")->type_name("SCENE");
   app->add_option("--scene-out", arguments->scene_out, "the fitted scene, a scene file")->type_name("FILE");
   app->add_option("--band", arguments->band, "s a(z) with its pointwise 95 % band as CSV")->type_name("FILE");
   app->add_option("--predict", arguments->predict,

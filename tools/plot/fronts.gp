@@ -48,7 +48,7 @@ set xtics steps_of(t_end) offset 0,-0.7
 set ytics steps_of(z_high - z_low)
 set clip two
 set cbrange [phi_low:phi_high]
-set cblabel '{/:Italic φ}, mean of both sides' offset 0.3,0
+set cblabel is_narrow ? '{/:Italic φ}' : '{/:Italic φ}, mean of both sides' offset 0.3,0
 if (phi_low == 0 && phi_high == 1) set cbtics 0.25
 set colorbox noborder user origin graph 1.045,0.15 size graph 0.025,0.7
 eval "set palette defined (" . phi_palette . ")"

@@ -50,11 +50,6 @@ constexpr unsigned kMostLayers = 1000;  // of a model in [compare]
 /// Only fit files have these at their top.
 constexpr std::array kFitKeys{"scene", "observations", "unknown"};
 
-template <class Names>
-std::vector<std::string> strings(const Names& names) {
-  return {names.begin(), names.end()};
-}
-
 template <class List>
 std::vector<std::string> names_in() {
   std::vector<std::string> names;
@@ -146,13 +141,9 @@ class FitReader {
     format_.decimal = is_one("decimal", {".", ","});
     if (table.node("missing"))
       format_.missing = table.texts("missing", Need::optional, "must be an array of words");
-    const auto chosen = [&](const char* key, const auto& names) -> std::optional<std::size_t> {
-      const auto name = table.choice(key, Need::optional, strings(names));
-      if (!name) return std::nullopt;
-      return static_cast<std::size_t>(std::find(names.begin(), names.end(), *name) - names.begin());
-    };
-    if (const auto i = chosen("layout", kTableLayoutNames)) format_.layout = static_cast<TableLayout>(*i);
-    if (const auto i = chosen("replicates", kReplicatesNames))
+    if (const auto i = table.place("layout", Need::optional, kTableLayoutNames))
+      format_.layout = static_cast<TableLayout>(*i);
+    if (const auto i = table.place("replicates", Need::optional, kReplicatesNames))
       format_.replicates = static_cast<Replicates>(*i);
     const auto positive = [&](std::string_view key, std::optional<double>& value) {
       if (!table.node(key)) return;
@@ -237,9 +228,8 @@ class FitReader {
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);
     numbers(table, "upper", unknown_.upper, true);
-    const std::vector<std::string> shapes{"none", "decreasing", "convex"};
-    if (const auto name = table.choice("shape", Need::optional, shapes))
-      unknown_.shape = static_cast<Shape>(std::find(shapes.begin(), shapes.end(), *name) - shapes.begin());
+    constexpr std::array<std::string_view, 3> kShapes{"none", "decreasing", "convex"};
+    if (const auto i = table.place("shape", Need::optional, kShapes)) unknown_.shape = static_cast<Shape>(*i);
     table.finish();
   }
 

@@ -28,11 +28,6 @@ using Kind = StudyOutput::Kind;
 constexpr unsigned long long kMostRuns = 100'000'000;
 constexpr std::size_t kMostGridRuns = 100'000'000;
 
-template <class Names>
-std::vector<std::string> texts_of(const Names& names) {
-  return {names.begin(), names.end()};
-}
-
 class StudyReader {
  public:
   explicit StudyReader(const TomlSource& source) : source_(source), report_(source.name()) {}
@@ -82,7 +77,6 @@ class StudyReader {
   void variation(TableReader& table) {
     Variation v;
     v.entry = table.text("entry", Need::required, "must be the name of an entry of the scene").value_or("");
-    const std::vector<std::string> kinds(kVariationNames.begin() + 1, kVariationNames.end());
     std::size_t n_kinds = table.node("list") ? 1 : 0;
     if (n_kinds == 1) {
       table.number("list", Need::optional, v.values);
@@ -151,10 +145,8 @@ class StudyReader {
   }
 
   void design(TableReader& table) {
-    const auto kind = table.choice("kind", Need::optional, texts_of(kDesignNames));
-    if (kind)
-      spec_.design = static_cast<DesignKind>(std::find(kDesignNames.begin(), kDesignNames.end(), *kind) -
-                                             kDesignNames.begin());
+    if (const auto i = table.place("kind", Need::optional, kDesignNames))
+      spec_.design = static_cast<DesignKind>(*i);
     if (const auto n = table.count("runs", Need::optional, 1, kMostRuns))
       spec_.runs = static_cast<std::size_t>(*n);
     if (const auto n = table.count("seed", Need::optional, 0, 9'007'199'254'740'991)) spec_.seed = *n;
