@@ -34,6 +34,7 @@ constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
+  PictureOptions pictures;
   SceneArgument scene;
   std::string digits, plot;
   bool json = false;
@@ -231,6 +232,7 @@ int events(EventsArguments& arguments) {
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
                        method.name(), Method().name()));
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene.file(), {{"--plot", arguments.plot}});
   const auto scene = arguments.scene.read();
@@ -258,9 +260,9 @@ int events(EventsArguments& arguments) {
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   std::optional<fit::PredictedEvents> bands;
-  if (const auto& fitted = arguments.scene.fit()) {
-    bands = fit::predict_events(scene, fitted->draws, method);
-    note_draws(fitted->draws, bands->n_failed);
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
+    bands = fit::predict_events(scene, *draws, method);
+    note_draws(*draws, bands->n_failed);
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);
@@ -283,6 +285,7 @@ Command add_events(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of the fronts in the (t, z) plane: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   return {app, "SCENE", [arguments] { return events(*arguments); }};
 }
