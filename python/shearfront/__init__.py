@@ -12,35 +12,48 @@ from measured concentrations.
 
 from __future__ import annotations
 
-from typing import Any
+import importlib
+from typing import TYPE_CHECKING, Any
 
-from . import _models
 from ._callables import Sampled, sampled
 from ._data import Observations, data
 from ._errors import Complaint, InputError, NoResult
-from ._fit import (
-    Bootstrap,
-    Fit,
-    Misfit,
-    Parameter,
-    Prediction,
-    Problem,
-    RateBand,
-    compare_fits,
-    fit,
-    problem,
-    read_fit,
-)
 from ._methods import methods
-from ._models import Model, Pieces, Step
+from ._models import *  # noqa: F403  (a class for every model of the library)
+from ._models import __all__ as _model_names
 from ._scene import Scene, read
 from ._solution import Events, Interface, Jacobian, Solution
-from ._study import Study, study
-from ._tracking import Profile, Tracking
+
+if TYPE_CHECKING:
+    from . import pictures
+    from ._fit import (
+        Bootstrap,
+        Fit,
+        Misfit,
+        Parameter,
+        Prediction,
+        Problem,
+        RateBand,
+        compare_fits,
+        fit,
+        problem,
+        read_fit,
+    )
+    from ._study import Study, study
+    from ._tracking import Profile, Tracking
 
 __version__ = "0.1.0"
 
-globals().update(_models.MODELS)
+#: What is loaded when it is first asked for: who draws one solution does not wait for the rest.
+_LAZY = {
+    "pictures": ("pictures",),
+    "_fit": (
+        *("Bootstrap", "Fit", "Misfit", "Parameter", "Prediction", "Problem", "RateBand"),
+        *("compare_fits", "fit", "problem", "read_fit"),
+    ),
+    "_study": ("Study", "study"),
+    "_tracking": ("Profile", "Tracking"),
+}
 
 __all__ = [
     "Bootstrap",
@@ -51,11 +64,9 @@ __all__ = [
     "Interface",
     "Jacobian",
     "Misfit",
-    "Model",
     "NoResult",
     "Observations",
     "Parameter",
-    "Pieces",
     "Prediction",
     "Problem",
     "Profile",
@@ -63,7 +74,6 @@ __all__ = [
     "Sampled",
     "Scene",
     "Solution",
-    "Step",
     "Study",
     "Tracking",
     "compare_fits",
@@ -76,16 +86,17 @@ __all__ = [
     "read_fit",
     "sampled",
     "study",
-    *sorted(_models.MODELS),
 ]
+__all__ += _model_names
 
 
 def __getattr__(name: str) -> Any:
-    """Pictures are loaded when they are first asked for: matplotlib takes longer than all of this."""
-    if name == "pictures":
-        import importlib
-
-        return importlib.import_module(".pictures", __name__)
+    for module, names in _LAZY.items():
+        if name in names:
+            loaded = importlib.import_module(f".{module}", __name__)
+            value = loaded if name == module else getattr(loaded, name)
+            globals()[name] = value
+            return value
     raise AttributeError(f"module 'shearfront' has no attribute {name!r}")
 
 

@@ -171,7 +171,9 @@ def _on_arrays(function: Callable[[Any], Any], kind: str) -> Callable[[FloatArra
 
 def _expect_room(points: int, most: int, tolerance: float) -> None:
     if points > most:
-        raise one_complaint("max_points", most, f"is too few for an error of {tolerance:g}; give a larger tolerance or more points")
+        raise one_complaint(
+            "max_points", most, f"is too few for an error of {tolerance:g}; give a larger tolerance or more points"
+        )
 
 
 def table_of(function: Callable[[Any], Any], low: float, high: float) -> Model:

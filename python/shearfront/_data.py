@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,7 +32,7 @@ class Observations:
         One number per row; width is 0 and sigma NaN where there is none.
     """
 
-    __slots__ = ("_core", "quantity", "sigma", "t", "value", "width", "z")
+    __slots__ = ("_engine", "quantity", "sigma", "t", "value", "width", "z")
     quantity: str
     t: FloatArray
     z: FloatArray
@@ -42,7 +41,7 @@ class Observations:
     sigma: FloatArray
 
     def __init__(self, core: _core.Observations) -> None:
-        self._core = core
+        self._engine = core
         self.quantity, self.t, self.z, self.value, self.width, self.sigma = core.columns
 
     def __len__(self) -> int:
@@ -51,15 +50,16 @@ class Observations:
     @property
     def notes(self) -> list[str]:
         """What a user should be told about the file they came from."""
-        return self._core.notes
+        return self._engine.notes
 
     def to_csv(self) -> str:
         """The text of a file of observations that reads back to the same numbers, to the bit."""
-        return self._core.text
+        return self._engine.text
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file of observations that the program ``shearfront`` reads as well."""
-        Path(path).write_text(self.to_csv(), encoding="utf-8")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.to_csv())
 
     def to_dict(self) -> dict[str, FloatArray]:
         """The columns that say something, by their names in a file."""
@@ -115,7 +115,7 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     if isinstance(source, Observations):
         return source
     if isinstance(source, (str, os.PathLike)):
-        return Observations(_core.read_observations(os.fspath(source), scene._core))
+        return Observations(_core.read_observations(os.fspath(source), scene._engine))
     if source is not None:
         table = source if isinstance(source, Mapping) else {name: source[name] for name in source.columns}
         columns = {**{name: table[name] for name in _COLUMNS if name in table}, **columns}
@@ -130,9 +130,9 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     given = {name: np.asarray(x, dtype=float) for name, x in columns.items()}
     given.setdefault("z", np.zeros(1))
     arrays = dict(zip(given, np.broadcast_arrays(*given.values()), strict=True))
-    optional = [flat(arrays[name]) if name in arrays else None for name in ("width", "sigma")]
+    width, sigma = (flat(arrays[name]) if name in arrays else None for name in ("width", "sigma"))
     with without_places():
         core = _core.observations(
-            scene._core, quantity, flat(arrays["t"]), flat(arrays["z"]), flat(arrays[value]), *optional, replicates
+            scene._engine, quantity, flat(arrays["t"]), flat(arrays["z"]), flat(arrays[value]), width, sigma, replicates
         )
     return Observations(core)

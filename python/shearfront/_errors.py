@@ -54,7 +54,7 @@ class InputError(ValueError):
         self.complaints = [Complaint(*c) for c in complaints or []]
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str, list[tuple[str, str, str, str]]]]:
-        return InputError, (str(self), [tuple(c) for c in self.complaints])
+        return InputError, (str(self), [(c.key, c.value, c.constraint, c.text) for c in self.complaints])
 
 
 class NoResult(RuntimeError):
@@ -80,7 +80,9 @@ def without_places() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError("\n".join(c.text for c in error.complaints), [tuple(c) for c in error.complaints]) from None
+        raise InputError(
+            "\n".join(c.text for c in error.complaints), [(c.key, c.value, c.constraint, c.text) for c in error.complaints]
+        ) from None
 
 
 def one_complaint(key: str, value: object, constraint: str) -> InputError:

@@ -133,19 +133,19 @@ class Problem:
     log-likelihood. Made by :func:`problem`, or by :func:`read_fit` from a fit file.
     """
 
-    __slots__ = ("_core", "observations", "scene")
+    __slots__ = ("_engine", "observations", "scene")
     scene: Scene
     observations: Observations
 
     def __init__(self, core: _core.FitProblem) -> None:
-        self._core = core
+        self._engine = core
         self.scene = Scene._of(core.scene)
         self.observations = Observations(core.observations)
 
     @property
     def name(self) -> str:
         """Its name."""
-        return self._core.name
+        return self._engine.name
 
     @property
     def misfit(self) -> Misfit:
@@ -160,14 +160,14 @@ class Problem:
         NoResult
             If no estimate was found.
         """
-        return Fit(self, self._core.run())
+        return Fit(self, self._engine.run())
 
     def with_(self, numbers: Mapping[str, float]) -> Problem:
         """The same fit with other numbers of its scene, by the names of their entries."""
-        return Problem(self._core.with_scene(self.scene.with_(numbers)._core))
+        return Problem(self._engine.with_scene(self.scene.with_(numbers)._engine))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _problem_of, (self._core.state,)
+        return _problem_of, (self._engine.state,)
 
     def __repr__(self) -> str:
         return f"<Problem {self.name!r}: {len(self.observations)} observations>"
@@ -204,14 +204,14 @@ class Misfit:
     array([2.4 , 0.31])
     """
 
-    __slots__ = ("_core", "lower", "names", "start", "upper")
+    __slots__ = ("_engine", "lower", "names", "start", "upper")
 
     def __init__(self, problem: Problem) -> None:
-        self._core = _core.Misfit(problem._core)
-        self.names = self._core.names
-        self.start = self._core.start
-        self.lower = self._core.lower
-        self.upper = self._core.upper
+        self._engine = _core.Misfit(problem._engine)
+        self.names = self._engine.names
+        self.start = self._engine.start
+        self.lower = self._engine.lower
+        self.upper = self._engine.upper
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
@@ -221,17 +221,17 @@ class Misfit:
     def __call__(self, p: Any) -> float:
         """F(p); infinity where the model has no solution."""
         try:
-            return self._core.misfit(flat(p))
+            return self._engine.misfit(flat(p))
         except NoResult:
             return np.inf
 
     def residuals(self, p: Any) -> FloatArray:
         """r(p), one per row of the misfit."""
-        return self._core.residuals(flat(p))
+        return self._engine.residuals(flat(p))
 
     def jacobian(self, p: Any) -> FloatArray:
         """dr/dp, shape (rows, unknowns): exact where the method has derivatives, otherwise by differences."""
-        return self._core.jacobian(flat(p))
+        return self._engine.jacobian(flat(p))
 
     def log_likelihood(self, p: Any) -> float:
         """-F(p) inside the bounds, -infinity outside: for samplers, with data that have their sigma.
@@ -266,10 +266,10 @@ class Fit:
         What a reader of the estimates must know.
     """
 
-    __slots__ = ("_core", "facts", "parameters", "problem", "scene")
+    __slots__ = ("_engine", "facts", "parameters", "problem", "scene")
 
     def __init__(self, problem: Problem, core: _core.Fitted) -> None:
-        self._core = core
+        self._engine = core
         self.problem = problem
         self.scene = Scene._of(core.scene)
         self.parameters = {row["name"]: Parameter(**row) for row in core.parameters}
@@ -293,12 +293,14 @@ class Fit:
     @property
     def correlation(self) -> FloatArray:
         """Of the estimates; NaN for those without error bar."""
-        return self._core.correlation
+        return self._engine.correlation
 
     @property
     def covariance(self) -> FloatArray:
         """Of the estimates, in the units of the entries."""
-        return self.correlation * self.std_errors[:, None] * self.std_errors
+        i = np.arange(len(self.names))
+        first, second = np.minimum(i[:, None], i), np.maximum(i[:, None], i)  # symmetric to the bit
+        return self.correlation * self.std_errors[first] * self.std_errors[second]
 
     @property
     def warnings(self) -> list[str]:
@@ -318,7 +320,7 @@ class Fit:
     @property
     def predicted(self) -> FloatArray:
         """What the fitted scene has for each observation."""
-        return self._core.predicted
+        return self._engine.predicted
 
     @property
     def residuals(self) -> FloatArray:
@@ -337,21 +339,21 @@ class Fit:
             That of the fit unless given.
         """
         times, heights = flat(t), flat(z)
-        phi, amount, why_none, failed = self._core.predict(times, heights, draws, seed)
+        phi, amount, why_none, failed = self._engine.predict(times, heights, draws, seed)
         remark = why_none or (f"{failed} of {draws} drawn scenes have no solution and are left out" if failed else "")
         return Prediction(times, heights, *phi, *amount, remark)
 
     def predict_events(self, *, draws: int = _DRAWS, seed: int | None = None) -> dict[str, Any]:
         """95 % bands of the event times; an end that is infinite: the event may never come."""
-        return self._core.predict_events(draws, seed)
+        return self._engine.predict_events(draws, seed)
 
     def rate_band(self) -> RateBand:
         """s a(z) with its pointwise 95 % band."""
-        return RateBand(*self._core.rate_band())
+        return RateBand(*self._engine.rate_band())
 
     def draw(self, n: int, seed: int = 1) -> list[Scene]:
         """Scenes drawn from what the data leave possible."""
-        scenes, why_none = self._core.draws(n, seed)
+        scenes, why_none = self._engine.draws(n, seed)
         if why_none:
             raise NoResult(why_none)
         return [Scene._of(core) for core in scenes]
@@ -361,21 +363,28 @@ class Fit:
 
         Runs the fit again, and about ten refits for each unknown.
         """
-        again = self.problem._core.with_uncertainty(True, 0, 1, 0).run()
+        again = self.problem._engine.with_uncertainty(True, 0, 1, 0).run()
         return {row["name"]: row["profile95"] for row in again.parameters}
 
     def bootstrap(self, replicates: int = 200, seed: int = 1, threads: int = 0) -> Bootstrap:
         """Parametric bootstrap; the numbers do not depend on the threads (0: all cores)."""
-        intervals, estimates, covariance, failed, warnings = self._core.bootstrap(replicates, seed, threads)
+        intervals, estimates, covariance, failed, warnings = self._engine.bootstrap(replicates, seed, threads)
         by_name = dict(zip(self.names, intervals, strict=True))
         return Bootstrap(self.names, estimates, covariance, by_name, failed, warnings)
 
     def to_dict(self) -> dict[str, Any]:
         """As ``shearfront fit --json``."""
-        rows = []
-        for row in self._core.parameters:
-            rows.append({k: list(v) if isinstance(v, tuple) else v for k, v in row.items() if v is not None or k not in ("profile95", "bootstrap95")})
-        return {**self.facts, "parameters": rows, "correlation": self.correlation.tolist(), "covariance": self.covariance.tolist()}
+        on_request = ("profile95", "bootstrap95")
+        rows = [
+            {k: list(v) if isinstance(v, tuple) else v for k, v in row.items() if v is not None or k not in on_request}
+            for row in self._engine.parameters
+        ]
+        return {
+            **self.facts,
+            "parameters": rows,
+            "correlation": self.correlation.tolist(),
+            "covariance": self.covariance.tolist(),
+        }
 
     def to_dataframe(self) -> Any:
         """A row per unknown; needs pandas."""
@@ -393,7 +402,9 @@ class Fit:
         return pictures.fit(self, ax=ax)
 
     def __repr__(self) -> str:
-        lines = [f"{self.problem.name}: {self.facts['observations']} observations ({self.facts['quantity']}), misfit {self.misfit:.6g}"]
+        lines = [
+            f"{self.problem.name}: {self.facts['observations']} observations ({self.facts['quantity']}), misfit {self.misfit:.6g}"
+        ]
         for p in self.parameters.values():
             error = "" if p.std_error is None else f" +- {p.std_error:.2g}"
             lines.append(f"  {p.name} = {p.estimate:.6g}{error}")
@@ -458,10 +469,12 @@ def problem(
         tables["forward"] = {"method": method or "exact", **options}
     seen = data(scene, observations)
     with without_places():
-        return Problem(_core.parse_fit(toml_text(tables), scene._core, seen._core))
+        return Problem(_core.parse_fit(toml_text(tables), scene._engine, seen._engine))
 
 
-def fit(scene: Scene | str | os.PathLike[str], observations: Any = None, unknown: str | Sequence[str] = (), **settings: Any) -> Fit:
+def fit(
+    scene: Scene | str | os.PathLike[str], observations: Any = None, unknown: str | Sequence[str] = (), **settings: Any
+) -> Fit:
     """Finds unknown entries of a scene from observations, with error bars.
 
     Parameters
@@ -549,16 +562,29 @@ def compare_fits(fits: Mapping[str, Fit]) -> Any:
     --------
     >>> import shearfront as sf
     >>> truth = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-    >>> seen = truth.observe([0.2, 0.5, 1], [0.1, 0.3, 0.5, 0.7, 0.9], quantity="cumulative", noise=0.01)
+    >>> seen = truth.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7, 0.9], quantity="cumulative", noise=0.001)
     >>> two = sf.fit(truth, seen, "shear_rate.values")
     >>> one = sf.fit(truth.with_(shear_rate=sf.Piecewise([], [1])), seen, "shear_rate.values")
     >>> sf.compare_fits({"one layer": one, "two layers": two})["model"].tolist()
     ['two layers', 'one layer']
     """
-    rows = _core.compare_fits(list(fits), [f._core for f in fits.values()])
+    rows = _core.compare_fits(list(fits), [f._engine for f in fits.values()])
     kind = [("model", "U64"), ("parameters", int), ("misfit", float), ("aic", float), ("daic", float)]
     kind += [("aic_weight", float), ("bic", float), ("dbic", float)]
     return np.array([tuple(np.nan if x is None else x for x in row) for row in rows], dtype=kind)
 
 
-__all__ = ["Bootstrap", "Fit", "InputError", "Misfit", "Parameter", "Prediction", "Problem", "RateBand", "compare_fits", "fit", "problem", "read_fit"]
+__all__ = [
+    "Bootstrap",
+    "Fit",
+    "InputError",
+    "Misfit",
+    "Parameter",
+    "Prediction",
+    "Problem",
+    "RateBand",
+    "compare_fits",
+    "fit",
+    "problem",
+    "read_fit",
+]

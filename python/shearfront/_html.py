@@ -19,7 +19,7 @@ def scene_html(scene: Scene, parts: list[tuple[str, str]]) -> str:
     """The table of parts beside the pictures."""
     rows = "".join(f"<tr><td><b>{escape(k)}</b></td><td style='text-align:left'>{escape(v)}</td></tr>" for k, v in parts)
     z = _heights(scene)
-    pictures = _picture("s a(z)", z, scene.shear_rate(z) * scene._core.scale, "#0072b2") + _picture(
+    pictures = _picture("s a(z)", z, scene.shear_rate(z) * scene._engine.scale, "#0072b2") + _picture(
         "&phi;(z, 0)", z, scene.initial_phi(z), "#d55e00"
     )
     return (
@@ -31,7 +31,7 @@ def scene_html(scene: Scene, parts: list[tuple[str, str]]) -> str:
 def _heights(scene: Scene) -> FloatArray:
     """Even heights, and both sides of every knot and jump."""
     span = scene.top - scene.bottom
-    knots = np.concatenate((scene._core.knots, scene._core.initial_knots))
+    knots = np.concatenate((scene._engine.knots, scene._engine.initial_knots))
     around = np.concatenate((knots - 1e-9 * span, knots + 1e-9 * span))
     z = np.unique(np.concatenate((np.linspace(scene.bottom, scene.top, 101), around)))
     return z[(z >= scene.bottom) & (z <= scene.top)]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -12,18 +13,20 @@ from . import _core
 EXACT = _core.Method("exact", [])
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
+    if hasattr(value, "item"):  # a number of numpy
+        value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"
-    return value if isinstance(value, str) else repr(value.item() if hasattr(value, "item") else value)
+    return value if isinstance(value, str) else repr(value)
 
 
-def option_texts(options: dict[str, Any]) -> list[tuple[str, str]]:
+def option_texts(options: Mapping[str, object]) -> list[tuple[str, str]]:
     """Options as the command line spells them; those that are None are left at their defaults."""
     return [(name.replace("_", "-"), _text(value)) for name, value in options.items() if value is not None]
 
 
-def method_of(name: str | _core.Method, options: dict[str, Any]) -> _core.Method:
+def method_of(name: str | _core.Method, options: Mapping[str, object]) -> _core.Method:
     """The method of this name with these options."""
     if name == "exact" and not options:
         return EXACT

@@ -67,7 +67,7 @@ class Model:
         return table
 
     def __repr__(self) -> str:
-        shown = []
+        shown: list[str] = []
         for name in self.entry_names:
             value = self.__dict__[name]
             if name in self._optional and value == self._optional[name]:
@@ -96,13 +96,18 @@ def _plain(value: Any, is_array: bool) -> Any:
     return float(value)
 
 
+def short_number(x: float) -> str:
+    """The shortest text that reads back to the same number."""
+    return repr(float(x)).removesuffix(".0")
+
+
 def _short(value: Any) -> str:
     if isinstance(value, float):
-        return f"{value:.12g}"
+        return short_number(value)
     if isinstance(value, tuple):
         if len(value) > 8:
             return f"<{len(value)} numbers from {value[0]:.6g} to {value[-1]:.6g}>"
-        return "[" + ", ".join(f"{x:.12g}" for x in value) + "]"
+        return "[" + ", ".join(map(short_number, value)) + "]"
     return repr(value)
 
 
@@ -117,26 +122,28 @@ def _docstring(list_name: str, model: dict[str, Any]) -> str:
         lines += [f"States: {states}.", ""]
     if model["fields"] or model["choices"]:
         lines += ["Parameters", "----------"]
-    for field in model["fields"]:
+    for field in fields_of(model):
         kind = "array_like of float" if field["is_array"] else "float"
         default = f", default {field['initial']:.12g}" if field["is_optional"] and "initial" in field else ""
         lines.append(f"{field['key']} : {kind}{', optional' if field['is_optional'] else ''}")
         lines.append(f"    {'> 0' if field['is_positive'] else 'Any sign'}{_MEASURE[field['measure']]}{default}.")
     for key, names, initial in model["choices"]:
         lines += [f"{key} : {{{', '.join(repr(n) for n in names)}}}, optional", f"    Default {initial!r}."]
-    lines += ["", f"In scene files: ``model = \"{model['name']}\"``."]
+    lines += ["", f'In scene files: ``model = "{model["name"]}"``.']
     return "\n".join(lines)
 
 
+def fields_of(model: dict[str, Any]) -> list[dict[str, Any]]:
+    """The entries in the order of arguments: those that may be left out come last."""
+    return sorted(model["fields"], key=lambda field: bool(field["is_optional"]))
+
+
 def _make(list_name: str, model: dict[str, Any], name: str) -> type[Model]:
-    optional: dict[str, Any] = {}
-    for field in model["fields"]:
-        if field["is_optional"]:
-            optional[field["key"]] = None if field["is_array"] else field["initial"]
-    for key, _, initial in model["choices"]:
-        optional[key] = initial
-    entries = tuple(f["key"] for f in model["fields"]) + tuple(c[0] for c in model["choices"])
-    arrays = frozenset(f["key"] for f in model["fields"] if f["is_array"])
+    fields = fields_of(model)
+    optional = {f["key"]: None if f["is_array"] else f["initial"] for f in fields if f["is_optional"]}
+    optional |= {key: initial for key, _, initial in model["choices"]}
+    entries = tuple(f["key"] for f in fields) + tuple(c[0] for c in model["choices"])
+    arrays = frozenset(f["key"] for f in fields if f["is_array"])
     members = {
         "__doc__": _docstring(list_name, model),
         "__module__": "shearfront",
@@ -198,7 +205,7 @@ class Pieces(Model):
     values: tuple[float, ...]
 
 
-def Step(height: float, below: float = 0.0, above: float = 1.0) -> Pieces:  # noqa: N802  (one of the models for its users)
+def Step(height: float, below: float = 0.0, above: float = 1.0) -> Pieces:
     """An initial state with a single jump: large grains below small ones, unless said otherwise.
 
     Parameters
@@ -215,3 +222,7 @@ def Step(height: float, below: float = 0.0, above: float = 1.0) -> Pieces:  # no
     Pieces([0.5], [0, 1])
     """
     return Pieces([height], [below, above])
+
+
+globals().update(MODELS)
+__all__ = ["Model", "Pieces", "Step", *sorted(MODELS)]

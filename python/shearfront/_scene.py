@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,15 +15,17 @@ from ._arrays import flat, times_of
 from ._callables import initial_table, table_of
 from ._errors import one_complaint, without_places
 from ._methods import method_of, option_texts
-from ._models import Model, Pieces, model_of
+from ._models import Model, Pieces, model_of, short_number
 from ._solution import FRONT, Events, Interface, Jacobian, Solution
 from ._toml import Table, canonical_tables, toml_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from typing_extensions import Unpack
 
     from ._arrays import FloatArray
     from ._data import Observations
+    from ._options import Options
     from ._tracking import Tracking
 
 _DEPTH_FUNCTIONS = ("shear_rate", "solid_fraction", "temperature")
@@ -75,13 +77,13 @@ class Scene:
     >>> import shearfront as sf
     >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
     >>> round(scene.events().t_star, 3)
-    5.814
+    6.452
     >>> scene.with_(shear_rate__values=[2.4, 0.4])
     Scene(shear_rate=Piecewise([0.29], [2.4, 0.4]), initial=Pieces([0.5], [0, 1]))
     """
 
-    __slots__ = ("__weakref__", "_core")
-    _core: _core.Scene
+    __slots__ = ("__weakref__", "_engine")
+    _engine: _core.Scene
 
     def __init__(
         self,
@@ -116,12 +118,12 @@ class Scene:
         if scale is not None:
             tables["shear_rate"] = {**tables["shear_rate"], "scale": scale}
         with without_places():
-            self._core = _core.parse_scene(toml_text(tables), "scene", [])
+            self._engine = _core.parse_scene(toml_text(tables), "scene", [])
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Scene:
         scene = object.__new__(cls)
-        scene._core = core
+        scene._engine = core
         return scene
 
     @classmethod
@@ -137,8 +139,8 @@ class Scene:
         Examples
         --------
         >>> import shearfront as sf
-        >>> text = "[shear_rate]\\nmodel = 'piecewise'\\nbreaks = []\\nvalues = [1]\\n[initial]\\nbreaks = [0.4]\\nvalues = [0, 1]"
-        >>> sf.Scene.from_toml(text).mass
+        >>> rate = "[shear_rate]\\nmodel = 'piecewise'\\nbreaks = []\\nvalues = [1]\\n"
+        >>> sf.Scene.from_toml(rate + "[initial]\\nbreaks = [0.4]\\nvalues = [0, 1]").mass
         0.6
         """
         return cls._of(_core.parse_scene(text, name, []))
@@ -163,28 +165,28 @@ class Scene:
     @property
     def name(self) -> str:
         """Its name."""
-        return self._core.name
+        return self._engine.name
 
     @property
     def units(self) -> dict[str, str]:
         """The units of z and t, where the scene says them."""
-        z, t = self._core.units
+        z, t = self._engine.units
         return {name: unit for name, unit in (("z", z), ("t", t)) if unit}
 
     @property
     def bottom(self) -> float:
         """The bottom of the domain, in the unit of z."""
-        return self._core.bottom
+        return self._engine.bottom
 
     @property
     def top(self) -> float:
         """The top of the domain, in the unit of z."""
-        return self._core.top
+        return self._engine.top
 
     @property
     def mass(self) -> float:
         """The integral of phi(z, 0) over the bed."""
-        return self._core.mass
+        return self._engine.mass
 
     @property
     def entries(self) -> dict[str, float]:
@@ -199,7 +201,7 @@ class Scene:
         >>> scene.entries["shear_rate.values[1]"]
         0.31
         """
-        return dict(self._core.entries)
+        return dict(self._engine.entries)
 
     def shear_rate(self, z: Any) -> FloatArray:
         """a(z), without the scale s.
@@ -220,20 +222,21 @@ class Scene:
         >>> sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5)).shear_rate([0.1, 0.9])
         array([2.4 , 0.31])
         """
-        return self._at(self._core.shear_rate, z)
+        return self._at(self._engine.shear_rate, z)
 
     def solid_fraction(self, z: Any) -> FloatArray:
         """c(z), of the shape of z."""
-        return self._at(self._core.solid_fraction, z)
+        return self._at(self._engine.solid_fraction, z)
 
     def initial_phi(self, z: Any) -> FloatArray:
         """phi(z, 0), of the shape of z; at a jump the value above it."""
-        return self._at(self._core.initial_phi, z)
+        return self._at(self._engine.initial_phi, z)
 
     def flux(self, phi: Any, z: float | None = None) -> FloatArray:
         """f(phi), of the flux at the height z (the bottom unless given)."""
         phi = np.asarray(phi, dtype=float)
-        return self._core.flux_value(self.bottom if z is None else float(z), flat(phi)).reshape(phi.shape)
+        values: FloatArray = self._engine.flux_value(self.bottom if z is None else float(z), flat(phi)).reshape(phi.shape)
+        return values
 
     def _at(self, function: Any, z: Any) -> FloatArray:
         z = np.asarray(z, dtype=float)
@@ -247,15 +250,16 @@ class Scene:
 
     def to_toml(self) -> str:
         """The text of a scene file that reads back to the same scene, to the bit."""
-        return self._core.text
+        return self._engine.text
 
     def to_dict(self) -> Table:
         """The tables of :meth:`to_toml`."""
-        return canonical_tables(self._core.text)
+        return canonical_tables(self._engine.text)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a scene file that the program ``shearfront`` reads as well."""
-        Path(path).write_text(self.to_toml(), encoding="utf-8")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.to_toml())
 
     def with_(self, numbers: Mapping[str, float] | None = None, /, **changes: Any) -> Scene:
         """The scene with other numbers, or other parts.
@@ -275,9 +279,9 @@ class Scene:
         >>> scene.with_({"shear_rate.values[1]": 0.4}).shear_rate(0.9).item()
         0.4
         """
-        core = self._core
+        core = self._engine
         if changes:
-            core = self._with_parts(changes)._core
+            core = self._with_parts(changes)._engine
         if numbers:
             texts = [(name, repr(float(value))) for name, value in numbers.items()]
             with without_places():
@@ -330,7 +334,9 @@ class Scene:
 
     # The direct problem
 
-    def solve(self, t: Any, z: Any = None, *, method: str = "exact", fronts: bool = False, **options: Any) -> Solution:
+    def solve(
+        self, t: Any, z: Any = None, *, method: str = "exact", fronts: bool = False, **options: Unpack[Options]
+    ) -> Solution:
         """phi and M at times and heights.
 
         Parameters
@@ -366,21 +372,21 @@ class Scene:
         --------
         >>> import shearfront as sf
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> scene.solve([0.5, 6], [0.25, 0.75]).phi.round(3)
-        array([[0.   , 1.   ],
-               [1.   , 0.   ]])
+        >>> scene.solve([0.5, 2], [0.25, 0.5, 0.75]).phi.round(3)
+        array([[0.   , 0.5  , 1.   ],
+               [0.029, 0.5  , 0.702]])
         >>> scene.solve(0.5, method="engquist-osher", cells=200).M.shape
         (1, 101)
         """
         times = times_of(t)
         heights = np.linspace(self.bottom, self.top, _DEFAULT_HEIGHTS) if z is None else flat(z)
-        result = _core.solve(self._core, method_of(method, options), times, heights, fronts)
+        result = _core.solve(self._engine, method_of(method, options), times, heights, fronts)
         if "t_star" in result:
             times = np.where(np.isinf(times), result["t_star"], times)
         segments = result["fronts"].view(FRONT) if fronts else None
         return Solution(self, method, times, heights, result["phi"], result["M"], result["summary"], segments)
 
-    def phi(self, z: Any, t: Any, *, method: str = "exact", **options: Any) -> Any:
+    def phi(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
         """phi(z, t), broadcasting like a ufunc.
 
         Parameters
@@ -405,10 +411,10 @@ class Scene:
         (2, 2)
         """
         if type(z) is float and type(t) is float:
-            return _core.sample_place(self._core, method_of(method, options), t, z)[0]
+            return _core.sample_place(self._engine, method_of(method, options), t, z)[0]
         return self._sample(z, t, method, options, 0)
 
-    def M(self, z: Any, t: Any, *, method: str = "exact", **options: Any) -> Any:  # noqa: N802
+    def M(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
         """M(z, t), the integral of phi from the bottom up to z, broadcasting like :meth:`phi`.
 
         Examples
@@ -419,16 +425,22 @@ class Scene:
         0.5
         """
         if type(z) is float and type(t) is float:
-            return _core.sample_place(self._core, method_of(method, options), t, z)[1]
+            return _core.sample_place(self._engine, method_of(method, options), t, z)[1]
         return self._sample(z, t, method, options, 1)
 
-    def _sample(self, z: Any, t: Any, method: str, options: dict[str, Any], which: int) -> Any:
-        z, t = np.broadcast_arrays(np.asarray(z, dtype=float), np.asarray(t, dtype=float))
-        values = _core.sample(self._core, method_of(method, options), flat(t), flat(z))[which]
-        return values.reshape(z.shape) if z.ndim else values.item()
+    def _sample(self, z: Any, t: Any, method: str, options: Mapping[str, object], which: int) -> Any:
+        z, t = np.asarray(z, dtype=float), np.asarray(t, dtype=float)
+        shape = np.broadcast_shapes(z.shape, t.shape)
+        solver = method_of(method, options)
+        if t.size * z.size == math.prod(shape) and _comes_first(t.shape, z.shape):  # every time with every height
+            values = _core.solve(self._engine, solver, flat(t), flat(z), False)["M" if which else "phi"]
+        else:
+            z, t = np.broadcast_arrays(z, t)
+            values = _core.sample(self._engine, solver, flat(t), flat(z))[which]
+        return values.reshape(shape) if shape else values.item()
 
     def jacobian(
-        self, z: Any, t: Any, entries: str | Sequence[str] = (), *, method: str = "exact", **options: Any
+        self, z: Any, t: Any, entries: str | Sequence[str] = (), *, method: str = "exact", **options: Unpack[Options]
     ) -> Jacobian:
         """phi and M with their derivatives with respect to numbers of the scene, exact up to rounding.
 
@@ -458,12 +470,12 @@ class Scene:
         wanted = [entries] if isinstance(entries, str) else list(entries)
         with without_places():
             names, phi, amount, dphi, damount = _core.linearise(
-                self._core, method_of(method, options), flat(t), flat(z), wanted
+                self._engine, method_of(method, options), flat(t), flat(z), wanted
             )
         shape = (*z.shape, len(names))
         return Jacobian(names, phi.reshape(z.shape), amount.reshape(z.shape), dphi.reshape(shape), damount.reshape(shape))
 
-    def events(self, *, method: str = "exact", **options: Any) -> Events:
+    def events(self, *, method: str = "exact", **options: Unpack[Options]) -> Events:
         """When the first and last waves come to walls and interfaces, and when all is at rest.
 
         Returns
@@ -476,13 +488,13 @@ class Scene:
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> events = scene.events()
         >>> round(events.t0, 4), round(events.interfaces[0].first, 4)
-        (0.7982, 0.6774)
+        (0.7983, 0.6774)
         """
-        found = _core.events(self._core, method_of(method, options))
+        found = _core.events(self._engine, method_of(method, options))
         found["interfaces"] = tuple(Interface(*i) for i in found["interfaces"])
         return Events(**found)
 
-    def bed(self, t: Any, *, method: str = "exact", **options: Any) -> dict[str, FloatArray]:
+    def bed(self, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> dict[str, FloatArray]:
         """Numbers of the whole bed at times: how well it is mixed, and how high it stands.
 
         Returns
@@ -498,7 +510,7 @@ class Scene:
         array([0., 0.])
         """
         times = times_of(t)
-        return {"t": times, **_core.course(self._core, method_of(method, options), times)}
+        return {"t": times, **_core.course(self._engine, method_of(method, options), times)}
 
     def track(self, resolution: float = 0.01, *, history: bool = True, **options: Any) -> Tracking:
         """The bed by front tracking, step by step.
@@ -528,7 +540,7 @@ class Scene:
         """
         from ._tracking import Tracking
 
-        return Tracking(self, _core.track(self._core, option_texts({"resolution": resolution, **options}), history))
+        return Tracking(self, _core.track(self._engine, option_texts({"resolution": resolution, **options}), history))
 
     def compare(
         self,
@@ -566,7 +578,7 @@ class Scene:
         for name in methods:
             fine = "cells" if "cells" in _option_names(name) else "resolution"
             for value in cells if fine == "cells" else resolutions:
-                measured = _core.l1_errors(self._core, method_of(name, {fine: value}), flat(t))
+                measured = _core.l1_errors(self._engine, method_of(name, {fine: value}), flat(t))
                 rows += [(name, value, time, error, wall, work) for time, error, wall, work in measured]
         kind = [("method", "U24"), ("resolution", float), ("t", float), ("l1_error", float), ("wall_s", float), ("work", int)]
         return np.array(rows, dtype=kind)
@@ -581,7 +593,7 @@ class Scene:
         noise: float = 0.0,
         seed: int = 1,
         method: str = "exact",
-        **options: Any,
+        **options: Unpack[Options],
     ) -> Observations:
         """Synthetic observations: what an instrument would have read, with noise.
 
@@ -607,7 +619,7 @@ class Scene:
         from ._data import Observations
 
         made = _core.observe(
-            self._core, method_of(method, options), flat(t), flat(z), quantity, float(width), float(noise), int(seed)
+            self._engine, method_of(method, options), flat(t), flat(z), quantity, float(width), float(noise), int(seed)
         )
         return Observations(made)
 
@@ -651,6 +663,14 @@ def read(path: str | os.PathLike[str], numbers: Mapping[str, float] | None = Non
 
 def _scene_of(text: str) -> Scene:
     return Scene.from_toml(text)
+
+
+def _comes_first(t: tuple[int, ...], z: tuple[int, ...]) -> bool:
+    """Whether all axes of t that are longer than one stand before those of z, so that z runs fastest."""
+    n = max(len(t), len(z))
+    long_t = [n - len(t) + i for i, size in enumerate(t) if size != 1]
+    long_z = [n - len(z) + i for i, size in enumerate(z) if size != 1]
+    return not long_t or not long_z or long_t[-1] < long_z[0]
 
 
 def _option_names(method: str) -> list[str]:
@@ -724,20 +744,18 @@ def _parts(tables: Table) -> list[tuple[str, str]]:
     """What a scene shows of itself: its parts but for those at their defaults."""
     shown = [("name", repr(tables["name"]))] if tables["name"] not in ("", "scene") else []
     fluxes = tables["flux"] if isinstance(tables["flux"], list) else [tables["flux"]]
-    for flux in fluxes:
-        if flux != {"model": "quadratic"}:
-            shown.append(("flux", repr(model_of("flux", flux))))
+    shown += [("flux", repr(model_of("flux", flux))) for flux in fluxes if flux != {"model": "quadratic"}]
     for key in _DEPTH_FUNCTIONS:
         if key in tables:
             shown.append((key, repr(model_of("depth", tables[key]))))
         if key == "shear_rate" and tables[key].get("scale", 1) != 1:
-            shown.append(("scale", f"{tables[key]['scale']:.12g}"))
+            shown.append(("scale", short_number(tables[key]["scale"])))
     initial = tables["initial"]
     start = model_of("start", initial) if "model" in initial else Pieces(**initial)
     shown.append(("initial", repr(start)))
     if "close_packing" in tables:
         shown.append(("close_packing", repr(model_of("close_packing", tables["close_packing"]))))
     if tables["domain"] != {"bottom": 0, "top": 1}:
-        shown.append(("domain", f"({tables['domain']['bottom']:.12g}, {tables['domain']['top']:.12g})"))
+        shown.append(("domain", f"({', '.join(short_number(x) for x in tables['domain'].values())})"))
     shown += [(key, repr(tables[key])) for key in ("diffusion", "boundary", "units") if key in tables]
     return shown

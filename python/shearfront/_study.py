@@ -8,7 +8,6 @@ import math
 import re
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Executor, Future
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +19,12 @@ from ._fit import Fit, Problem
 from ._scene import Scene
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
+    from typing_extensions import Unpack
+
     from ._arrays import FloatArray
+    from ._options import Options
 
 #: A task for another process takes at least this long, in seconds: less is spent on sending it.
 _LEAST_TASK = 0.2
@@ -71,7 +75,7 @@ def study(
     executor: Executor | None = None,
     batch: int | None = None,
     method: str = "exact",
-    **options: Any,
+    **options: Unpack[Options],
 ) -> Study:
     """Runs a scene, or a fit, at many points.
 
@@ -106,7 +110,7 @@ def study(
     >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
     >>> found = sf.study(scene, {"shear_rate.values[1]": [0.31, 0.62]}, ["t_star", "phi(0.5;0.75)"])
     >>> found["t_star"].round(3)
-    array([5.814, 3.227])
+    array([6.452, 3.226])
     """
     points = _points(parameters)
     names = list(points[0]) if points else []

@@ -61,21 +61,21 @@ class Tracking:
     ('t', 'z', 'boundary', 'incoming', 'outgoing')
     """
 
-    __slots__ = ("_core", "scene")
+    __slots__ = ("_engine", "scene")
 
     def __init__(self, scene: Scene, core: _core.Tracking) -> None:
         self.scene = scene
-        self._core = core
+        self._engine = core
 
     @property
     def time(self) -> float:
         """The time reached."""
-        return self._core.time
+        return self._engine.time
 
     @property
     def summary(self) -> dict[str, Any]:
         """How it went so far: collisions, most fronts, levels."""
-        return self._core.summary
+        return self._engine.summary
 
     def advance(self, t: float) -> str:
         """Goes on to time t; infinity to the steady state.
@@ -90,26 +90,26 @@ class Tracking:
         NoResult
             If it ended before.
         """
-        return self._core.advance(float(t))
+        return self._engine.advance(float(t))
 
     def copy(self) -> Tracking:
         """The same state, to go on from twice."""
-        return Tracking(self.scene, self._core.copy())
+        return Tracking(self.scene, self._engine.copy())
 
     def profile(self) -> Profile:
         """phi at the time reached, between walls, interfaces and fronts."""
-        return Profile(*self._core.profile())
+        return Profile(*self._engine.profile())
 
     def phi(self, z: Any) -> FloatArray:
         """phi at heights, at the time reached."""
         z = np.asarray(z, dtype=float)
-        values: FloatArray = self._core.at(flat(z))[0].reshape(z.shape)
+        values: FloatArray = self._engine.at(flat(z))[0].reshape(z.shape)
         return values
 
-    def M(self, z: Any) -> FloatArray:  # noqa: N802
+    def M(self, z: Any) -> FloatArray:
         """The integral of phi from the bottom up to heights, at the time reached."""
         z = np.asarray(z, dtype=float)
-        values: FloatArray = self._core.at(flat(z))[1].reshape(z.shape)
+        values: FloatArray = self._engine.at(flat(z))[1].reshape(z.shape)
         return values
 
     def fronts(self) -> Any:
@@ -120,7 +120,7 @@ class Tracking:
         ndarray
             Structured: layer, t_begin, z_begin, t_end, z_end, phi_below, phi_above.
         """
-        return self._core.fronts().view(FRONT)
+        return self._engine.fronts().view(FRONT)
 
     def collisions(self) -> Any:
         """All collisions up to the time reached, by time and height.
@@ -130,7 +130,7 @@ class Tracking:
         ndarray
             Structured: t, z, boundary, incoming, outgoing.
         """
-        return self._core.collisions().view(COLLISION)
+        return self._engine.collisions().view(COLLISION)
 
     def steps(self, until: float = np.inf) -> Iterator[Any]:
         """Goes on from event to event.

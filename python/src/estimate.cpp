@@ -74,6 +74,15 @@ nb::dict facts_of(const Fitted& self) {
   all["wall_s"] = e.wall_s;
   all["aic"] = e.aic;
   all["bic"] = e.bic;
+  all["structure"] = nb::none();
+  if (e.structure) {
+    nb::dict structure;
+    structure["lag1_height"] = e.structure->lag1_height;
+    structure["lag1_time"] = e.structure->lag1_time;
+    structure["runs_z_score"] = e.structure->runs_z_score;
+    structure["is_structured"] = e.structure->is_structured;
+    all["structure"] = structure;
+  }
   all["warnings"] = e.warnings;
   all["status"] = std::string(name_of(e.status));
   all["message"] = e.message;
