@@ -17,14 +17,17 @@ from ._models import MODELS, Model
 if TYPE_CHECKING:
     from ._arrays import FloatArray
 
-#: Largest error of a table made without being asked for another, as a part of the largest value.
+#: Largest error of a table made without being asked for another, as a part of the value (see sampled).
 _TOLERANCE = 1e-4
 #: Points at first: no feature wider than a sixteenth of the domain is overlooked.
 _FIRST = 17
-#: Inside an interval, where the error is measured: with its middle these see what a piece of a cubic can do.
-_INSIDE = np.array([0.1464, 0.5, 0.8536])
+#: Inside an interval, where the error is measured.
+_INSIDE = np.arange(1, 16) / 16
+_MIDDLE = 7
 #: An interval this narrow, as a part of the domain, over which the function still changes has a jump in it.
 _NARROWEST = 1e-9
+#: Values below this part of the largest count as this.
+_SMALLEST = 1e-6
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Sampled:
     model : Model
         The table, for :class:`Scene`.
     error : float
-        The largest difference between function and table found at three places inside every interval.
+        The largest difference between function and table found at fifteen places inside every interval.
     points : int
         How many points the table has.
     """
@@ -66,7 +69,7 @@ def sampled(
     kind : {"depth", "flux", "start"}, optional
         What it is to be: a depth function and a smooth start are linear between points, a flux is a monotone cubic.
     tolerance : float, optional
-        Largest error allowed, as a part of the largest absolute value.
+        Largest error allowed: of a depth function as a part of its value there, otherwise of the largest absolute value.
     max_points : int, optional
 
     Returns
@@ -97,21 +100,23 @@ def sampled(
         return _sampled_flux(f, low, high, tolerance, max_points)
     x = np.linspace(low, high, _FIRST)
     y = f(x)
-    jumps = np.zeros(len(x) - 1, dtype=bool)  # intervals that hold one
     while True:
         inside = x[:-1, None] + np.diff(x)[:, None] * _INSIDE
         values = f(inside.ravel()).reshape(inside.shape)
         errors = np.abs(values - (y[:-1, None] + np.diff(y)[:, None] * _INSIDE)).max(axis=1)
-        bound = tolerance * max(np.abs(y).max(), np.abs(values).max())
-        if kind == "depth":
+        largest = max(np.abs(y).max(), np.abs(values).max())
+        sizes = np.full(len(errors), largest)
+        jumps = np.zeros(len(errors), dtype=bool)  # intervals that hold one
+        if kind == "depth":  # waves take times that go like 1 / a: small values count as much as large ones
+            sizes = np.maximum(np.abs(values).min(axis=1), _SMALLEST * largest)
             jumps = np.diff(x) <= _NARROWEST * (high - low)
         errors[jumps] = 0
-        wrong = errors > bound
+        wrong = errors > tolerance * sizes
         if not wrong.any():
             break
         _expect_room(len(x) + int(wrong.sum()), max_points, tolerance)
         middle = np.flatnonzero(wrong)
-        x, y = np.insert(x, middle + 1, inside[middle, 1]), np.insert(y, middle + 1, values[middle, 1])
+        x, y = np.insert(x, middle + 1, inside[middle, _MIDDLE]), np.insert(y, middle + 1, values[middle, _MIDDLE])
     for i in np.flatnonzero(jumps):
         x[i] = x[i + 1] = (x[i] + x[i + 1]) / 2
     model = MODELS["Table" if kind == "depth" else "TableInitial"](x, y)
@@ -129,7 +134,7 @@ def _sampled_flux(f: Callable[[FloatArray], FloatArray], low: float, high: float
         if len(wrong) == 0:
             return Sampled(MODELS["FluxTable"](x, y), float(errors.max()), len(x))
         _expect_room(len(x) + len(wrong), most, tolerance)
-        x = np.insert(x, wrong + 1, inside[wrong, 1])
+        x = np.insert(x, wrong + 1, inside[wrong, _MIDDLE])
 
 
 def _with_extrema(f: Callable[[FloatArray], FloatArray], x: FloatArray) -> FloatArray:

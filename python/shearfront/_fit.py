@@ -536,6 +536,24 @@ def read_fit(path: str | os.PathLike[str]) -> Problem:
     Returns
     -------
     Problem
+        Which is run by ``.run()``.
+
+    Raises
+    ------
+    InputError
+        With every complaint about the file and those it names.
+
+    Examples
+    --------
+    >>> import shearfront as sf, tempfile, pathlib
+    >>> folder = pathlib.Path(tempfile.mkdtemp())
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))
+    >>> scene.save(folder / "scene.toml")
+    >>> scene.observe([0.2], [0.4, 0.5], quantity="cumulative").save(folder / "seen.csv")
+    >>> text = "scene = 'scene.toml'\\nobservations = 'seen.csv'\\n[unknown]\\nparameters = ['shear_rate.values']"
+    >>> _ = (folder / "fit.toml").write_text(text)
+    >>> sf.read_fit(folder / "fit.toml")
+    <Problem 'fit': 2 observations>
     """
     return Problem(_core.read_fit(os.fspath(path)))
 

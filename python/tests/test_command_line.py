@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import SOURCE
 
 import shearfront as sf
-
-from .conftest import SOURCE
 
 DATASETS = SOURCE / "datasets"
 SCENES = sorted(p for p in DATASETS.glob("*/scene*.toml"))

@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import SOURCE
 
 import shearfront as sf
-
-from .conftest import SOURCE
 
 T, Z = np.array([0.2, 0.5, 1.0, 2.0]), np.linspace(0.05, 0.95, 10)
 DATASETS = SOURCE / "datasets"
@@ -69,7 +68,7 @@ def test_settings_are_checked_as_files_are(may: sf.Scene, seen: sf.Observations)
     assert keys == {"unknown.parameters[0]", "misfit.loss", "search.algorithm", "search.tolerance"}
     with pytest.raises(TypeError, match="give it alone"):
         sf.fit(DATASETS / "paper-example-3" / "fit.toml", seen)
-    with pytest.raises(TypeError, match="unexpected keyword|needs observations"):
+    with pytest.raises(TypeError, match="needs observations"):
         sf.fit(may, seen)
     with pytest.raises(sf.InputError, match="resolutio"):
         sf.fit(may, seen, "shear_rate.values", method="front-tracking", resolutio=0.1)
@@ -101,7 +100,7 @@ def test_bands(may: sf.Scene, seen: sf.Observations) -> None:
     found = sf.fit(may, seen, "shear_rate.values")
     prediction = found.predict([0.4, 3], [0.2, 0.6], draws=200)
     assert prediction.M.shape == (2, 2)
-    assert np.all((prediction.M_lower <= prediction.M) & (prediction.M <= prediction.M_upper))
+    assert np.all((prediction.M_lower <= prediction.M) & (prediction.M_upper >= prediction.M))
     np.testing.assert_array_equal(prediction.M, found.scene.M([0.2, 0.6], [[0.4], [3]]))
     drawn = np.array([s.M(0.6, 3.0) for s in found.draw(200)])
     assert prediction.M_lower[1, 1] == pytest.approx(np.quantile(drawn, 0.025, method="weibull"), abs=1e-12)

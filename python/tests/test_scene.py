@@ -9,13 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import SOURCE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import shearfront as sf
 from shearfront._toml import canonical_tables, toml_text
-
-from .conftest import SOURCE
 
 
 def test_keywords_dicts_and_files_are_the_same(may: sf.Scene, tmp_path: Path) -> None:

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The package as a whole: examples, types, stubs, pictures, import."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import pkgutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import SOURCE
+
+import shearfront as sf
+
+MODULES = [f"shearfront.{m.name}" for m in pkgutil.iter_modules(sf.__path__) if m.name != "_core"]
+
+
+@pytest.mark.parametrize("name", ["shearfront", *MODULES])
+def test_examples(name: str) -> None:
+    if name.endswith("pictures"):
+        pytest.importorskip("matplotlib").use("Agg")
+    for extra in {"shearfront._fit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
+        pytest.importorskip(extra)
+    result = doctest.testmod(importlib.import_module(name))
+    assert result.failed == 0
+
+
+def test_everything_public_has_an_example_or_is_a_result() -> None:
+    results = {"Complaint", "Events", "Interface", "Jacobian", "Solution", "Observations", "Parameter", "Prediction"}
+    results |= {"RateBand", "Bootstrap", "Fit", "Problem", "Profile", "Sampled", "Study", "Model", "NoResult", "pictures"}
+    for name in sf.__all__:
+        thing = getattr(sf, name)
+        assert thing.__doc__, name
+        is_model = isinstance(thing, type) and issubclass(thing, sf.Model)
+        assert is_model or name in results or ">>>" in thing.__doc__, name
+
+
+def run(*command: str) -> None:
+    done = subprocess.run([sys.executable, *command], capture_output=True, text=True, cwd=SOURCE, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_are_what_the_library_has() -> None:
+    run("scripts/stubs.py", "--check")
+
+
+def test_types() -> None:
+    pytest.importorskip("mypy")
+    run("-m", "mypy", "python/shearfront")
+
+
+def test_style() -> None:
+    pytest.importorskip("ruff")
+    run("-m", "ruff", "check", "--no-cache", "python", "scripts/stubs.py")
+    run("-m", "ruff", "format", "--no-cache", "--check", "python", "scripts/stubs.py")
+
+
+def test_only_numpy_is_needed() -> None:
+    code = "import sys, shearfront as sf; sf.Scene(shear_rate=1, initial=sf.Step(.5)).solve(1)\n"
+    code += "bad = {'pandas', 'xarray', 'matplotlib', 'scipy', 'arviz'} & set(sys.modules); assert not bad, bad"
+    run("-c", code)
+
+
+def test_pictures(may: sf.Scene) -> None:
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("Agg")
+    bed = may.track(0.05)
+    bed.advance(2)
+    bins = may.observe([0.5, 1], np.linspace(0.1, 0.9, 9), quantity="bin", width=0.1, noise=0.01)
+    heights = may.observe(np.linspace(0.1, 6, 30), quantity="bed-height", noise=1e-4)
+    found = sf.fit(may, bins, "shear_rate.values[1]")
+    drawn = [
+        sf.pictures.profiles(may.solve([0, 1])),
+        sf.pictures.fronts(bed, events=may.events()),
+        sf.pictures.map(may, 2.0),
+        sf.pictures.scene(may),
+        sf.pictures.fit(found),
+        sf.pictures.fit(sf.fit(may, heights, "shear_rate.values[1]")),
+        sf.pictures.rate(found, truth=may),
+    ]
+    for ax in drawn:
+        assert ax.get_xlabel()
+        assert ax.get_ylabel()
+        ax.figure.canvas.draw()
+    assert len(drawn[1].collections[0].get_segments()) == len(bed.fronts())
+    _, given = pyplot.subplots()
+    assert may.solve([1]).plot(given) is given
+    pyplot.close("all")
+
+
+def test_the_page_of_the_tutorial() -> None:
+    page = SOURCE / "docs" / "tutorials" / "python.md"
+    if not page.exists():
+        pytest.skip("an installed package has no documentation beside it")
+    pytest.importorskip("pandas")
+    pytest.importorskip("matplotlib").use("Agg")
+    for path in (page, SOURCE / "README.md"):
+        check_page(path)
+
+
+def check_page(path: Path) -> None:
+    """Runs the blocks ```python of a page in one session; lines after `# ->` are what they print."""
+    lines, in_code, code = path.read_text(encoding="utf-8").splitlines(), False, []
+    for line in lines:
+        if line.startswith("```"):
+            in_code = line == "```python"
+        elif in_code:
+            code.append(line)
+    assert len(code) > 5
+    text = "\n".join(code)
+    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS).run(
+        doctest.DocTestParser().get_doctest(text, {"__name__": "__page__"}, path.name, str(path), 0)
+    )
+    assert result.attempted > 3
+    assert result.failed == 0
