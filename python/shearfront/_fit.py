@@ -123,7 +123,10 @@ class Bootstrap:
         import arviz
 
         draws = {name: self.estimates[None, :, i] for i, name in enumerate(self.names)}
-        return arviz.from_dict({"posterior": draws}) if hasattr(arviz, "InferenceData") is False else arviz.from_dict(draws)
+        try:
+            return arviz.from_dict(posterior=draws)
+        except TypeError:  # version 1 and later
+            return arviz.from_dict({"posterior": draws})
 
 
 class Problem:

@@ -549,6 +549,7 @@ class Scene:
         *,
         cells: Iterable[int] = (100, 200, 400, 800),
         resolutions: Iterable[float] = (0.1, 0.03, 0.01, 0.003),
+        **options: Unpack[Options],
     ) -> Any:
         """Error against time: methods from coarse to fine, measured against the exact solution.
 
@@ -560,6 +561,8 @@ class Scene:
             Methods that have whole profiles.
         cells, resolutions : iterable, optional
             Coarse to fine, for methods with cells and for front tracking.
+        **options
+            Others, ``grid="singular-mapping"``, for the methods that have them.
 
         Returns
         -------
@@ -576,9 +579,11 @@ class Scene:
         """
         rows: list[tuple[Any, ...]] = []
         for name in methods:
-            fine = "cells" if "cells" in _option_names(name) else "resolution"
+            known = _option_names(name)
+            fine = "cells" if "cells" in known else "resolution"
+            others = {key: value for key, value in options.items() if key in known}
             for value in cells if fine == "cells" else resolutions:
-                measured = _core.l1_errors(self._engine, method_of(name, {fine: value}), flat(t))
+                measured = _core.l1_errors(self._engine, method_of(name, {fine: value, **others}), flat(t))
                 rows += [(name, value, time, error, wall, work) for time, error, wall, work in measured]
         kind = [("method", "U24"), ("resolution", float), ("t", float), ("l1_error", float), ("wall_s", float), ("work", int)]
         return np.array(rows, dtype=kind)
