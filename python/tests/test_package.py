@@ -22,7 +22,7 @@ MODULES = [f"shearfront.{m.name}" for m in pkgutil.iter_modules(sf.__path__) if 
 def test_examples(name: str) -> None:
     if name.endswith("pictures"):
         pytest.importorskip("matplotlib").use("Agg")
-    for extra in {"shearfront._fit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
+    for extra in {"shearfront._misfit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
         pytest.importorskip(extra)
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
