@@ -82,6 +82,11 @@ def sampled(
     InputError
         If the function is not finite, or needs more points.
 
+    Notes
+    -----
+    The cubic of a table of a convex flux may bend the other way beside an extremum, by less than the error. Then the exact
+    method refuses it, which wants a flux that is convex or concave; front tracking and the finite volumes take it.
+
     Examples
     --------
     >>> import shearfront as sf
