@@ -54,7 +54,8 @@ class Scene:
     initial : Model, mapping or callable
         phi(z, 0) / c(z): :func:`Step`, :class:`Pieces`, a smooth start, or a function of z.
     flux : Model, mapping, str, callable, or a list of them, optional
-        f; phi (phi - 1) unless given; a function of phi is sampled on [0, 1]. In a list every flux but the lowest is a pair (above, flux).
+        f; phi (phi - 1) unless given; a function of phi is sampled on [0, 1]. In a list every flux but the lowest is
+        a pair (above, flux).
     scale : float, optional
         s, > 0; 1 unless given.
     solid_fraction, temperature : Model, mapping or callable, optional
