@@ -9,8 +9,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from hypothesis import configuration, settings
 
 import shearfront as sf
+
+# The same examples in every run, and nothing kept between runs.
+configuration.set_hypothesis_home_dir(Path(__file__).resolve().parents[2] / "build" / "python" / "hypothesis")
+settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
+settings.load_profile("fixed")
 
 SOURCE = Path(__file__).resolve().parents[2]
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ast
 import doctest
 import importlib
 import pkgutil
@@ -45,6 +46,19 @@ def run(*command: str) -> None:
 
 def test_stubs_are_what_the_library_has() -> None:
     run("scripts/stubs.py", "--check")
+
+
+def test_the_stub_of_the_engines_names_what_is_there() -> None:
+    from shearfront import _core
+
+    stub = ast.parse((SOURCE / "python" / "shearfront" / "_core.pyi").read_text(encoding="utf-8"))
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    there = {name: value for name, value in vars(_core).items() if not name.startswith("_")}
+    assert functions | set(classes) == set(there)
+    for name, node in classes.items():
+        members = {m.name for m in node.body if isinstance(m, ast.FunctionDef)} - {"__init__"}
+        assert members == {m for m in vars(there[name]) if not m.startswith("_")}, name
 
 
 def test_types() -> None:

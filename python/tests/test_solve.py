@@ -24,7 +24,7 @@ def fan(z: np.ndarray, t: np.ndarray) -> np.ndarray:
     return np.clip((1 + (z - 0.5) / t) / 2, 0, 1)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(z=st.lists(st.floats(0, 1), min_size=1, max_size=8), t=st.lists(st.floats(0.01, 0.49), min_size=1, max_size=5))
 def test_a_fan(z: list[float], t: list[float]) -> None:
     zs, ts = np.array(z), np.array(t)[:, None]
