@@ -13,7 +13,7 @@ import numpy as np
 from . import _core
 from ._arrays import flat, times_of
 from ._errors import one_complaint, without_places
-from ._methods import method_of, option_texts
+from ._methods import EXACT, method_of, option_texts
 from ._parts import (
     DEPTH_FUNCTIONS,
     depth_table,
@@ -419,8 +419,8 @@ class Scene:
         >>> scene.phi([[0.4], [0.6]], [0.25, 0.5]).shape
         (2, 2)
         """
-        if type(z) is float and type(t) is float:
-            return _core.sample_place(self._engine, method_of(method, options), t, z)[0]
+        if type(z) is float and type(t) is float and method == "exact" and not options:
+            return _core.sample_place(self._engine, EXACT, t, z)[0]
         return self._sample(z, t, method, options, 0)
 
     def M(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
@@ -433,8 +433,8 @@ class Scene:
         >>> scene.M(1.0, 0.3)
         0.5
         """
-        if type(z) is float and type(t) is float:
-            return _core.sample_place(self._engine, method_of(method, options), t, z)[1]
+        if type(z) is float and type(t) is float and method == "exact" and not options:
+            return _core.sample_place(self._engine, EXACT, t, z)[1]
         return self._sample(z, t, method, options, 1)
 
     def _sample(self, z: Any, t: Any, method: str, options: Mapping[str, object], which: int) -> Any:
