@@ -182,3 +182,33 @@ def test_models_are_compared(may: sf.Scene, seen: sf.Observations) -> None:
     other = sf.fit(may, may.observe(T, Z, quantity="cumulative"), "shear_rate.values")
     with pytest.raises(sf.InputError, match="cannot be compared"):
         sf.compare_fits({"two": two, "other": other})
+
+
+LAB = {
+    "spreadsheet": ("spreadsheet.csv", {"columns": {"t": "Zeit", "z": "Höhe", "width": "Breite", "phi": "Konzentration klein"}}),
+    "wide": ("wide.txt", {"width": 2}),
+    "percent": ("percent.csv", {"columns": {"phi_large": "large"}, "replicates": "mean", "width": 2}),
+    "chunks": ("chunks.txt", {"columns": {"phi": "v_small"}, "time_step": 0.001, "width": 2}),
+}
+
+
+@pytest.mark.parametrize("name", LAB)
+def test_files_of_laboratories(name: str) -> None:
+    """The same as the fit file beside it, whose tables say the same."""
+    file, how = LAB[name]
+    folder = DATASETS / "lab-files"
+    scene = sf.read(folder / "scene.toml")
+    seen = sf.read_data(scene, folder / file, **how)
+    expected = sf.read_fit(folder / f"fit-{name}.toml").observations
+    assert seen.to_csv() == expected.to_csv()
+    assert file in seen.understood
+
+
+def test_how_a_file_is_read_is_checked(may: sf.Scene) -> None:
+    for wrong in (
+        {"columns": {"time": "Zeit"}}, {"separator": "tabs"}, {"layout": "deep"}, {"width": -1.0}, {"replicates": "sum"},
+    ):  # fmt: skip
+        with pytest.raises(sf.InputError, match=next(iter(wrong))):
+            sf.read_data(may, "nowhere.csv", **wrong)
+    with pytest.raises(sf.InputError, match="not both"):
+        sf.data(may, "nowhere.csv", t=1)
