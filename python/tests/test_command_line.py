@@ -15,11 +15,18 @@ import shearfront as sf
 
 DATASETS = SOURCE / "datasets"
 SCENES = sorted(p for p in DATASETS.glob("*/scene*.toml"))
-FITS = sorted(DATASETS.glob("*/fit*.toml"))
+#: Folders and files whose fits take seconds.
+SLOW = ("dem-", "traffic-us-101", "may-2010-diffusion", "may-2010-bed-height/fit-noise", "paper-example-5/fit-paper")
 
 
 def ident(path: Path) -> str:
     return str(path.relative_to(DATASETS))
+
+
+FITS = [
+    pytest.param(path, marks=[pytest.mark.slow] if ident(path).startswith(SLOW) else [])
+    for path in sorted(DATASETS.glob("*/fit*.toml"))
+]
 
 
 def test_there_are_data_sets() -> None:

@@ -177,13 +177,13 @@ def test_arrays_cost_what_the_engine_costs(may: sf.Scene) -> None:
 
 
 def test_a_point_costs_little_more_than_the_engine_takes(may: sf.Scene) -> None:
-    n, engine, total = 2000, np.inf, np.inf
-    for _ in range(10):
+    n, engine, total = 100, np.inf, np.inf
+    for _ in range(200):  # short ones: some are not disturbed
         begin = time.perf_counter()
         for _ in range(n):
             may.phi(0.4, 0.5)
         total = min(total, (time.perf_counter() - begin) / n)
-        engine = min(engine, min(may.solve(0.5, 0.4).summary["wall_s"] for _ in range(50)))
+        engine = min(engine, min(may.solve(0.5, 0.4).summary["wall_s"] for _ in range(5)))
     assert total - engine <= 3e-6
 
 
@@ -198,10 +198,12 @@ def test_the_lock_is_let_go(may: sf.Scene) -> None:
 
 
 def test_ctrl_c_ends_a_run(may: sf.Scene) -> None:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it for what it runs behind
     threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     begin = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):
         may.solve([1e9], [0.5], method="engquist-osher", cells=20000)
+    signal.signal(signal.SIGINT, before)
     assert time.perf_counter() - begin < 5
 
 
