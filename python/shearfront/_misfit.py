@@ -43,14 +43,18 @@ class Misfit:
     array([2.4 , 0.31])
     """
 
-    __slots__ = ("_engine", "lower", "names", "start", "upper")
+    __slots__ = ("_engine", "_problem", "lower", "names", "start", "upper")
 
     def __init__(self, problem: Problem) -> None:
+        self._problem = problem
         self._engine = _core.Misfit(problem._engine)
         self.names = self._engine.names
         self.start = self._engine.start
         self.lower = self._engine.lower
         self.upper = self._engine.upper
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Misfit, (self._problem,)
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:

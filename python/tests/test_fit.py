@@ -153,6 +153,8 @@ def test_other_searches(may: sf.Scene, seen: sf.Observations) -> None:
     misfit = problem.misfit
     found = optimize.least_squares(misfit.residuals, misfit.start, misfit.jacobian, bounds=misfit.bounds, x_scale="jac")
     np.testing.assert_allclose(found.x, problem.run().estimates, rtol=1e-5)
+    again = pickle.loads(pickle.dumps(misfit))  # samplers send it to other processes
+    np.testing.assert_array_equal(again.residuals([2, 0.3]), misfit.residuals([2, 0.3]))
     assert misfit.log_likelihood([-1, 1]) == -np.inf
     assert misfit([1, -1]) == np.inf
     with pytest.raises(sf.InputError, match="one number per unknown"):
