@@ -38,6 +38,16 @@ def program() -> str:
 
 
 @pytest.fixture(scope="session")
+def refuses(program: str):
+    """Whether the program ends without a result."""
+
+    def call(*arguments: str) -> bool:
+        return subprocess.run([program, *arguments], capture_output=True, check=False).returncode in (1, 2)
+
+    return call
+
+
+@pytest.fixture(scope="session")
 def run(program: str):
     """Runs the program; gives what it prints."""
 

@@ -60,13 +60,19 @@ def test_solve(path: Path, run) -> None:
 
 
 @pytest.mark.parametrize("path", SCENES, ids=ident)
-def test_events(path: Path, run) -> None:
+def test_events(path: Path, run, refuses) -> None:
     scene = sf.read(path)
-    try:
-        events = scene.events()
-    except (sf.InputError, sf.NoResult):
-        pytest.skip("the exact method gives no event times of this scene")
-    expected = json.loads(run("events", str(path), "--json"))
+    found = {}
+    for method in ("exact", "front-tracking"):
+        try:
+            found[method] = scene.events(method=method)
+        except (sf.InputError, sf.NoResult):
+            assert refuses("events", str(path), "--method", method, "--json")
+    for method, events in found.items():
+        same_events(json.loads(run("events", str(path), "--method", method, "--json")), events)
+
+
+def same_events(expected: dict[str, object], events: sf.Events) -> None:
     for key in ("mass", "steady_height", "t0", "t1", "t_star"):
         assert expected[key] == getattr(events, key), key
     assert expected["interfaces"] == [{"z": i.z, "first": i.first, "last": i.last} for i in events.interfaces]

@@ -125,6 +125,7 @@ def test_profile_and_bootstrap(may: sf.Scene) -> None:
     assert np.sqrt(once.covariance.diagonal()) == pytest.approx(found.std_errors, rel=0.4)
 
 
+@pytest.mark.slow
 def test_draws_for_arviz(may: sf.Scene) -> None:
     pytest.importorskip("arviz")
     seen = may.observe(T, Z, quantity="cumulative", noise=1e-4)
