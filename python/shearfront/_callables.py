@@ -42,6 +42,12 @@ class Sampled:
         The largest difference between function and table found at fifteen places inside every interval.
     points : int
         How many points the table has.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> sf.sampled(lambda z: 1 + z).points
+    17
     """
 
     model: Model

@@ -30,6 +30,14 @@ class Observations:
         "point", "bin", "cumulative" or "bed-height".
     t, z, value, width, sigma : ndarray
         One number per row; width is 0 and sigma NaN where there is none.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> seen.quantity, len(seen)
+    ('cumulative', 12)
     """
 
     __slots__ = ("_engine", "quantity", "sigma", "t", "value", "width", "z")
@@ -58,16 +66,59 @@ class Observations:
         return self._engine.understood
 
     def to_csv(self) -> str:
-        """The text of a file of observations that reads back to the same numbers, to the bit."""
+        """The text of a file of observations that reads back to the same numbers, to the bit.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> seen.to_csv().splitlines()[0]
+        't,z,M,sigma'
+        """
         return self._engine.text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file of observations that the program ``shearfront`` reads as well."""
+        """Writes a file of observations that the program ``shearfront`` reads as well.
+
+        Parameters
+        ----------
+        path : path
+            What is there is overwritten.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> import tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "seen.csv"
+        >>> seen.save(path)
+        >>> len(sf.data(scene, path))
+        12
+        """
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.to_csv())
 
     def to_dict(self) -> dict[str, FloatArray]:
-        """The columns that say something, by their names in a file."""
+        """The columns that say something, by their names in a file.
+
+        Returns
+        -------
+        dict of ndarray
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> list(seen.to_dict())
+        ['t', 'z', 'M', 'sigma']
+        """
         name = {"cumulative": "M", "bed-height": "H"}.get(self.quantity, "phi")
         columns = {"t": self.t, "z": self.z, name: self.value}
         if self.quantity == "bed-height":
@@ -79,7 +130,20 @@ class Observations:
         return columns
 
     def to_dataframe(self) -> Any:
-        """A table with the columns of :meth:`to_dict`; needs pandas."""
+        """A table with the columns of :meth:`to_dict`; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> seen.to_dataframe().shape
+        (12, 4)
+        """
         return pandas().DataFrame(self.to_dict())
 
     def __repr__(self) -> str:

@@ -24,6 +24,14 @@ class Problem:
 
     Its misfit can be handed to searches and samplers of others: ``problem.misfit`` has residuals, Jacobian and a
     log-likelihood. Made by :func:`problem`, or by :func:`read_fit` from a fit file.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> sf.problem(scene, seen, "shear_rate.values").run().names
+    ['shear_rate.values[0]', 'shear_rate.values[1]']
     """
 
     __slots__ = ("_engine", "observations", "scene")
@@ -52,11 +60,42 @@ class Problem:
         ------
         NoResult
             If no estimate was found.
+
+        Returns
+        -------
+        Fit
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> sf.problem(scene, seen, "shear_rate.values").run().estimates.round(1)
+        array([2.4, 0.3])
         """
         return Fit(self, self._engine.run())
 
     def with_(self, numbers: Mapping[str, float]) -> Problem:
-        """The same fit with other numbers of its scene, by the names of their entries."""
+        """The same fit with other numbers of its scene, by the names of their entries.
+
+        Parameters
+        ----------
+        numbers : mapping
+            By the names of entries of the scene.
+
+        Returns
+        -------
+        Problem
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> problem = sf.problem(scene, seen, "shear_rate.values")
+        >>> problem.with_({"initial.breaks[0]": 0.52}).scene.entries["initial.breaks[0]"]
+        0.52
+        """
         return Problem(self._engine.with_scene(self.scene.with_(numbers)._engine))
 
     def __reduce__(self) -> tuple[Any, ...]:
