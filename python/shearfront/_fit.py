@@ -119,6 +119,7 @@ def problem(
     upper: Any = None,
     shape: str | None = None,
     method: str | None = None,
+    method_options: Mapping[str, object] | None = None,
     quantity: str | None = None,
     loss: str | None = None,
     loss_scale: float | None = None,
@@ -162,6 +163,7 @@ def problem(
     for key in ("start", "lower", "upper"):
         if tables["unknown"][key] is not None:
             tables["unknown"][key] = flat(tables["unknown"][key])
+    options |= method_options or {}
     if method is not None or options:
         tables["forward"] = {"method": method or "exact", **options}
     seen = data(scene, observations)
@@ -185,7 +187,8 @@ def fit(
     **settings
         start, lower, upper : array_like, one number per unknown;
         shape : "none", "decreasing" or "convex", the order among the values of a(z);
-        method, and options of the method : what predicts the observations;
+        method, and options of the method : what predicts the observations; method_options : a mapping of such as have a name of
+        these settings, ``{"tolerance": 1e-4}``;
         quantity : "point", "bin", "cumulative" or "bed-height", what is compared;
         loss : "squared", "huber" or "cauchy"; loss_scale; two_stage;
         algorithm : "ceres", "global" or "nlopt:NAME"; starts; seed; max_evaluations; tolerance;

@@ -84,6 +84,18 @@ def test_keywords_are_the_same_as_a_file() -> None:
     assert file.warnings == words.warnings
 
 
+@pytest.mark.slow
+def test_options_of_the_method() -> None:
+    folder = DATASETS / "may-2010-diffusion"
+    scene = sf.read(folder / "scene-1e-2.toml")
+    words = sf.problem(
+        scene, folder / "observations.csv", ["diffusion.D", "shear_rate.values"], start=[0.03, 1.5, 0.5],
+        method="crank-nicolson", method_options={"tolerance": 1e-4},
+    )  # fmt: skip
+    assert words._engine.method.settings == sf.read_fit(folder / "fit.toml")._engine.method.settings
+    np.testing.assert_array_equal(words.run().estimates, sf.fit(folder / "fit.toml").estimates)
+
+
 def test_error_bars(may: sf.Scene, seen: sf.Observations) -> None:
     found = sf.fit(may, seen, "shear_rate.values")
     J = sf.problem(may, seen, "shear_rate.values").misfit.jacobian(found.estimates)
