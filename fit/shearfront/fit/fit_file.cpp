@@ -73,17 +73,17 @@ bool has_keys_of_fit(const TomlSource& source) {
 class FitReader {
  public:
   explicit FitReader(const TomlSource& source) : source_(source), report_(source.name()) {}
+  FitReader(const TomlSource& source, Scene<double> scene, Observations observations)
+      : source_(source), report_(source.name()), scene_(std::move(scene)), data_(std::move(observations)) {}
 
   FitFile read() {
     TableReader root(source_, report_, "", source_.root());
     const auto name = root.text("name", Need::optional, "must be text");
-    const auto scene_path = file_name(root, "scene", "must be the name of a scene file");
-    const auto data_path = file_name(root, "observations", "must be the name of a CSV file");
+    std::optional<std::string> scene_path, data_path;
+    if (!scene_) scene_path = file_name(root, "scene", "must be the name of a scene file");
+    if (!data_) data_path = file_name(root, "observations", "must be the name of a CSV file");
     if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
-    if (auto table = root.table("columns", Need::optional, "must be a table of names of columns"))
-      columns(*table);
-    if (auto table = root.table("format", Need::optional, "must be a table with separator, decimal, ..."))
-      format(*table);
+    if (!data_) how_written(root);
     if (auto table = root.table("compare", Need::optional, "must be a table with layers and models"))
       compare(*table);
     const Need need = choice_ ? Need::optional : Need::required;
@@ -109,7 +109,7 @@ class FitReader {
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
                     std::move(search_), uncertainty_},
-            *scene_path, *data_path, std::move(remarks_), std::move(choice_)};
+            scene_path.value_or(""), data_path.value_or(""), std::move(remarks_), std::move(choice_)};
   }
 
  private:
@@ -121,6 +121,14 @@ class FitReader {
       return std::nullopt;
     }
     return (std::filesystem::path(source_.name()).parent_path() / *name).string();
+  }
+
+  /// What the tables say about the file of observations.
+  void how_written(TableReader& root) {
+    if (auto table = root.table("columns", Need::optional, "must be a table of names of columns"))
+      columns(*table);
+    if (auto table = root.table("format", Need::optional, "must be a table with separator, decimal, ..."))
+      format(*table);
   }
 
   /// Which column of the observations is which: phi = "conc".
@@ -365,6 +373,11 @@ class FitReader {
 
 FitFile parse_fit(std::string text, const std::string& file) {
   return FitReader(TomlSource(detail::TextSource(file, std::move(text)))).read();
+}
+
+FitFile parse_fit(std::string text, const std::string& file, Scene<double> scene, Observations observations) {
+  const TomlSource source(detail::TextSource(file, std::move(text)));
+  return FitReader(source, std::move(scene), std::move(observations)).read();
 }
 
 FitFile read_fit_file(const std::string& path) {

@@ -47,6 +47,9 @@ struct FitFile {
 
 /// The same from a text; `file` is the name used in messages, its folder that of the other files.
 [[nodiscard]] FitFile parse_fit(std::string text, const std::string& file);
+/// The same of a text that names no other files: of this scene, from these observations, which were read for it.
+[[nodiscard]] FitFile parse_fit(std::string text, const std::string& file, Scene<double> scene,
+                                Observations observations);
 
 /// A scene file or a fit file, told apart by the keys at the top: only a fit file has scene, observations or
 /// unknown. Errors: FileError.

@@ -541,4 +541,9 @@ Observations parse_observations(std::string text, const std::string& file, doubl
   return ObservationsReader(TextSource::decode(file, std::move(text)), bottom, top, format).read();
 }
 
+Observations parse_observations(std::string text, const std::string& file, const Scene<double>& scene,
+                                const ObservationFormat& format) {
+  return ObservationsReader(TextSource::decode(file, std::move(text)), scene, format).read();
+}
+
 }  // namespace shearfront

@@ -102,6 +102,9 @@ struct ObservationFormat {
                                               double bottom = -std::numeric_limits<double>::infinity(),
                                               double top = std::numeric_limits<double>::infinity(),
                                               const ObservationFormat& format = {});
+[[nodiscard]] Observations parse_observations(std::string text, const std::string& file,
+                                              const Scene<double>& scene,
+                                              const ObservationFormat& format = {});
 
 /// The text of a file that reads back to the same rows, units and comments, to the bit: comments, header,
 /// rows. What is not kept: the missing rows, columns that were not used, and the places of the comments.

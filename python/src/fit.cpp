@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit.hpp"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "outcome.hpp"
+#include "scene.hpp"
+#include "shearfront/fit.hpp"
+#include "shearfront/fit/model_comparison.hpp"
+
+namespace shearfront::python {
+namespace {
+
+using fit::FitFile;
+
+FitProblem problem_of(FitFile file) {
+  return {std::make_shared<const fit::FitSpec>(std::move(file.spec)), std::move(file.remarks)};
+}
+
+Fitted run(const FitProblem& problem) {
+  fit::Estimate estimate =
+      without_lock([&](const fit::Progress& progress) { return fit::fit(*problem.spec, progress); });
+  if (!estimate.usable()) throw Unusable(estimate.status, estimate.message);
+  return {problem.spec, std::make_shared<const fit::Estimate>(std::move(estimate))};
+}
+
+/// The same fit with other [uncertainty].
+FitProblem with_uncertainty(const FitProblem& problem, bool profile, std::size_t bootstrap,
+                            std::uint64_t seed, std::size_t threads) {
+  auto spec = std::make_shared<fit::FitSpec>(*problem.spec);
+  spec->uncertainty = {profile, bootstrap, seed, threads};
+  return {std::move(spec), problem.remarks};
+}
+
+nb::list compare(const std::vector<std::string>& names, const std::vector<Fitted>& fits) {
+  std::vector<fit::Estimate> estimates;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (const std::string why = fit::incomparable(*fits[0].spec, *fits[i].spec); !why.empty())
+      throw InputError(names[i], "", "cannot be compared with " + names[0] + ": " + why);
+    estimates.push_back(*fits[i].estimate);
+  }
+  nb::list rows;
+  for (const fit::ComparedModel& m : fit::compare_models(names, estimates))
+    rows.append(nb::make_tuple(m.model, m.parameters, m.misfit, m.aic, m.daic, m.aic_weight, m.bic, m.dbic));
+  return rows;
+}
+
+}  // namespace
+
+void bind_fit(nb::module_& m) {
+  nb::class_<FitProblem> problem(m, "FitProblem");
+  problem.def_prop_ro("name", [](const FitProblem& self) { return self.spec->name; })
+      .def_prop_ro("scene", [](const FitProblem& self) { return SharedScene(self.spec->scene); })
+      .def_prop_ro("observations", [](const FitProblem& self) { return self.spec->observations; })
+      .def_prop_ro("method", [](const FitProblem& self) { return self.spec->forward.method; })
+      .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
+      .def("with_uncertainty", &with_uncertainty)
+      .def("run", &run);
+  bind_fit_state(m, problem);
+  m.def("read_fit", [](const std::string& path) { return problem_of(fit::read_fit_file(path)); });
+  m.def("is_fit_file", [](const std::string& path) { return fit::is_fit_file(path); });
+  m.def("parse_fit", [](std::string text, const SharedScene& scene, const Observations& observations) {
+    return problem_of(fit::parse_fit(std::move(text), "fit", *scene.scene, observations));
+  });
+  m.def("compare_fits", &compare);
+}
+
+}  // namespace shearfront::python

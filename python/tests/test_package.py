@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The package as a whole: examples, types, stubs, pictures, import."""
+
+from __future__ import annotations
+
+import ast
+import doctest
+import importlib
+import inspect
+import pkgutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import SOURCE
+
+import shearfront as sf
+
+MODULES = [f"shearfront.{m.name}" for m in pkgutil.iter_modules(sf.__path__) if m.name != "_core"]
+
+
+@pytest.mark.parametrize("name", ["shearfront", *MODULES])
+def test_examples(name: str) -> None:
+    if name.endswith("pictures"):
+        pytest.importorskip("matplotlib").use("Agg")
+    needs = {
+        "_misfit": ["scipy"],
+        "_scene": ["matplotlib"],
+        "_tracking": ["matplotlib"],
+        "_data": ["pandas"],
+        "_study": ["pandas"],
+    }
+    needs |= {"_solution": ["pandas", "xarray", "matplotlib"], "_estimate": ["pandas", "matplotlib"]}
+    for extra in needs.get(name.removeprefix("shearfront."), []):
+        pytest.importorskip(extra)
+    if "matplotlib" in sys.modules:
+        sys.modules["matplotlib"].use("Agg")
+    result = doctest.testmod(importlib.import_module(name))
+    assert result.failed == 0
+
+
+def test_everything_public_has_an_example() -> None:
+    results = {"Complaint", "Model", "pictures"}
+    for name in sf.__all__:
+        thing = getattr(sf, name)
+        assert thing.__doc__, name
+        is_model = isinstance(thing, type) and issubclass(thing, sf.Model)
+        assert is_model or name in results or ">>>" in thing.__doc__, name
+        methods = [m for m in vars(thing).items() if isinstance(thing, type) and inspect.isfunction(m[1])] if not is_model else []
+        for key, method in methods:
+            if not key.startswith("_") and key != "to_arviz":
+                assert ">>>" in (method.__doc__ or ""), f"{name}.{key}"
+
+
+def run(*command: str) -> None:
+    done = subprocess.run([sys.executable, *command], capture_output=True, text=True, cwd=SOURCE, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_are_what_the_library_has() -> None:
+    run("scripts/stubs.py", "--check")
+
+
+def test_the_stub_of_the_engines_names_what_is_there() -> None:
+    from shearfront import _core
+
+    stub = ast.parse((SOURCE / "python" / "shearfront" / "_core.pyi").read_text(encoding="utf-8"))
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    there = {name: value for name, value in vars(_core).items() if not name.startswith("_")}
+    assert functions | set(classes) == set(there)
+    for name, node in classes.items():
+        members = {m.name for m in node.body if isinstance(m, ast.FunctionDef)} - {"__init__"}
+        assert members == {m for m in vars(there[name]) if not m.startswith("_")}, name
+
+
+def test_types() -> None:
+    pytest.importorskip("mypy")
+    run("-m", "mypy", "python/shearfront")
+
+
+def test_style() -> None:
+    pytest.importorskip("ruff")
+    run("-m", "ruff", "check", "--no-cache", "python", "scripts/stubs.py")
+    run("-m", "ruff", "format", "--no-cache", "--check", "python", "scripts/stubs.py")
+
+
+def test_only_numpy_is_needed() -> None:
+    code = "import sys, shearfront as sf; sf.Scene(shear_rate=1, initial=sf.Step(.5)).solve(1)\n"
+    code += "bad = {'pandas', 'xarray', 'matplotlib', 'scipy', 'arviz'} & set(sys.modules); assert not bad, bad"
+    run("-c", code)
+
+
+def test_pictures(may: sf.Scene) -> None:
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("Agg")
+    bed = may.track(0.05)
+    bed.advance(2)
+    bins = may.observe([0.5, 1], np.linspace(0.1, 0.9, 9), quantity="bin", width=0.1, noise=0.01)
+    heights = may.observe(np.linspace(0.1, 6, 30), quantity="bed-height", noise=1e-4)
+    found = sf.fit(may, bins, "shear_rate.values[1]")
+    drawn = [
+        sf.pictures.profiles(may.solve([0, 1])),
+        sf.pictures.fronts(bed, events=may.events()),
+        sf.pictures.map(may, 2.0),
+        sf.pictures.scene(may),
+        sf.pictures.fit(found),
+        sf.pictures.fit(sf.fit(may, heights, "shear_rate.values[1]")),
+        sf.pictures.rate(found, truth=may),
+    ]
+    for ax in drawn:
+        assert ax.get_xlabel()
+        assert ax.get_ylabel()
+        ax.figure.canvas.draw()
+    assert len(drawn[1].collections[0].get_segments()) == len(bed.fronts())
+    _, given = pyplot.subplots()
+    assert may.solve([1]).plot(given) is given
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("name", ["docs/tutorials/python.md", "README.md"])
+def test_pages(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs the blocks ```python of a page in one session."""
+    if name.startswith("docs"):
+        for module in ("pandas", "xarray", "scipy"):
+            pytest.importorskip(module)
+        pytest.importorskip("matplotlib").use("Agg")
+    monkeypatch.chdir(SOURCE)
+    in_code, code = False, []
+    for line in (SOURCE / name).read_text(encoding="utf-8").splitlines():
+        if line.startswith("```"):
+            in_code = line == "```python"
+        elif in_code:
+            code.append(line)
+    example = doctest.DocTestParser().get_doctest("\n".join(code), {"__name__": "__page__"}, name, name, 0)
+    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(example)
+    assert result.attempted > 4
+    assert result.failed == 0
