@@ -7,7 +7,7 @@
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/io/file_error.hpp"
 
-/// Fit files (TOML; the format is described in docs/formats).
+/// Fit files (TOML; the format is described in docs/reference/formats).
 namespace shearfront::fit {
 
 /// A fit file with the names of the files it refers to, as they are opened.

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a fit found, and what it says about numbers that were not measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import flat, pandas
+from ._errors import NoResult
+from ._scene import Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._arrays import FloatArray
+    from ._fit import Problem
+
+_DRAWS = 1000
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What was found about one unknown. Error bars are None where they would be invented.
+
+    Attributes
+    ----------
+    name : str
+    start, estimate : float
+    std_error : float or None
+    ci95, profile95, bootstrap95 : pair of float or None
+        95 % intervals: from the curvature, by profile likelihood, by bootstrap. An end that the data do not give is NaN.
+    at_bound : bool
+    ci95_is_doubtful : bool or None
+        Whether the misfit rises otherwise than the interval assumes; None where it was not checked.
+    """
+
+    name: str
+    start: float
+    estimate: float
+    std_error: float | None
+    ci95: tuple[float, float] | None
+    profile95: tuple[float, float] | None
+    bootstrap95: tuple[float, float] | None
+    at_bound: bool
+    ci95_is_doubtful: bool | None
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """phi and M of a fitted scene with 95 % bands; NaN where there is no band.
+
+    Attributes
+    ----------
+    t, z : ndarray
+    phi, phi_lower, phi_upper, M, M_lower, M_upper : ndarray
+        Of shape (times, heights).
+    """
+
+    t: FloatArray
+    z: FloatArray
+    phi: FloatArray
+    phi_lower: FloatArray
+    phi_upper: FloatArray
+    M: FloatArray
+    M_lower: FloatArray
+    M_upper: FloatArray
+    remark: str = field(default="", repr=False)
+
+    def to_dataframe(self) -> Any:
+        """A row per time and height, as ``fit --predict`` writes it; needs pandas."""
+        t, z = np.meshgrid(self.t, self.z, indexing="ij")
+        columns = {"t": t, "z": z, "phi": self.phi, "lower": self.phi_lower, "upper": self.phi_upper}
+        columns |= {"M": self.M, "M_lower": self.M_lower, "M_upper": self.M_upper}
+        return pandas().DataFrame({name: values.ravel() for name, values in columns.items()})
+
+
+@dataclass(frozen=True)
+class RateBand:
+    """s a(z) of a fit with its pointwise 95 % band; NaN where an unknown without error bar has a part in it."""
+
+    z: FloatArray
+    a: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+
+
+@dataclass(frozen=True)
+class Bootstrap:
+    """A parametric bootstrap.
+
+    Attributes
+    ----------
+    names : list of str
+    estimates : ndarray
+        A row per replicate that could be fitted, a column per unknown.
+    covariance : ndarray
+    intervals : dict
+        By name, the percentile 95 % interval, or None.
+    failed : int
+    warnings : list of str
+    """
+
+    names: list[str]
+    estimates: FloatArray = field(repr=False)
+    covariance: FloatArray = field(repr=False)
+    intervals: dict[str, tuple[float, float] | None]
+    failed: int
+    warnings: list[str]
+
+    def to_dataframe(self) -> Any:
+        """The estimates as a table; needs pandas."""
+        return pandas().DataFrame(self.estimates, columns=self.names)
+
+    def to_arviz(self) -> Any:
+        """The estimates as one chain of draws, for the plots of ArviZ; needs arviz."""
+        import arviz
+
+        draws = {name: self.estimates[None, :, i] for i, name in enumerate(self.names)}
+        try:
+            return arviz.from_dict(posterior=draws)
+        except TypeError:  # version 1 and later
+            return arviz.from_dict({"posterior": draws})
+
+
+class Fit:
+    """What a fit found.
+
+    Attributes
+    ----------
+    problem : Problem
+        What was asked.
+    scene : Scene
+        The scene with the estimates in place.
+    parameters : dict of Parameter
+        By name.
+    warnings : list of str
+        What a reader of the estimates must know.
+    """
+
+    __slots__ = ("_engine", "facts", "parameters", "problem", "scene")
+
+    def __init__(self, problem: Problem, core: _core.Fitted) -> None:
+        self._engine = core
+        self.problem = problem
+        self.scene = Scene._of(core.scene)
+        self.parameters = {row["name"]: Parameter(**row) for row in core.parameters}
+        self.facts = core.facts
+
+    @property
+    def names(self) -> list[str]:
+        """The unknowns."""
+        return list(self.parameters)
+
+    @property
+    def estimates(self) -> FloatArray:
+        """The estimates, in the order of names."""
+        return np.array([p.estimate for p in self.parameters.values()])
+
+    @property
+    def std_errors(self) -> FloatArray:
+        """Their standard errors; NaN where there is none."""
+        return np.array([np.nan if p.std_error is None else p.std_error for p in self.parameters.values()])
+
+    @property
+    def correlation(self) -> FloatArray:
+        """Of the estimates; NaN for those without error bar."""
+        return self._engine.correlation
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Of the estimates, in the units of the entries."""
+        i = np.arange(len(self.names))
+        first, second = np.minimum(i[:, None], i), np.maximum(i[:, None], i)  # symmetric to the bit
+        return self.correlation * self.std_errors[first] * self.std_errors[second]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader of the estimates must know."""
+        return list(self.facts["warnings"])
+
+    @property
+    def misfit(self) -> float:
+        """F at the estimate."""
+        return float(self.facts["misfit"])
+
+    @property
+    def sigma(self) -> float:
+        """Noise per observation: estimated from the residuals; 1 if the data have their own."""
+        return float(self.facts["sigma"])
+
+    @property
+    def predicted(self) -> FloatArray:
+        """What the fitted scene has for each observation."""
+        return self._engine.predicted
+
+    @property
+    def residuals(self) -> FloatArray:
+        """Observed less predicted, in the unit of the data."""
+        return self.problem.observations.value - self.predicted
+
+    def predict(self, t: Any, z: Any, *, draws: int = _DRAWS, seed: int | None = None) -> Prediction:
+        """phi and M with 95 % bands, from scenes drawn from the error bars.
+
+        Parameters
+        ----------
+        t, z : array_like
+            Times and heights.
+        draws : int, optional
+        seed : int, optional
+            That of the fit unless given.
+        """
+        times, heights = flat(t), flat(z)
+        phi, amount, why_none, failed = self._engine.predict(times, heights, draws, seed)
+        remark = why_none or (f"{failed} of {draws} drawn scenes have no solution and are left out" if failed else "")
+        return Prediction(times, heights, *phi, *amount, remark)
+
+    def predict_events(self, *, draws: int = _DRAWS, seed: int | None = None) -> dict[str, Any]:
+        """95 % bands of the event times; an end that is infinite: the event may never come."""
+        return self._engine.predict_events(draws, seed)
+
+    def rate_band(self) -> RateBand:
+        """s a(z) with its pointwise 95 % band."""
+        return RateBand(*self._engine.rate_band())
+
+    def draw(self, n: int, seed: int = 1) -> list[Scene]:
+        """Scenes drawn from what the data leave possible."""
+        scenes, why_none = self._engine.draws(n, seed)
+        if why_none:
+            raise NoResult(why_none)
+        return [Scene._of(core) for core in scenes]
+
+    def profile(self) -> dict[str, tuple[float, float] | None]:
+        """Profile-likelihood 95 % intervals by name; an end that the data do not give is NaN.
+
+        Runs the fit again, and about ten refits for each unknown.
+        """
+        again = self.problem._engine.with_uncertainty(True, 0, 1, 0).run()
+        return {row["name"]: row["profile95"] for row in again.parameters}
+
+    def bootstrap(self, replicates: int = 200, seed: int = 1, threads: int = 0) -> Bootstrap:
+        """Parametric bootstrap; the numbers do not depend on the threads (0: all cores)."""
+        intervals, estimates, covariance, failed, warnings = self._engine.bootstrap(replicates, seed, threads)
+        by_name = dict(zip(self.names, intervals, strict=True))
+        return Bootstrap(self.names, estimates, covariance, by_name, failed, warnings)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As ``shearfront fit --json``."""
+        on_request = ("profile95", "bootstrap95")
+        rows = [
+            {k: list(v) if isinstance(v, tuple) else v for k, v in row.items() if v is not None or k not in on_request}
+            for row in self._engine.parameters
+        ]
+        return {
+            **self.facts,
+            "parameters": rows,
+            "correlation": self.correlation.tolist(),
+            "covariance": self.covariance.tolist(),
+        }
+
+    def to_dataframe(self) -> Any:
+        """A row per unknown; needs pandas."""
+        rows = []
+        for p in self.parameters.values():
+            low, high = p.ci95 or (np.nan, np.nan)
+            rows.append((p.estimate, p.std_error, low, high, p.start, p.at_bound))
+        columns = ["estimate", "std_error", "lower", "upper", "start", "at_bound"]
+        return pandas().DataFrame(rows, index=self.names, columns=columns)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws data and fit; see :func:`shearfront.pictures.fit`."""
+        from . import pictures
+
+        return pictures.fit(self, ax=ax)
+
+    def __repr__(self) -> str:
+        lines = [
+            f"{self.problem.name}: {self.facts['observations']} observations ({self.facts['quantity']}), misfit {self.misfit:.6g}"
+        ]
+        for p in self.parameters.values():
+            error = "" if p.std_error is None else f" +- {p.std_error:.2g}"
+            lines.append(f"  {p.name} = {p.estimate:.6g}{error}")
+        lines += [f"  warning: {w}" for w in self.warnings]
+        return "\n".join(lines)

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The parts of a scene as the tables of its file, and how they are shown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ._callables import initial_table, table_of
+from ._errors import one_complaint
+from ._models import Model, Pieces, model_of, short_number
+from ._toml import Table
+
+#: The parts that are functions of height.
+DEPTH_FUNCTIONS = ("shear_rate", "solid_fraction", "temperature")
+
+
+def table_of_part(part: Any) -> Any:
+    """A model as its table; what is a table already, as it is."""
+    return part.to_dict() if isinstance(part, Model) else part
+
+
+def initial_part(part: Any, ends: tuple[float, float]) -> Any:
+    """The table of an initial state; functions are sampled."""
+    return table_of_part(initial_table(part, ends) if callable(part) else part)
+
+
+def ends_of(domain: Any) -> tuple[float, float]:
+    """Bottom and top; 0 and 1 unless given."""
+    if domain is None:
+        return 0.0, 1.0
+    if isinstance(domain, Mapping):
+        return float(domain.get("bottom", 0)), float(domain.get("top", 1))
+    bottom, top = domain
+    return float(bottom), float(top)
+
+
+def depth_table(part: Any, ends: tuple[float, float]) -> Any:
+    """The table of a function of height; functions are sampled, a number is constant."""
+    if part is None or isinstance(part, (Model, Mapping)):
+        return table_of_part(part)
+    if callable(part):
+        return table_of(part, *ends).to_dict()
+    return {"model": "piecewise", "breaks": [], "values": [float(part)]}
+
+
+def diffusion_table(part: Any) -> Any:
+    """The table of diffusion; a number is D."""
+    if part is None or isinstance(part, Mapping):
+        return part
+    return {"D": float(part)}
+
+
+def flux_tables(part: Any) -> Any:
+    """The table of a flux, or those of several: pairs (above, flux) over the lowest."""
+    if isinstance(part, str):
+        return {"model": part}
+    if not isinstance(part, (list, tuple)):
+        return table_of_part(part)
+    tables = []
+    for i, member in enumerate(part):
+        above: dict[str, Any] = {}
+        if i > 0:
+            height, member = member
+            above = {"above": float(height)}
+        tables.append({**flux_tables(member), **above})
+    return tables
+
+
+def replace_entry(tables: Table, path: str, keys: list[str], value: Any) -> None:
+    """Puts a value in the place of tables["a"]["b"][0] for a__b__0."""
+    place: Any = tables
+    for i, key in enumerate(keys):
+        is_last = i + 1 == len(keys)
+        index: Any = int(key) if isinstance(place, list) and key.isdigit() else key
+        known = index < len(place) if isinstance(place, list) and isinstance(index, int) else not is_last and index in place
+        if not is_last and not known:
+            raise one_complaint(path, None, "is no entry of the scene")
+        if is_last:
+            try:
+                place[index] = table_of_part(value)
+            except (TypeError, IndexError):
+                raise one_complaint(path, None, "is no entry of the scene") from None
+        else:
+            place = place[index]
+
+
+def shown_parts(tables: Table) -> list[tuple[str, str]]:
+    """What a scene shows of itself: its parts but for those at their defaults."""
+    shown = [("name", repr(tables["name"]))] if tables["name"] not in ("", "scene") else []
+    fluxes = tables["flux"] if isinstance(tables["flux"], list) else [tables["flux"]]
+    shown += [("flux", repr(model_of("flux", flux))) for flux in fluxes if flux != {"model": "quadratic"}]
+    for key in DEPTH_FUNCTIONS:
+        if key in tables:
+            shown.append((key, repr(model_of("depth", tables[key]))))
+        if key == "shear_rate" and tables[key].get("scale", 1) != 1:
+            shown.append(("scale", short_number(tables[key]["scale"])))
+    initial = tables["initial"]
+    start = model_of("start", initial) if "model" in initial else Pieces(**initial)
+    shown.append(("initial", repr(start)))
+    if "close_packing" in tables:
+        shown.append(("close_packing", repr(model_of("close_packing", tables["close_packing"]))))
+    if tables["domain"] != {"bottom": 0, "top": 1}:
+        shown.append(("domain", f"({', '.join(short_number(x) for x in tables['domain'].values())})"))
+    shown += [(key, repr(tables[key])) for key in ("diffusion", "boundary", "units") if key in tables]
+    return shown
