@@ -26,19 +26,9 @@ from ._solution import Events, Interface, Jacobian, Solution
 
 if TYPE_CHECKING:
     from . import pictures
-    from ._fit import (
-        Bootstrap,
-        Fit,
-        Misfit,
-        Parameter,
-        Prediction,
-        Problem,
-        RateBand,
-        compare_fits,
-        fit,
-        problem,
-        read_fit,
-    )
+    from ._estimate import Bootstrap, Fit, Parameter, Prediction, RateBand
+    from ._fit import Problem, compare_fits, fit, problem, read_fit
+    from ._misfit import Misfit
     from ._study import Study, study
     from ._tracking import Profile, Tracking
 
@@ -47,10 +37,9 @@ __version__ = "0.1.0"
 #: What is loaded when it is first asked for: who draws one solution does not wait for the rest.
 _LAZY = {
     "pictures": ("pictures",),
-    "_fit": (
-        *("Bootstrap", "Fit", "Misfit", "Parameter", "Prediction", "Problem", "RateBand"),
-        *("compare_fits", "fit", "problem", "read_fit"),
-    ),
+    "_estimate": ("Bootstrap", "Fit", "Parameter", "Prediction", "RateBand"),
+    "_fit": ("Problem", "compare_fits", "fit", "problem", "read_fit"),
+    "_misfit": ("Misfit",),
     "_study": ("Study", "study"),
     "_tracking": ("Profile", "Tracking"),
 }

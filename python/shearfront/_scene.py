@@ -12,10 +12,19 @@ import numpy as np
 
 from . import _core
 from ._arrays import flat, times_of
-from ._callables import initial_table, table_of
 from ._errors import one_complaint, without_places
 from ._methods import method_of, option_texts
-from ._models import Model, Pieces, model_of, short_number
+from ._parts import (
+    DEPTH_FUNCTIONS,
+    depth_table,
+    diffusion_table,
+    ends_of,
+    flux_tables,
+    initial_part,
+    replace_entry,
+    shown_parts,
+    table_of_part,
+)
 from ._solution import FRONT, Events, Interface, Jacobian, Solution
 from ._toml import Table, canonical_tables, toml_text
 
@@ -28,7 +37,6 @@ if TYPE_CHECKING:
     from ._options import Options
     from ._tracking import Tracking
 
-_DEPTH_FUNCTIONS = ("shear_rate", "solid_fraction", "temperature")
 _DEFAULT_HEIGHTS = 101
 
 
@@ -101,16 +109,16 @@ class Scene:
         units: Mapping[str, str] | None = None,
         name: str | None = None,
     ) -> None:
-        ends = _ends(domain)
+        ends = ends_of(domain)
         tables: Table = {
             "name": name or "scene",
-            "flux": _flux_tables(flux),
-            "shear_rate": _depth_table(shear_rate, ends),
-            "solid_fraction": _depth_table(solid_fraction, ends),
-            "temperature": _depth_table(temperature, ends),
-            "close_packing": _table(close_packing),
-            "diffusion": _diffusion_table(diffusion, ends),
-            "initial": _table(initial_table(initial, ends) if callable(initial) else initial),
+            "flux": flux_tables(flux),
+            "shear_rate": depth_table(shear_rate, ends),
+            "solid_fraction": depth_table(solid_fraction, ends),
+            "temperature": depth_table(temperature, ends),
+            "close_packing": table_of_part(close_packing),
+            "diffusion": diffusion_table(diffusion),
+            "initial": initial_part(initial, ends),
             "domain": None if domain is None else {"bottom": ends[0], "top": ends[1]},
             "boundary": boundary,
             "units": units,
@@ -293,24 +301,24 @@ class Scene:
         for path, value in changes.items():
             key, *rest = path.split("__")
             if rest:
-                _replace(tables, path, [key, *rest], value)
+                replace_entry(tables, path, [key, *rest], value)
                 continue
             ends = (self.bottom, self.top)
             if key == "scale":
                 tables["shear_rate"]["scale"] = value
             elif key == "flux":
-                tables["flux"] = _flux_tables(value)
-            elif key in _DEPTH_FUNCTIONS:
+                tables["flux"] = flux_tables(value)
+            elif key in DEPTH_FUNCTIONS:
                 scale = {"scale": tables["shear_rate"]["scale"]} if key == "shear_rate" else {}
-                tables[key] = value if value is None else {**scale, **(_depth_table(value, ends) or {})}
+                tables[key] = value if value is None else {**scale, **(depth_table(value, ends) or {})}
             elif key == "diffusion":
-                tables[key] = _diffusion_table(value, ends)
+                tables[key] = diffusion_table(value)
             elif key == "domain":
-                tables[key] = dict(zip(("bottom", "top"), _ends(value), strict=True))
+                tables[key] = dict(zip(("bottom", "top"), ends_of(value), strict=True))
             elif key == "initial":
-                tables[key] = _table(initial_table(value, ends) if callable(value) else value)
+                tables[key] = initial_part(value, ends)
             elif key in ("close_packing", "boundary", "units", "name"):
-                tables[key] = _table(value) if key == "close_packing" else value
+                tables[key] = table_of_part(value) if key == "close_packing" else value
             else:
                 raise one_complaint(key, None, "is no part of a scene")
         return Scene.from_dict(tables)
@@ -325,12 +333,12 @@ class Scene:
         return _scene_of, (self.to_toml(),)
 
     def __repr__(self) -> str:
-        return f"Scene({', '.join(f'{k}={v}' for k, v in _parts(self.to_dict()))})"
+        return f"Scene({', '.join(f'{k}={v}' for k, v in shown_parts(self.to_dict()))})"
 
     def _repr_html_(self) -> str:
         from ._html import scene_html
 
-        return scene_html(self, _parts(self.to_dict()))
+        return scene_html(self, shown_parts(self.to_dict()))
 
     # The direct problem
 
@@ -549,6 +557,7 @@ class Scene:
         *,
         cells: Iterable[int] = (100, 200, 400, 800),
         resolutions: Iterable[float] = (0.1, 0.03, 0.01, 0.003),
+        **options: Any,
     ) -> Any:
         """Error against time: methods from coarse to fine, measured against the exact solution.
 
@@ -560,6 +569,8 @@ class Scene:
             Methods that have whole profiles.
         cells, resolutions : iterable, optional
             Coarse to fine, for methods with cells and for front tracking.
+        **options
+            Others, ``grid="singular-mapping"``, for the methods that have them.
 
         Returns
         -------
@@ -576,9 +587,11 @@ class Scene:
         """
         rows: list[tuple[Any, ...]] = []
         for name in methods:
-            fine = "cells" if "cells" in _option_names(name) else "resolution"
+            known = _option_names(name)
+            fine = "cells" if "cells" in known else "resolution"
+            others = {key: value for key, value in options.items() if key in known}
             for value in cells if fine == "cells" else resolutions:
-                measured = _core.l1_errors(self._engine, method_of(name, {fine: value}), flat(t))
+                measured = _core.l1_errors(self._engine, method_of(name, {fine: value, **others}), flat(t))
                 rows += [(name, value, time, error, wall, work) for time, error, wall, work in measured]
         kind = [("method", "U24"), ("resolution", float), ("t", float), ("l1_error", float), ("wall_s", float), ("work", int)]
         return np.array(rows, dtype=kind)
@@ -678,84 +691,3 @@ def _option_names(method: str) -> list[str]:
 
     known = methods()
     return list(known[method]["options"]) if method in known else []
-
-
-def _table(part: Any) -> Any:
-    return part.to_dict() if isinstance(part, Model) else part
-
-
-def _ends(domain: Any) -> tuple[float, float]:
-    if domain is None:
-        return 0.0, 1.0
-    if isinstance(domain, Mapping):
-        return float(domain.get("bottom", 0)), float(domain.get("top", 1))
-    bottom, top = domain
-    return float(bottom), float(top)
-
-
-def _depth_table(part: Any, ends: tuple[float, float]) -> Any:
-    if part is None or isinstance(part, (Model, Mapping)):
-        return _table(part)
-    if callable(part):
-        return table_of(part, *ends).to_dict()
-    return {"model": "piecewise", "breaks": [], "values": [float(part)]}
-
-
-def _diffusion_table(part: Any, ends: tuple[float, float]) -> Any:
-    if part is None or isinstance(part, Mapping):
-        return part
-    return {"D": float(part)}
-
-
-def _flux_tables(part: Any) -> Any:
-    if isinstance(part, str):
-        return {"model": part}
-    if not isinstance(part, (list, tuple)):
-        return _table(part)
-    tables = []
-    for i, member in enumerate(part):
-        above: dict[str, Any] = {}
-        if i > 0:
-            height, member = member
-            above = {"above": float(height)}
-        tables.append({**_flux_tables(member), **above})
-    return tables
-
-
-def _replace(tables: Table, path: str, keys: list[str], value: Any) -> None:
-    """Puts a value in the place of tables["a"]["b"][0] for a__b__0."""
-    place: Any = tables
-    for i, key in enumerate(keys):
-        is_last = i + 1 == len(keys)
-        index: Any = int(key) if isinstance(place, list) and key.isdigit() else key
-        known = index < len(place) if isinstance(place, list) and isinstance(index, int) else not is_last and index in place
-        if not is_last and not known:
-            raise one_complaint(path, None, "is no entry of the scene")
-        if is_last:
-            try:
-                place[index] = _table(value)
-            except (TypeError, IndexError):
-                raise one_complaint(path, None, "is no entry of the scene") from None
-        else:
-            place = place[index]
-
-
-def _parts(tables: Table) -> list[tuple[str, str]]:
-    """What a scene shows of itself: its parts but for those at their defaults."""
-    shown = [("name", repr(tables["name"]))] if tables["name"] not in ("", "scene") else []
-    fluxes = tables["flux"] if isinstance(tables["flux"], list) else [tables["flux"]]
-    shown += [("flux", repr(model_of("flux", flux))) for flux in fluxes if flux != {"model": "quadratic"}]
-    for key in _DEPTH_FUNCTIONS:
-        if key in tables:
-            shown.append((key, repr(model_of("depth", tables[key]))))
-        if key == "shear_rate" and tables[key].get("scale", 1) != 1:
-            shown.append(("scale", short_number(tables[key]["scale"])))
-    initial = tables["initial"]
-    start = model_of("start", initial) if "model" in initial else Pieces(**initial)
-    shown.append(("initial", repr(start)))
-    if "close_packing" in tables:
-        shown.append(("close_packing", repr(model_of("close_packing", tables["close_packing"]))))
-    if tables["domain"] != {"bottom": 0, "top": 1}:
-        shown.append(("domain", f"({', '.join(short_number(x) for x in tables['domain'].values())})"))
-    shown += [(key, repr(tables[key])) for key in ("diffusion", "boundary", "units") if key in tables]
-    return shown

@@ -15,7 +15,8 @@ import numpy as np
 
 from ._arrays import pandas
 from ._errors import InputError, NoResult, one_complaint
-from ._fit import Fit, Problem
+from ._estimate import Fit
+from ._fit import Problem
 from ._scene import Scene
 
 if TYPE_CHECKING:

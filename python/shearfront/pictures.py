@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._arrays import FloatArray
-    from ._fit import Fit
+    from ._estimate import Fit
     from ._options import Options
     from ._scene import Scene
     from ._solution import Events, Solution

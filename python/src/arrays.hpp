@@ -41,13 +41,15 @@ template <class T>
   return nb::cast(Array(data, {n}, owner));
 }
 
-[[nodiscard]] inline nb::object matrix_of(std::vector<double> values, std::size_t n_rows, std::size_t n_columns) {
+[[nodiscard]] inline nb::object matrix_of(std::vector<double> values, std::size_t n_rows,
+                                          std::size_t n_columns) {
   const auto [data, owner] = give(std::move(values));
   return nb::cast(Array(data, {n_rows, n_columns}, owner));
 }
 
 /// (phi, M): two views of the same samples, of this shape.
-[[nodiscard]] inline nb::tuple views_of(std::vector<Sample> samples, std::size_t n_rows, std::size_t n_columns) {
+[[nodiscard]] inline nb::tuple views_of(std::vector<Sample> samples, std::size_t n_rows,
+                                        std::size_t n_columns) {
   static_assert(sizeof(Sample) == 2 * sizeof(double));
   const auto [data, owner] = give(std::move(samples));
   double* first = n_rows * n_columns > 0 ? &data->phi : nullptr;

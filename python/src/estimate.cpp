@@ -34,7 +34,8 @@ nb::object matrix_from(const Eigen::MatrixXd& matrix) {
   values.reserve(static_cast<std::size_t>(matrix.size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  return matrix_of(std::move(values), static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols()));
+  return matrix_of(std::move(values), static_cast<std::size_t>(matrix.rows()),
+                   static_cast<std::size_t>(matrix.cols()));
 }
 
 nb::list parameters_of(const Fitted& self) {
@@ -90,14 +91,16 @@ nb::dict facts_of(const Fitted& self) {
 }
 
 /// value, lower and upper as matrices.
-nb::tuple bands_of(const std::vector<fit::PredictedNumber>& numbers, std::size_t n_rows, std::size_t n_columns) {
+nb::tuple bands_of(const std::vector<fit::PredictedNumber>& numbers, std::size_t n_rows,
+                   std::size_t n_columns) {
   std::vector<double> value, low, high;
   for (const fit::PredictedNumber& n : numbers) {
     value.push_back(n.value);
     low.push_back(n.band ? n.band->low : fit::kUnknown);
     high.push_back(n.band ? n.band->high : fit::kUnknown);
   }
-  return nb::make_tuple(matrix_of(std::move(value), n_rows, n_columns), matrix_of(std::move(low), n_rows, n_columns),
+  return nb::make_tuple(matrix_of(std::move(value), n_rows, n_columns),
+                        matrix_of(std::move(low), n_rows, n_columns),
                         matrix_of(std::move(high), n_rows, n_columns));
 }
 
@@ -124,7 +127,8 @@ nb::dict predict_events(const Fitted& self, std::size_t draws, std::optional<std
   all["t1"] = ends_of(events.t1);
   all["t_star"] = ends_of(events.t_star);
   nb::list interfaces;
-  for (const auto& at : events.interfaces) interfaces.append(nb::make_tuple(ends_of(at.first), ends_of(at.last)));
+  for (const auto& at : events.interfaces)
+    interfaces.append(nb::make_tuple(ends_of(at.first), ends_of(at.last)));
   all["interfaces"] = interfaces;
   return all;
 }
@@ -138,7 +142,8 @@ nb::tuple rate_band(const Fitted& self) {
     low.push_back(row.band ? row.band->low : fit::kUnknown);
     high.push_back(row.band ? row.band->high : fit::kUnknown);
   }
-  return nb::make_tuple(array_of(std::move(z)), array_of(std::move(a)), array_of(std::move(low)), array_of(std::move(high)));
+  return nb::make_tuple(array_of(std::move(z)), array_of(std::move(a)), array_of(std::move(low)),
+                        array_of(std::move(high)));
 }
 
 nb::tuple bootstrap(const Fitted& self, std::size_t replicates, std::uint64_t seed, std::size_t threads) {

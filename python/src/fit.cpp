@@ -37,8 +37,8 @@ Quantity quantity_named(const std::string& name) {
 }
 
 /// Checked as those of a file are: by the reader of files.
-Observations observations_of(const SharedScene& scene, const std::string& quantity, const Numbers& t, const Numbers& z,
-                             const Numbers& values, const std::optional<Numbers>& width,
+Observations observations_of(const SharedScene& scene, const std::string& quantity, const Numbers& t,
+                             const Numbers& z, const Numbers& values, const std::optional<Numbers>& width,
                              const std::optional<Numbers>& sigma, const std::string& replicates) {
   Observations all;
   all.quantity = quantity_named(quantity);
@@ -51,11 +51,13 @@ Observations observations_of(const SharedScene& scene, const std::string& quanti
     if (width) row.width = width->data()[i];
     if (!sigma) continue;
     row.sigma = sigma->data()[i];
-    if (!(row.sigma > 0)) throw InputError("sigma[" + std::to_string(i) + "]", number_text(row.sigma), "must be > 0");
+    if (!(row.sigma > 0))
+      throw InputError("sigma[" + std::to_string(i) + "]", number_text(row.sigma), "must be > 0");
   }
   ObservationFormat format;
   const auto* known = std::find(kReplicatesNames.begin(), kReplicatesNames.end(), replicates);
-  if (known == kReplicatesNames.end()) throw InputError("replicates", replicates, "must be one of: refuse, keep, mean");
+  if (known == kReplicatesNames.end())
+    throw InputError("replicates", replicates, "must be one of: refuse, keep, mean");
   format.replicates = static_cast<Replicates>(known - kReplicatesNames.begin());
   return parse_observations(observations_text(all), "data", *scene.scene, format);
 }
@@ -73,8 +75,9 @@ nb::tuple columns_of(const Observations& all) {
                         array_of(std::move(values)), array_of(std::move(width)), array_of(std::move(sigma)));
 }
 
-Observations made(const SharedScene& scene, const Method& method, const Numbers& times, const Numbers& heights,
-                  const std::string& quantity, double width, double sigma, std::uint64_t seed) {
+Observations made(const SharedScene& scene, const Method& method, const Numbers& times,
+                  const Numbers& heights, const std::string& quantity, double width, double sigma,
+                  std::uint64_t seed) {
   const ObservationPlan plan{vector_of(times), vector_of(heights), quantity_named(quantity), width};
   const SolverRequest request = request_of(plan, *scene.scene);
   const SolverResult result =
@@ -86,14 +89,15 @@ Observations made(const SharedScene& scene, const Method& method, const Numbers&
 }
 
 Fitted run(const FitProblem& problem) {
-  fit::Estimate estimate = without_lock([&](const fit::Progress& progress) { return fit::fit(*problem.spec, progress); });
+  fit::Estimate estimate =
+      without_lock([&](const fit::Progress& progress) { return fit::fit(*problem.spec, progress); });
   if (!estimate.usable()) throw Unusable(estimate.status, estimate.message);
   return {problem.spec, std::make_shared<const fit::Estimate>(std::move(estimate))};
 }
 
 /// The same fit with other [uncertainty].
-FitProblem with_uncertainty(const FitProblem& problem, bool profile, std::size_t bootstrap, std::uint64_t seed,
-                            std::size_t threads) {
+FitProblem with_uncertainty(const FitProblem& problem, bool profile, std::size_t bootstrap,
+                            std::uint64_t seed, std::size_t threads) {
   auto spec = std::make_shared<fit::FitSpec>(*problem.spec);
   spec->uncertainty = {profile, bootstrap, seed, threads};
   return {std::move(spec), problem.remarks};
@@ -129,8 +133,7 @@ void bind_fit(nb::module_& m) {
   m.def("observe", &made);
 
   nb::class_<FitProblem> problem(m, "FitProblem");
-  problem
-      .def_prop_ro("name", [](const FitProblem& self) { return self.spec->name; })
+  problem.def_prop_ro("name", [](const FitProblem& self) { return self.spec->name; })
       .def_prop_ro("scene", [](const FitProblem& self) { return SharedScene(self.spec->scene); })
       .def_prop_ro("observations", [](const FitProblem& self) { return self.spec->observations; })
       .def_prop_ro("method", [](const FitProblem& self) { return self.spec->forward.method; })

@@ -41,7 +41,9 @@ std::string settings_text(const fit::FitSpec& spec) {
     for (const double x : values) text += number(x) + ", ";
     text += "]\n";
   };
-  const auto line = [&](const char* key, const std::string& value) { text += std::string(key) + " = " + value + "\n"; };
+  const auto line = [&](const char* key, const std::string& value) {
+    text += std::string(key) + " = " + value + "\n";
+  };
   const auto word = [](const std::string& value) { return "\"" + value + "\""; };
   const auto yes = [](bool value) { return std::string(value ? "true" : "false"); };
   numbers("start", spec.unknown.start);
@@ -80,7 +82,9 @@ OptionTexts options_of(const Method& method) {
           else if constexpr (std::is_same_v<Value, OptionChoice>)
             return std::string(option.info.names[value.index]);
           else
-            return option.info.range.contains(static_cast<double>(value)) ? number_text(static_cast<double>(value)) : "";
+            return option.info.range.contains(static_cast<double>(value))
+                       ? number_text(static_cast<double>(value))
+                       : "";
         },
         option.value);
     if (!text.empty()) all.emplace_back(option.info.name, text);

@@ -91,7 +91,11 @@ class CallableMisfit {
     const VectorXd u = coordinates_.unbounded(p);
     const auto differences = objective_.inspect(u, true);
     if (!differences.is_valid) throw Unusable(Status::unsupported, differences.failure);
-    all.second = coordinates_.derivative(u).transpose().fullPivLu().solve(differences.jacobian.transpose()).transpose();
+    all.second = coordinates_.derivative(u)
+                     .transpose()
+                     .fullPivLu()
+                     .solve(differences.jacobian.transpose())
+                     .transpose();
     return all;
   }
 

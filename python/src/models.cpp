@@ -33,8 +33,7 @@ nb::list fields_of() {
     field["is_positive"] = info.range == Range::positive;
     field["is_optional"] = info.is_optional;
     field["measure"] = kMeasures[static_cast<std::size_t>(info.measure)];
-    if constexpr (std::is_same_v<Member, double>)
-      field["initial"] = member;
+    if constexpr (std::is_same_v<Member, double>) field["initial"] = member;
     fields.append(field);
   });
   return fields;
@@ -47,7 +46,8 @@ nb::list choices_of() {
   visit_choices(model, [&](const ChoiceInfo& info, const auto& member) {
     nb::list names;
     for (const auto& name : info.names) names.append(std::string(name));
-    choices.append(nb::make_tuple(std::string(info.key), names, std::string(info.names[static_cast<std::size_t>(member)])));
+    choices.append(nb::make_tuple(std::string(info.key), names,
+                                  std::string(info.names[static_cast<std::size_t>(member)])));
   });
   return choices;
 }
@@ -95,7 +95,8 @@ nb::list methods() {
       for (const OptionValues& values : option.values)
         for (const std::string& solver : values.solvers)
           if (solver == name)
-            options.append(nb::make_tuple(option.name, option.kind, values.sentence, values.allowed, values.initial));
+            options.append(
+                nb::make_tuple(option.name, option.kind, values.sentence, values.allowed, values.initial));
     entry["options"] = options;
     all.append(entry);
   }

@@ -78,26 +78,33 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro("mass", [](const SharedScene& self) { return self.scene->mass(); })
       .def_prop_ro("has_walls", [](const SharedScene& self) { return self.scene->has_walls(); })
       .def_prop_ro("has_diffusion", [](const SharedScene& self) { return self.scene->has_diffusion(); })
-      .def_prop_ro("has_height", [](const SharedScene& self) { return BedHeight::refusal(*self.scene).empty(); })
-      .def_prop_ro("units", [](const SharedScene& self) {
-        return std::pair(self.scene->spec().units.z, self.scene->spec().units.t);
-      })
+      .def_prop_ro("has_height",
+                   [](const SharedScene& self) { return BedHeight::refusal(*self.scene).empty(); })
+      .def_prop_ro("units",
+                   [](const SharedScene& self) {
+                     return std::pair(self.scene->spec().units.z, self.scene->spec().units.t);
+                   })
       .def_prop_ro("scale", [](const SharedScene& self) { return self.scene->scale(); })
       .def_prop_ro("knots", [](const SharedScene& self) { return array_of(self.scene->knots()); })
-      .def_prop_ro("initial_knots", [](const SharedScene& self) { return array_of(self.scene->initial_knots()); })
+      .def_prop_ro("initial_knots",
+                   [](const SharedScene& self) { return array_of(self.scene->initial_knots()); })
       .def_prop_ro("fluxes", &names_of_fluxes)
       .def("flux_value",
            [](const SharedScene& self, double z, const Numbers& phi) {
              const auto& flux = self.scene->flux_at(z);
              return at_heights(phi, [&](double x) { return flux.value(x); });
            })
-      .def("range_at", [](const SharedScene& self, double z) {
-        const auto range = self.scene->range_at(z);
-        return std::pair(range.lowest, range.highest);
-      })
-      .def("shear_rate", function_of_height([](const Scene<double>& s, double z) { return s.shear_rate_at(z); }))
-      .def("solid_fraction", function_of_height([](const Scene<double>& s, double z) { return s.solid_fraction_at(z); }))
-      .def("initial_phi", function_of_height([](const Scene<double>& s, double z) { return s.initial_phi(z); }));
+      .def("range_at",
+           [](const SharedScene& self, double z) {
+             const auto range = self.scene->range_at(z);
+             return std::pair(range.lowest, range.highest);
+           })
+      .def("shear_rate",
+           function_of_height([](const Scene<double>& s, double z) { return s.shear_rate_at(z); }))
+      .def("solid_fraction",
+           function_of_height([](const Scene<double>& s, double z) { return s.solid_fraction_at(z); }))
+      .def("initial_phi",
+           function_of_height([](const Scene<double>& s, double z) { return s.initial_phi(z); }));
   m.def("parse_scene", [](std::string text, const std::string& file, const Changes& changes) {
     return SharedScene(parse_scene<double>(std::move(text), file, changes_of(changes)));
   });

@@ -38,7 +38,8 @@ Method method_of(const std::string& name, const Options& options) {
     if (!method.has_option(option)) {
       for (const Option& other : method.options()) (known += known.empty() ? "" : ", ") += other.info.name;
       for (char& c : known) c = c == '-' ? '_' : c;
-      throw InputError(key, text, "is no option of " + name + (known.empty() ? ", which has none" : "; it has: " + known));
+      throw InputError(
+          key, text, "is no option of " + name + (known.empty() ? ", which has none" : "; it has: " + known));
     }
     set_option(method, option, text, key);
   }
@@ -70,8 +71,8 @@ SolverResult run(const SharedScene& shared, const Method& method, const SolverRe
   return result;
 }
 
-nb::dict solve_scene(const SharedScene& scene, const Method& method, const Numbers& times, const Numbers& heights,
-                     bool with_fronts) {
+nb::dict solve_scene(const SharedScene& scene, const Method& method, const Numbers& times,
+                     const Numbers& heights, bool with_fronts) {
   SolverRequest request;
   request.times = vector_of(times);
   request.heights = vector_of(heights);
@@ -114,13 +115,16 @@ nb::tuple linearise(const SharedScene& shared, const Method& method, const Numbe
   const std::vector<Entry> all = entries(scene.spec());
   std::vector<std::size_t> chosen;
   std::vector<std::string> names;
-  if (const std::string reason = method.refusal(scene); !reason.empty()) throw Unusable(Status::unsupported, reason);
+  if (const std::string reason = method.refusal(scene); !reason.empty())
+    throw Unusable(Status::unsupported, reason);
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool is_wanted = wanted.empty() && method.has_derivative(scene, all[i]);
-    for (const std::string& name : wanted) is_wanted = is_wanted || name == all[i].name() || name == all[i].field;
+    for (const std::string& name : wanted)
+      is_wanted = is_wanted || name == all[i].name() || name == all[i].field;
     if (!is_wanted) continue;
     if (!method.has_derivative(scene, all[i]))
-      throw InputError("entries", all[i].name(), "has no derivative by the method " + std::string(method.name()));
+      throw InputError("entries", all[i].name(),
+                       "has no derivative by the method " + std::string(method.name()));
     chosen.push_back(i);
     names.push_back(all[i].name());
   }
@@ -130,7 +134,8 @@ nb::tuple linearise(const SharedScene& shared, const Method& method, const Numbe
     if (!is_known) throw InputError("entries", "\"" + name + "\"", "is no entry of the scene");
   }
   if (chosen.empty())
-    throw InputError("method", std::string(method.name()), "has no derivatives with respect to entries of this scene");
+    throw InputError("method", std::string(method.name()),
+                     "has no derivatives with respect to entries of this scene");
   std::vector<Place> places(t.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {t.data()[i], z.data()[i]};
   Linearisation result = without_lock([&](const auto&) {
@@ -196,9 +201,8 @@ nb::list l1_errors(const SharedScene& shared, const Method& method, const Number
     const auto begin = std::chrono::steady_clock::now();
     const SolverResult result = run(shared, method, request);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const double error = without_lock([&](const auto&) {
-      return errors_against(ExactSolution<double>(scene), result.profiles[0], t).l1;
-    });
+    const double error = without_lock(
+        [&](const auto&) { return errors_against(ExactSolution<double>(scene), result.profiles[0], t).l1; });
     rows.append(nb::make_tuple(t, error, wall, result.summary.collisions + result.summary.cell_updates));
   }
   return rows;
@@ -208,12 +212,12 @@ nb::list l1_errors(const SharedScene& shared, const Method& method, const Number
 
 void bind_solve(nb::module_& m) {
   nb::class_<Method>(m, "Method")
-      .def("__init__", [](Method* self, const std::string& name, const Options& options) {
-        new (self) Method(method_of(name, options));
-      })
+      .def("__init__", [](Method* self, const std::string& name,
+                          const Options& options) { new (self) Method(method_of(name, options)); })
       .def_prop_ro("name", [](const Method& self) { return std::string(self.name()); })
       .def_prop_ro("settings", [](const Method& self) { return settings(self); })
-      .def("refusal", [](const Method& self, const SharedScene& scene) { return self.refusal(*scene.scene); });
+      .def("refusal",
+           [](const Method& self, const SharedScene& scene) { return self.refusal(*scene.scene); });
   m.def("solve", &solve_scene);
   m.def("sample", &sample_places);
   m.def("sample_place", &sample_place);

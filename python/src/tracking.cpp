@@ -66,7 +66,8 @@ TrackedBed track_scene(const SharedScene& shared, const OptionTexts& texts, bool
 
 std::string advance(TrackedBed& self, double t) {
   if (!(t >= self.tracking.time()))
-    throw InputError("t", number_text(t), "must not be before the time reached (" + number_text(self.tracking.time()) + ")");
+    throw InputError("t", number_text(t),
+                     "must not be before the time reached (" + number_text(self.tracking.time()) + ")");
   Status status = Status::ok;
   {
     const nb::gil_scoped_release release;

@@ -125,6 +125,14 @@ def test_profile_and_bootstrap(may: sf.Scene) -> None:
     assert np.sqrt(once.covariance.diagonal()) == pytest.approx(found.std_errors, rel=0.4)
 
 
+def test_draws_for_arviz(may: sf.Scene) -> None:
+    pytest.importorskip("arviz")
+    seen = may.observe(T, Z, quantity="cumulative", noise=1e-4)
+    replicates = sf.fit(may, seen, "shear_rate.values").bootstrap(40)
+    posterior = replicates.to_arviz().posterior
+    np.testing.assert_array_equal(posterior["shear_rate.values[1]"][0], replicates.estimates[:, 1])
+
+
 @pytest.mark.parametrize("method", [None, "engquist-osher"])
 def test_jacobian_of_the_misfit(may: sf.Scene, seen: sf.Observations, method: str | None) -> None:
     options = {"cells": 400} if method else {}

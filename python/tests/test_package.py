@@ -8,7 +8,6 @@ import importlib
 import pkgutil
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ MODULES = [f"shearfront.{m.name}" for m in pkgutil.iter_modules(sf.__path__) if 
 def test_examples(name: str) -> None:
     if name.endswith("pictures"):
         pytest.importorskip("matplotlib").use("Agg")
-    for extra in {"shearfront._fit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
+    for extra in {"shearfront._misfit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
         pytest.importorskip(extra)
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
@@ -92,28 +91,21 @@ def test_pictures(may: sf.Scene) -> None:
     pyplot.close("all")
 
 
-def test_the_page_of_the_tutorial() -> None:
-    page = SOURCE / "docs" / "tutorials" / "python.md"
-    if not page.exists():
-        pytest.skip("an installed package has no documentation beside it")
-    pytest.importorskip("pandas")
-    pytest.importorskip("matplotlib").use("Agg")
-    for path in (page, SOURCE / "README.md"):
-        check_page(path)
-
-
-def check_page(path: Path) -> None:
-    """Runs the blocks ```python of a page in one session; lines after `# ->` are what they print."""
-    lines, in_code, code = path.read_text(encoding="utf-8").splitlines(), False, []
-    for line in lines:
+@pytest.mark.parametrize("name", ["docs/tutorials/python.md", "README.md"])
+def test_pages(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs the blocks ```python of a page in one session."""
+    if name.startswith("docs"):
+        for module in ("pandas", "xarray", "scipy"):
+            pytest.importorskip(module)
+        pytest.importorskip("matplotlib").use("Agg")
+    monkeypatch.chdir(SOURCE)
+    in_code, code = False, []
+    for line in (SOURCE / name).read_text(encoding="utf-8").splitlines():
         if line.startswith("```"):
             in_code = line == "```python"
         elif in_code:
             code.append(line)
-    assert len(code) > 5
-    text = "\n".join(code)
-    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS).run(
-        doctest.DocTestParser().get_doctest(text, {"__name__": "__page__"}, path.name, str(path), 0)
-    )
-    assert result.attempted > 3
+    example = doctest.DocTestParser().get_doctest("\n".join(code), {"__name__": "__page__"}, name, name, 0)
+    result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(example)
+    assert result.attempted > 4
     assert result.failed == 0
