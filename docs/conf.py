@@ -17,20 +17,14 @@ author = "the shearfront authors"
 copyright = "the shearfront authors, BSD-3-Clause"  # noqa: A001  (a name of Sphinx)
 version = release = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE).group(1)
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links"]
-exclude_patterns = ["_extensions"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links"]
+exclude_patterns = ["_extensions", "drawings"]
 nitpicky = False
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4
 myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
-
-nb_execution_mode = "cache"
-nb_execution_cache_path = str(ROOT / "build" / "docs" / "cache")
-nb_execution_raise_on_error = True
-nb_execution_timeout = 300
-nb_merge_streams = True
 
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The directives gallery and gallery-thumbnails.
+"""The directives gallery, gallery-thumbnails and picture.
 
-Every picture is a file of docs/gallery: a Python script (.py) that ends with `figure = ...`, or a shell script (.sh) that makes
-picture.svg or picture.png. The first lines are comments: the title, then a sentence or two. The directives run what has changed
-since it last ran, four at a time at most, and show pictures with the code under them.
+Every picture is a file of docs/gallery or, for the drawings of the theory, docs/drawings: a Python script (.py) that ends with
+`figure = ...`, or a shell script (.sh) that makes picture.svg or picture.png. The first lines are comments: the title, then a
+sentence or two. What has changed since it last ran is run, a few at a time. The gallery shows pictures with their code; `picture`
+shows one, with its code folded away.
 """
 
 import concurrent.futures
@@ -53,12 +54,12 @@ class Picture:
         return next(f for f in (self.folder / "picture.svg", self.folder / "picture.png") if f.exists())
 
     def draw(self, root):
-        """Runs the script, if it is not the one that drew what is there."""
+        """Runs the script, if it is not the one that drew what is there. Returns what went wrong."""
         program = os.environ["SHEARFRONT_PROGRAM"]
         key = hashlib.sha256(self.script.read_bytes() + _DRAW.encode()).hexdigest()
         mark = self.folder / "drawn-by"
         if mark.exists() and mark.read_text() == key:
-            return
+            return ""
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
         (self.folder / "datasets").symlink_to(root / "datasets")
@@ -68,24 +69,31 @@ class Picture:
             [*command, self.script], cwd=self.folder, env={**os.environ, "PATH": path}, capture_output=True, text=True,
         )  # fmt: skip
         if ran.returncode != 0:
-            raise ExtensionError(f"{self.script}: {ran.stdout}{ran.stderr}")
+            return f"{self.script}: {ran.stdout}{ran.stderr}"
         mark.write_text(key)
+        return ""
 
 
 def _pictures(app):
     if not hasattr(app, "shearfront_gallery"):
         source = pathlib.Path(app.srcdir)
         made = pathlib.Path(app.outdir).parent / "gallery"
-        scripts = sorted(f for f in (source / "gallery").iterdir() if f.suffix in (".py", ".sh"))
+        scripts = sorted(f for d in ("gallery", "drawings") for f in (source / d).iterdir() if f.suffix in (".py", ".sh"))
         all_of_them = [Picture(script, made) for script in scripts]
         with concurrent.futures.ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
-            list(pool.map(lambda p: p.draw(source.parent), all_of_them))
+            wrong = [text for text in pool.map(lambda p: p.draw(source.parent), all_of_them) if text]
+        if wrong:
+            raise ExtensionError("\n".join(wrong))
         shown = pathlib.Path(app.outdir) / "_images" / "gallery"
         shown.mkdir(parents=True, exist_ok=True)
         for picture in all_of_them:
             shutil.copyfile(picture.file, shown / f"{picture.name}{picture.file.suffix}")
         app.shearfront_gallery = {p.name: p for p in all_of_them}
     return app.shearfront_gallery
+
+
+def _of_gallery(pictures):
+    return [p for p in pictures.values() if p.script.parent.name == "gallery"]
 
 
 def _image(picture, page):
@@ -106,7 +114,9 @@ class Thumbnails(SphinxDirective):
             self.env.note_dependency(str(picture.script))
         self.env.note_dependency(__file__)
         up = "../" * page.count("/")
-        wanted = [line.partition(": ")[::2] for line in self.content if line.strip()] or [(p.name, p.title) for p in pictures.values()]
+        wanted = [line.partition(": ")[::2] for line in self.content if line.strip()] or [
+            (p.name, p.title) for p in _of_gallery(pictures)
+        ]
         size = " large" if len(wanted) < 4 else ""
         cells = "".join(
             f'<a href="{up}gallery/index.html#{name}"><img src="{_image(pictures[name], page)}" alt="{pictures[name].title}">{text}</a>'
@@ -121,7 +131,7 @@ class Gallery(SphinxDirective):
     def run(self):
         """A section for each picture."""
         made = []
-        for picture in _pictures(self.env.app).values():
+        for picture in _of_gallery(_pictures(self.env.app)):
             self.env.note_dependency(str(picture.script))
             section = nodes.section(ids=[picture.name], names=[picture.name])
             code = nodes.literal_block(picture.code, picture.code)
@@ -134,8 +144,30 @@ class Gallery(SphinxDirective):
         return made
 
 
+class OnePicture(SphinxDirective):
+    """One picture, with its title under it and its code folded away."""
+
+    required_arguments = 1
+
+    def run(self):
+        """A figure."""
+        picture = _pictures(self.env.app)[self.arguments[0]]
+        self.env.note_dependency(str(picture.script))
+        code = nodes.literal_block(picture.code, picture.code)
+        code["language"] = picture.language
+        text = f"{picture.title}. {picture.text}" if picture.text else picture.title
+        image = f'<img src="{_image(picture, self.env.docname)}" alt="{picture.title}">'
+        return [
+            nodes.raw("", f'<figure class="drawn">{image}<figcaption>{text}</figcaption>', format="html"),
+            nodes.raw("", "<details><summary>how it is drawn</summary>", format="html"),
+            code,
+            nodes.raw("", "</details></figure>", format="html"),
+        ]
+
+
 def setup(app):
     """Adds the directives."""
+    app.add_directive("picture", OnePicture)
     app.add_directive("gallery", Gallery)
     app.add_directive("gallery-thumbnails", Thumbnails)
     return {"parallel_read_safe": False, "parallel_write_safe": True}
