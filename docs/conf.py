@@ -17,7 +17,7 @@ author = "the shearfront authors"
 copyright = "the shearfront authors, BSD-3-Clause"  # noqa: A001  (a name of Sphinx)
 version = release = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE).group(1)
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links", "interfaces"]
 exclude_patterns = ["_extensions", "drawings"]
 nitpicky = False
 
@@ -42,3 +42,13 @@ html_theme_options = {"navigation_with_keys": True}
 highlight_language = "text"
 lexers["csv"] = TextLexer()  # Pygments has none
 pygments_style = "friendly"
+
+
+def _docstring(app, what, name, obj, options, lines):
+    """Absolute values, |z|, are no substitutions."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def setup(app):
+    """Called by Sphinx."""
+    app.connect("autodoc-process-docstring", _docstring, priority=0)
