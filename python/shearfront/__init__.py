@@ -16,7 +16,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from ._callables import Sampled, sampled
-from ._data import Observations, data
+from ._data import Observations, data, read_data
 from ._errors import Complaint, InputError, NoResult
 from ._methods import methods
 from ._models import *  # noqa: F403  (a class for every model of the library)
@@ -72,6 +72,7 @@ __all__ = [
     "pictures",
     "problem",
     "read",
+    "read_data",
     "read_fit",
     "sampled",
     "study",

@@ -42,6 +42,12 @@ class Sampled:
         The largest difference between function and table found at fifteen places inside every interval.
     points : int
         How many points the table has.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> sf.sampled(lambda z: 1 + z).points
+    17
     """
 
     model: Model
@@ -81,6 +87,11 @@ def sampled(
     ------
     InputError
         If the function is not finite, or needs more points.
+
+    Notes
+    -----
+    The cubic of a table of a convex flux may bend the other way beside an extremum, by less than the error. Then the exact
+    method refuses it, which wants a flux that is convex or concave; front tracking and the finite volumes take it.
 
     Examples
     --------

@@ -108,7 +108,19 @@ def observations(
     sigma: FloatArray | None,
     replicates: str,
 ) -> Observations: ...
-def read_observations(path: str, scene: Scene, /) -> Observations: ...
+def read_observations(
+    path: str,
+    scene: Scene,
+    columns: Texts,
+    units: Texts,
+    separator: str,
+    decimal: str,
+    missing: Sequence[str],
+    layout: str,
+    replicates: str,
+    width: float | None,
+    time_step: float | None,
+) -> Observations: ...
 def observe(
     scene: Scene, method: Method, t: FloatArray, z: FloatArray, quantity: str, width: float, sigma: float, seed: int, /
 ) -> Observations: ...

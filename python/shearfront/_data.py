@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,6 +30,14 @@ class Observations:
         "point", "bin", "cumulative" or "bed-height".
     t, z, value, width, sigma : ndarray
         One number per row; width is 0 and sigma NaN where there is none.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> seen.quantity, len(seen)
+    ('cumulative', 12)
     """
 
     __slots__ = ("_engine", "quantity", "sigma", "t", "value", "width", "z")
@@ -52,17 +60,65 @@ class Observations:
         """What a user should be told about the file they came from."""
         return self._engine.notes
 
+    @property
+    def understood(self) -> str:
+        """How their file was read, in one line; empty for arrays."""
+        return self._engine.understood
+
     def to_csv(self) -> str:
-        """The text of a file of observations that reads back to the same numbers, to the bit."""
+        """The text of a file of observations that reads back to the same numbers, to the bit.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> seen.to_csv().splitlines()[0]
+        't,z,M,sigma'
+        """
         return self._engine.text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file of observations that the program ``shearfront`` reads as well."""
+        """Writes a file of observations that the program ``shearfront`` reads as well.
+
+        Parameters
+        ----------
+        path : path
+            What is there is overwritten.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> import tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "seen.csv"
+        >>> seen.save(path)
+        >>> len(sf.data(scene, path))
+        12
+        """
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.to_csv())
 
     def to_dict(self) -> dict[str, FloatArray]:
-        """The columns that say something, by their names in a file."""
+        """The columns that say something, by their names in a file.
+
+        Returns
+        -------
+        dict of ndarray
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> list(seen.to_dict())
+        ['t', 'z', 'M', 'sigma']
+        """
         name = {"cumulative": "M", "bed-height": "H"}.get(self.quantity, "phi")
         columns = {"t": self.t, "z": self.z, name: self.value}
         if self.quantity == "bed-height":
@@ -74,7 +130,20 @@ class Observations:
         return columns
 
     def to_dataframe(self) -> Any:
-        """A table with the columns of :meth:`to_dict`; needs pandas."""
+        """A table with the columns of :meth:`to_dict`; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> seen.to_dataframe().shape
+        (12, 4)
+        """
         return pandas().DataFrame(self.to_dict())
 
     def __repr__(self) -> str:
@@ -89,7 +158,7 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     scene : Scene
         Whose domain, units and states they must suit.
     source : path, DataFrame or mapping, optional
-        A file as a laboratory writes it (docs/formats.md), or columns by name.
+        A file as a laboratory writes it (docs/reference/formats.md), or columns by name.
     replicates : {"refuse", "keep", "mean"}, optional
         What becomes of several values at one place (of arrays).
     **columns : array_like
@@ -115,7 +184,9 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     if isinstance(source, Observations):
         return source
     if isinstance(source, (str, os.PathLike)):
-        return Observations(_core.read_observations(os.fspath(source), scene._engine))
+        if columns:
+            raise one_complaint("data", None, "must be a file or columns, not both; read_data says how a file is to be read")
+        return read_data(scene, source, replicates=replicates)
     if source is not None:
         table = source if isinstance(source, Mapping) else {name: source[name] for name in source.columns}
         columns = {**{name: table[name] for name in _COLUMNS if name in table}, **columns}
@@ -135,4 +206,79 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
         core = _core.observations(
             scene._engine, quantity, flat(arrays["t"]), flat(arrays["z"]), flat(arrays[value]), width, sigma, replicates
         )
+    return Observations(core)
+
+
+def read_data(
+    scene: Scene,
+    path: str | os.PathLike[str],
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    separator: str = "",
+    decimal: str = "",
+    missing: Sequence[str] = (),
+    layout: str = "",
+    replicates: str = "refuse",
+    width: float | None = None,
+    time_step: float | None = None,
+) -> Observations:
+    """Reads a file of observations as a laboratory wrote it.
+
+    Separators, decimal marks, encodings, lines before the header, rows of units, wide tables and averages over chunks of LAMMPS
+    are found; what cannot be found is said here.
+
+    Parameters
+    ----------
+    scene : Scene
+        Whose domain, units and states they must suit; lengths and times are converted to its units.
+    path : path
+    columns : mapping, optional
+        Names in the file: ``{"t": "Zeit", "phi": "Konz."}``; of t, z, phi, M, H, width, sigma, phi_large.
+    units : mapping, optional
+        Units instead of what the header says: ``{"phi": "percent"}``.
+    separator : {",", ";", "tab"}, optional
+    decimal : {".", ","}, optional
+    missing : sequence of str, optional
+        Further words for a missing value.
+    layout : {"rows", "heights", "times"}, optional
+    replicates : {"refuse", "keep", "mean"}, optional
+    width : float, optional
+        Of the bins that phi is a mean over, in the unit of z.
+    time_step : float, optional
+        Of a particle simulation whose file counts steps.
+
+    Returns
+    -------
+    Observations
+        Whose ``notes`` and ``understood`` tell what was found.
+
+    Raises
+    ------
+    InputError
+        With every complaint, each with line and column.
+
+    Examples
+    --------
+    >>> import shearfront as sf, tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "lab.csv"
+    >>> _ = path.write_text("Zeit;Höhe;Konz.\\n0,5;0,25;12\\n0,5;0,75;91\\n", encoding="utf-8")
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))
+    >>> seen = sf.read_data(scene, path, columns={"t": "Zeit", "z": "Höhe", "phi": "Konz."}, units={"phi": "percent"})
+    >>> seen.value
+    array([0.12, 0.91])
+    """
+    core = _core.read_observations(
+        os.fspath(path),
+        scene._engine,
+        list((columns or {}).items()),
+        list((units or {}).items()),
+        separator,
+        decimal,
+        list(missing),
+        layout,
+        replicates,
+        width,
+        time_step,
+    )
     return Observations(core)

@@ -64,6 +64,16 @@ class NoResult(RuntimeError):
     ----------
     status : str
         How it ended: ``"unsupported"``, ``"budget_reached"``, ``"not_converged"``, ``"diverged"`` or ``"interrupted"``.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> try:
+    ...     scene.solve(1, method="crank-nicolson")
+    ... except sf.NoResult as error:
+    ...     print(error.status)
+    unsupported
     """
 
     def __init__(self, message: str, status: str = "unsupported") -> None:

@@ -36,6 +36,15 @@ class Parameter:
     at_bound : bool
     ci95_is_doubtful : bool or None
         Whether the misfit rises otherwise than the interval assumes; None where it was not checked.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> found = sf.fit(scene, seen, "shear_rate.values")
+    >>> found.parameters["shear_rate.values[1]"].at_bound
+    False
     """
 
     name: str
@@ -58,6 +67,15 @@ class Prediction:
     t, z : ndarray
     phi, phi_lower, phi_upper, M, M_lower, M_upper : ndarray
         Of shape (times, heights).
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> found = sf.fit(scene, seen, "shear_rate.values")
+    >>> found.predict([1, 3], [0.2, 0.6]).M_upper.shape
+    (2, 2)
     """
 
     t: FloatArray
@@ -71,7 +89,21 @@ class Prediction:
     remark: str = field(default="", repr=False)
 
     def to_dataframe(self) -> Any:
-        """A row per time and height, as ``fit --predict`` writes it; needs pandas."""
+        """A row per time and height, as ``fit --predict`` writes it; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> list(found.predict([1], [0.2]).to_dataframe().columns)[:5]
+        ['t', 'z', 'phi', 'lower', 'upper']
+        """
         t, z = np.meshgrid(self.t, self.z, indexing="ij")
         columns = {"t": t, "z": z, "phi": self.phi, "lower": self.phi_lower, "upper": self.phi_upper}
         columns |= {"M": self.M, "M_lower": self.M_lower, "M_upper": self.M_upper}
@@ -80,7 +112,17 @@ class Prediction:
 
 @dataclass(frozen=True)
 class RateBand:
-    """s a(z) of a fit with its pointwise 95 % band; NaN where an unknown without error bar has a part in it."""
+    """s a(z) of a fit with its pointwise 95 % band; NaN where an unknown without error bar has a part in it.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> found = sf.fit(scene, seen, "shear_rate.values")
+    >>> found.rate_band().z
+    array([0.  , 0.29, 0.29, 1.  ])
+    """
 
     z: FloatArray
     a: FloatArray
@@ -102,6 +144,15 @@ class Bootstrap:
         By name, the percentile 95 % interval, or None.
     failed : int
     warnings : list of str
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> found = sf.fit(scene, seen, "shear_rate.values")
+    >>> found.bootstrap(40).estimates.shape
+    (40, 2)
     """
 
     names: list[str]
@@ -112,11 +163,31 @@ class Bootstrap:
     warnings: list[str]
 
     def to_dataframe(self) -> Any:
-        """The estimates as a table; needs pandas."""
+        """The estimates as a table; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A column per unknown.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.bootstrap(5).to_dataframe().shape
+        (5, 2)
+        """
         return pandas().DataFrame(self.estimates, columns=self.names)
 
     def to_arviz(self) -> Any:
-        """The estimates as one chain of draws, for the plots of ArviZ; needs arviz."""
+        """The estimates as one chain of draws, for the plots of ArviZ; needs arviz.
+
+        Returns
+        -------
+        arviz.InferenceData or DataTree
+        """
         import arviz
 
         draws = {name: self.estimates[None, :, i] for i, name in enumerate(self.names)}
@@ -139,6 +210,15 @@ class Fit:
         By name.
     warnings : list of str
         What a reader of the estimates must know.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> found = sf.fit(scene, seen, "shear_rate.values")
+    >>> sorted(found.parameters)
+    ['shear_rate.values[0]', 'shear_rate.values[1]']
     """
 
     __slots__ = ("_engine", "facts", "parameters", "problem", "scene")
@@ -212,6 +292,19 @@ class Fit:
         draws : int, optional
         seed : int, optional
             That of the fit unless given.
+
+        Returns
+        -------
+        Prediction
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.predict([1, 3], [0.2, 0.6], draws=100).phi_lower.shape
+        (2, 2)
         """
         times, heights = flat(t), flat(z)
         phi, amount, why_none, failed = self._engine.predict(times, heights, draws, seed)
@@ -219,15 +312,76 @@ class Fit:
         return Prediction(times, heights, *phi, *amount, remark)
 
     def predict_events(self, *, draws: int = _DRAWS, seed: int | None = None) -> dict[str, Any]:
-        """95 % bands of the event times; an end that is infinite: the event may never come."""
+        """95 % bands of the event times; an end that is infinite: the event may never come.
+
+        Parameters
+        ----------
+        draws : int, optional
+        seed : int, optional
+            That of the fit unless given.
+
+        Returns
+        -------
+        dict
+            "t0", "t1", "t_star": pairs; "interfaces": pairs (first, last) of them; None where there is none.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> low, high = found.predict_events(draws=100)["t_star"]
+        >>> low < found.scene.events().t_star < high
+        True
+        """
         return self._engine.predict_events(draws, seed)
 
     def rate_band(self) -> RateBand:
-        """s a(z) with its pointwise 95 % band."""
+        """s a(z) with its pointwise 95 % band.
+
+        Returns
+        -------
+        RateBand
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> band = found.rate_band()
+        >>> bool((band.lower < band.a).all())
+        True
+        """
         return RateBand(*self._engine.rate_band())
 
     def draw(self, n: int, seed: int = 1) -> list[Scene]:
-        """Scenes drawn from what the data leave possible."""
+        """Scenes drawn from what the data leave possible.
+
+        Parameters
+        ----------
+        n : int
+        seed : int, optional
+
+        Returns
+        -------
+        list of Scene
+
+        Raises
+        ------
+        NoResult
+            If an unknown has no error bar.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> len(found.draw(3))
+        3
+        """
         scenes, why_none = self._engine.draws(n, seed)
         if why_none:
             raise NoResult(why_none)
@@ -237,18 +391,68 @@ class Fit:
         """Profile-likelihood 95 % intervals by name; an end that the data do not give is NaN.
 
         Runs the fit again, and about ten refits for each unknown.
+
+        Returns
+        -------
+        dict
+            Pairs, or None where neither end is known.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> low, high = found.profile()["shear_rate.values[1]"]
+        >>> low < 0.31 < high
+        True
         """
         again = self.problem._engine.with_uncertainty(True, 0, 1, 0).run()
         return {row["name"]: row["profile95"] for row in again.parameters}
 
     def bootstrap(self, replicates: int = 200, seed: int = 1, threads: int = 0) -> Bootstrap:
-        """Parametric bootstrap; the numbers do not depend on the threads (0: all cores)."""
+        """Parametric bootstrap; the numbers do not depend on the threads (0: all cores).
+
+        Parameters
+        ----------
+        replicates : int, optional
+            At least 40 for intervals.
+        seed : int, optional
+        threads : int, optional
+
+        Returns
+        -------
+        Bootstrap
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.bootstrap(40, seed=1).failed
+        0
+        """
         intervals, estimates, covariance, failed, warnings = self._engine.bootstrap(replicates, seed, threads)
         by_name = dict(zip(self.names, intervals, strict=True))
         return Bootstrap(self.names, estimates, covariance, by_name, failed, warnings)
 
     def to_dict(self) -> dict[str, Any]:
-        """As ``shearfront fit --json``."""
+        """As ``shearfront fit --json``.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.to_dict()["status"]
+        'ok'
+        """
         on_request = ("profile95", "bootstrap95")
         rows = [
             {k: list(v) if isinstance(v, tuple) else v for k, v in row.items() if v is not None or k not in on_request}
@@ -262,7 +466,21 @@ class Fit:
         }
 
     def to_dataframe(self) -> Any:
-        """A row per unknown; needs pandas."""
+        """A row per unknown; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> list(found.to_dataframe().columns)
+        ['estimate', 'std_error', 'lower', 'upper', 'start', 'at_bound']
+        """
         rows = []
         for p in self.parameters.values():
             low, high = p.ci95 or (np.nan, np.nan)
@@ -271,7 +489,25 @@ class Fit:
         return pandas().DataFrame(rows, index=self.names, columns=columns)
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws data and fit; see :func:`shearfront.pictures.fit`."""
+        """Draws data and fit; see :func:`shearfront.pictures.fit`.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.plot().get_xlabel()
+        'M'
+        """
         from . import pictures
 
         return pictures.fit(self, ax=ax)

@@ -24,6 +24,14 @@ class Problem:
 
     Its misfit can be handed to searches and samplers of others: ``problem.misfit`` has residuals, Jacobian and a
     log-likelihood. Made by :func:`problem`, or by :func:`read_fit` from a fit file.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+    >>> sf.problem(scene, seen, "shear_rate.values").run().names
+    ['shear_rate.values[0]', 'shear_rate.values[1]']
     """
 
     __slots__ = ("_engine", "observations", "scene")
@@ -52,11 +60,42 @@ class Problem:
         ------
         NoResult
             If no estimate was found.
+
+        Returns
+        -------
+        Fit
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> sf.problem(scene, seen, "shear_rate.values").run().estimates.round(1)
+        array([2.4, 0.3])
         """
         return Fit(self, self._engine.run())
 
     def with_(self, numbers: Mapping[str, float]) -> Problem:
-        """The same fit with other numbers of its scene, by the names of their entries."""
+        """The same fit with other numbers of its scene, by the names of their entries.
+
+        Parameters
+        ----------
+        numbers : mapping
+            By the names of entries of the scene.
+
+        Returns
+        -------
+        Problem
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> problem = sf.problem(scene, seen, "shear_rate.values")
+        >>> problem.with_({"initial.breaks[0]": 0.52}).scene.entries["initial.breaks[0]"]
+        0.52
+        """
         return Problem(self._engine.with_scene(self.scene.with_(numbers)._engine))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -80,6 +119,7 @@ def problem(
     upper: Any = None,
     shape: str | None = None,
     method: str | None = None,
+    method_options: Mapping[str, object] | None = None,
     quantity: str | None = None,
     loss: str | None = None,
     loss_scale: float | None = None,
@@ -123,6 +163,7 @@ def problem(
     for key in ("start", "lower", "upper"):
         if tables["unknown"][key] is not None:
             tables["unknown"][key] = flat(tables["unknown"][key])
+    options |= method_options or {}
     if method is not None or options:
         tables["forward"] = {"method": method or "exact", **options}
     seen = data(scene, observations)
@@ -146,13 +187,14 @@ def fit(
     **settings
         start, lower, upper : array_like, one number per unknown;
         shape : "none", "decreasing" or "convex", the order among the values of a(z);
-        method, and options of the method : what predicts the observations;
+        method, and options of the method : what predicts the observations; method_options : a mapping of such as have a name of
+        these settings, ``{"tolerance": 1e-4}``;
         quantity : "point", "bin", "cumulative" or "bed-height", what is compared;
         loss : "squared", "huber" or "cauchy"; loss_scale; two_stage;
         algorithm : "ceres", "global" or "nlopt:NAME"; starts; seed; max_evaluations; tolerance;
         profile : bool, bootstrap : int, bootstrap_seed, threads : more intervals;
         name.
-        They are those of a fit file (docs/formats.md), with the same defaults.
+        They are those of a fit file (docs/reference/formats.md), with the same defaults.
 
     Returns
     -------

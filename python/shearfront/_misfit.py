@@ -43,14 +43,18 @@ class Misfit:
     array([2.4 , 0.31])
     """
 
-    __slots__ = ("_engine", "lower", "names", "start", "upper")
+    __slots__ = ("_engine", "_problem", "lower", "names", "start", "upper")
 
     def __init__(self, problem: Problem) -> None:
+        self._problem = problem
         self._engine = _core.Misfit(problem._engine)
         self.names = self._engine.names
         self.start = self._engine.start
         self.lower = self._engine.lower
         self.upper = self._engine.upper
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Misfit, (self._problem,)
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
@@ -65,11 +69,54 @@ class Misfit:
             return np.inf
 
     def residuals(self, p: Any) -> FloatArray:
-        """r(p), one per row of the misfit."""
+        """r(p), one per row of the misfit.
+
+        Parameters
+        ----------
+        p : array_like
+            One number per unknown, in the units of the entries.
+
+        Returns
+        -------
+        ndarray
+            Shape (rows,), in units of sigma where the data give it.
+
+        Raises
+        ------
+        NoResult
+            Where the model has no solution.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> sf.problem(scene, seen, "shear_rate.values").misfit.residuals([2.4, 0.31]).shape
+        (12,)
+        """
         return self._engine.residuals(flat(p))
 
     def jacobian(self, p: Any) -> FloatArray:
-        """dr/dp, shape (rows, unknowns): exact where the method has derivatives, otherwise by differences."""
+        """dr/dp, shape (rows, unknowns): exact where the method has derivatives, otherwise by differences.
+
+        Parameters
+        ----------
+        p : array_like
+            One number per unknown.
+
+        Returns
+        -------
+        ndarray
+            Shape (rows, unknowns).
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> sf.problem(scene, seen, "shear_rate.values").misfit.jacobian([2.4, 0.31]).shape
+        (12, 2)
+        """
         return self._engine.jacobian(flat(p))
 
     def log_likelihood(self, p: Any) -> float:
@@ -83,6 +130,15 @@ class Misfit:
         >>> misfit = sf.problem(bed, seen, "shear_rate.values").misfit
         >>> misfit.log_likelihood([-1.0])
         -inf
+
+        Parameters
+        ----------
+        p : array_like
+            One number per unknown.
+
+        Returns
+        -------
+        float
         """
         values = flat(p)
         if not (np.all(values >= self.lower) and np.all(values <= self.upper)):

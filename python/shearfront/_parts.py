@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ._callables import initial_table, table_of
+from ._callables import initial_table, sampled, table_of
 from ._errors import one_complaint
 from ._models import Model, Pieces, model_of, short_number
 from ._toml import Table
@@ -55,6 +55,8 @@ def flux_tables(part: Any) -> Any:
     """The table of a flux, or those of several: pairs (above, flux) over the lowest."""
     if isinstance(part, str):
         return {"model": part}
+    if callable(part):
+        return sampled(part, kind="flux").model.to_dict()
     if not isinstance(part, (list, tuple)):
         return table_of_part(part)
     tables = []

@@ -13,7 +13,7 @@ import numpy as np
 from . import _core
 from ._arrays import flat, times_of
 from ._errors import one_complaint, without_places
-from ._methods import method_of, option_texts
+from ._methods import EXACT, method_of, option_texts
 from ._parts import (
     DEPTH_FUNCTIONS,
     depth_table,
@@ -53,8 +53,9 @@ class Scene:
         function of z that takes arrays (sampled, see :func:`sampled`).
     initial : Model, mapping or callable
         phi(z, 0) / c(z): :func:`Step`, :class:`Pieces`, a smooth start, or a function of z.
-    flux : Model, mapping, str, or a list of them, optional
-        f; phi (phi - 1) unless given. In a list every flux but the lowest is a pair (above, flux).
+    flux : Model, mapping, str, callable, or a list of them, optional
+        f; phi (phi - 1) unless given; a function of phi is sampled on [0, 1]. In a list every flux but the lowest is
+        a pair (above, flux).
     scale : float, optional
         s, > 0; 1 unless given.
     solid_fraction, temperature : Model, mapping or callable, optional
@@ -233,15 +234,71 @@ class Scene:
         return self._at(self._engine.shear_rate, z)
 
     def solid_fraction(self, z: Any) -> FloatArray:
-        """c(z), of the shape of z."""
+        """c(z), of the shape of z.
+
+        Parameters
+        ----------
+        z : array_like
+            Heights inside the domain, in the unit of z.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of z.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.solid_fraction([0.1, 0.9])
+        array([1., 1.])
+        """
         return self._at(self._engine.solid_fraction, z)
 
     def initial_phi(self, z: Any) -> FloatArray:
-        """phi(z, 0), of the shape of z; at a jump the value above it."""
+        """phi(z, 0), of the shape of z; at a jump the value above it.
+
+        Parameters
+        ----------
+        z : array_like
+            Heights inside the domain, in the unit of z.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of z.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.initial_phi([0.1, 0.9])
+        array([0., 1.])
+        """
         return self._at(self._engine.initial_phi, z)
 
     def flux(self, phi: Any, z: float | None = None) -> FloatArray:
-        """f(phi), of the flux at the height z (the bottom unless given)."""
+        """f(phi), of the flux at the height z (the bottom unless given).
+
+        Parameters
+        ----------
+        phi : array_like
+            States that the flux allows.
+        z : float, optional
+            Where there are several fluxes, which one.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of phi.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.flux([0.25, 0.5])
+        array([-0.1875, -0.25  ])
+        """
         phi = np.asarray(phi, dtype=float)
         values: FloatArray = self._engine.flux_value(self.bottom if z is None else float(z), flat(phi)).reshape(phi.shape)
         return values
@@ -257,15 +314,56 @@ class Scene:
     # Text and other scenes
 
     def to_toml(self) -> str:
-        """The text of a scene file that reads back to the same scene, to the bit."""
+        """The text of a scene file that reads back to the same scene, to the bit.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> print(scene.to_toml().splitlines()[5])
+        [shear_rate]
+        """
         return self._engine.text
 
     def to_dict(self) -> Table:
-        """The tables of :meth:`to_toml`."""
+        """The tables of :meth:`to_toml`.
+
+        Returns
+        -------
+        dict
+            As :meth:`from_dict` takes it.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.to_dict()["initial"]
+        {'breaks': [0.5], 'values': [0, 1]}
+        """
         return canonical_tables(self._engine.text)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a scene file that the program ``shearfront`` reads as well."""
+        """Writes a scene file that the program ``shearfront`` reads as well.
+
+        Parameters
+        ----------
+        path : path
+            What is there is overwritten.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> import tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "scene.toml"
+        >>> scene.save(path)
+        >>> sf.read(path) == scene
+        True
+        """
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.to_toml())
 
@@ -286,6 +384,10 @@ class Scene:
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.with_({"shear_rate.values[1]": 0.4}).shear_rate(0.9).item()
         0.4
+
+        Returns
+        -------
+        Scene
         """
         core = self._engine
         if changes:
@@ -418,8 +520,8 @@ class Scene:
         >>> scene.phi([[0.4], [0.6]], [0.25, 0.5]).shape
         (2, 2)
         """
-        if type(z) is float and type(t) is float:
-            return _core.sample_place(self._engine, method_of(method, options), t, z)[0]
+        if type(z) is float and type(t) is float and method == "exact" and not options:
+            return _core.sample_place(self._engine, EXACT, t, z)[0]
         return self._sample(z, t, method, options, 0)
 
     def M(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
@@ -431,9 +533,21 @@ class Scene:
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))
         >>> scene.M(1.0, 0.3)
         0.5
+
+        Parameters
+        ----------
+        z, t : array_like
+            As in :meth:`phi`.
+        method, **options
+            As in :meth:`solve`.
+
+        Returns
+        -------
+        float or ndarray
+            Of the broadcast shape, in the unit of z.
         """
-        if type(z) is float and type(t) is float:
-            return _core.sample_place(self._engine, method_of(method, options), t, z)[1]
+        if type(z) is float and type(t) is float and method == "exact" and not options:
+            return _core.sample_place(self._engine, EXACT, t, z)[1]
         return self._sample(z, t, method, options, 1)
 
     def _sample(self, z: Any, t: Any, method: str, options: Mapping[str, object], which: int) -> Any:
@@ -497,6 +611,11 @@ class Scene:
         >>> events = scene.events()
         >>> round(events.t0, 4), round(events.interfaces[0].first, 4)
         (0.7983, 0.6774)
+
+        Parameters
+        ----------
+        method, **options
+            As in :meth:`solve`; the exact method and front tracking know event times.
         """
         found = _core.events(self._engine, method_of(method, options))
         found["interfaces"] = tuple(Interface(*i) for i in found["interfaces"])
@@ -516,6 +635,13 @@ class Scene:
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))
         >>> scene.bed([0, "steady"])["mixing"].round(12)
         array([0., 0.])
+
+        Parameters
+        ----------
+        t : array_like
+            Times, as in :meth:`solve`.
+        method, **options
+            As in :meth:`solve`.
         """
         times = times_of(t)
         return {"t": times, **_core.course(self._engine, method_of(method, options), times)}
@@ -628,6 +754,11 @@ class Scene:
         >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> len(scene.observe([0.5, 1], [0.1, 0.5, 0.9], quantity="cumulative", noise=0.01))
         6
+
+        Returns
+        -------
+        Observations
+            With sigma, if there is noise.
         """
         from ._data import Observations
 
@@ -637,7 +768,23 @@ class Scene:
         return Observations(made)
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws a(z) and phi(z, 0); see :func:`shearfront.pictures.scene`."""
+        """Draws a(z) and phi(z, 0); see :func:`shearfront.pictures.scene`.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.plot().get_ylabel()
+        'z'
+        """
         from . import pictures
 
         return pictures.scene(self, ax=ax)

@@ -46,6 +46,13 @@ class Solution:
         How it went: ``status``, ``message``, ``wall_s``, the work done.
     fronts : ndarray or None
         Structured array of the fronts, if they were asked for.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> scene.solve([0.5, 1], [0.2, 0.4, 0.6]).phi.shape
+    (2, 3)
     """
 
     scene: Scene
@@ -103,7 +110,23 @@ class Solution:
         )
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the profiles; see :func:`shearfront.pictures.profiles`."""
+        """Draws the profiles; see :func:`shearfront.pictures.profiles`.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.solve([0, 1]).plot().get_ylabel()
+        'z'
+        """
         from . import pictures
 
         return pictures.profiles(self, ax=ax)
@@ -111,7 +134,15 @@ class Solution:
 
 @dataclass(frozen=True)
 class Interface:
-    """When the first and the last wave come to an interface; None: never."""
+    """When the first and the last wave come to an interface; None: never.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> scene.events().interfaces[0].z
+    0.29
+    """
 
     z: float
     first: float | None
@@ -132,6 +163,13 @@ class Events:
         The interfaces from the bottom up.
     mass, steady_height : float
         The integral of phi, and the height of the jump in the end.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> scene.events().steady_height
+    0.5
     """
 
     t0: float | None
@@ -160,6 +198,13 @@ class Jacobian:
         Of the broadcast shape of z and t.
     dphi, dM : ndarray
         The same shape with a last axis of the entries.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> scene.jacobian([0.4, 0.6], 0.5).dphi.shape[0]
+    2
     """
 
     names: list[str]
@@ -173,7 +218,30 @@ class Jacobian:
         return self.dphi[..., self._index(name)]
 
     def of_M(self, name: str) -> FloatArray:
-        """The derivative of M with respect to an entry."""
+        """The derivative of M with respect to an entry.
+
+        Parameters
+        ----------
+        name : str
+            One of names.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of M.
+
+        Raises
+        ------
+        KeyError
+            If it is none of them.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.jacobian([0.4, 0.6], 0.5).of_M("shear_rate.values[1]").shape
+        (2,)
+        """
         return self.dM[..., self._index(name)]
 
     def _index(self, name: str) -> int:
@@ -182,6 +250,23 @@ class Jacobian:
         return self.names.index(name)
 
     def to_dataframe(self, quantity: str = "phi") -> Any:
-        """The derivatives of "phi" or "M" as a table with a column per entry; needs pandas."""
+        """The derivatives of "phi" or "M" as a table with a column per entry; needs pandas.
+
+        Parameters
+        ----------
+        quantity : {"phi", "M"}, optional
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row per place.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.jacobian([0.4, 0.6], 0.5, "shear_rate.values").to_dataframe().shape
+        (2, 2)
+        """
         derivatives = {"phi": self.dphi, "M": self.dM}[quantity]
         return pandas().DataFrame(derivatives.reshape(-1, len(self.names)), columns=self.names)

@@ -49,6 +49,14 @@ class Study:
         By name; NaN after a failure, infinity for an event that never comes.
     failures : dict of str
         By the number of the run, why it has no result.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> found = sf.study(scene, {"initial.breaks[0]": [0.4, 0.5]})
+    >>> len(found), list(found.outputs)
+    (2, ['t_star'])
     """
 
     entries: dict[str, FloatArray]
@@ -63,7 +71,19 @@ class Study:
         return len(next(iter(self.entries.values()), ()))
 
     def to_dataframe(self) -> Any:
-        """All columns and one of failures; needs pandas."""
+        """All columns and one of failures; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> sf.study(scene, {"initial.breaks[0]": [0.4, 0.5]}).to_dataframe().shape
+        (2, 3)
+        """
         failures = [self.failures.get(i, "") for i in range(len(self))]
         return pandas().DataFrame({**self.entries, **self.outputs, "failure": failures})
 

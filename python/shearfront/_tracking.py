@@ -35,6 +35,13 @@ class Profile:
         Edges of the cells, shape (n + 1,).
     below, above : ndarray
         phi at the lower and the upper edge of each cell, shape (n,).
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> scene.track(0.5).profile().below
+    array([0. , 0. , 0.5, 1. ])
     """
 
     z: FloatArray
@@ -42,7 +49,20 @@ class Profile:
     above: FloatArray
 
     def line(self) -> tuple[FloatArray, FloatArray]:
-        """phi and z as a line to be drawn, jumps included."""
+        """phi and z as a line to be drawn, jumps included.
+
+        Returns
+        -------
+        tuple of ndarray
+            phi and z, two of each for a cell.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.track(0.5).profile().line()[0]
+        array([0. , 0. , 0. , 0. , 0.5, 0.5, 1. , 1. ])
+        """
         return np.column_stack((self.below, self.above)).ravel(), np.repeat(self.z, 2)[1:-1]
 
 
@@ -89,25 +109,100 @@ class Tracking:
         ------
         NoResult
             If it ended before.
+
+        Parameters
+        ----------
+        t : float
+            Not before the time reached.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.track(0.1).advance(0.5)
+        'ok'
         """
         return self._engine.advance(float(t))
 
     def copy(self) -> Tracking:
-        """The same state, to go on from twice."""
+        """The same state, to go on from twice.
+
+        Returns
+        -------
+        Tracking
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> bed = scene.track(0.1)
+        >>> ahead = bed.copy()
+        >>> _ = ahead.advance(1.0)
+        >>> bed.time, ahead.time
+        (0.0, 1.0)
+        """
         return Tracking(self.scene, self._engine.copy())
 
     def profile(self) -> Profile:
-        """phi at the time reached, between walls, interfaces and fronts."""
+        """phi at the time reached, between walls, interfaces and fronts.
+
+        Returns
+        -------
+        Profile
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.track(0.5).profile().z
+        array([0.  , 0.29, 0.5 , 0.5 , 1.  ])
+        """
         return Profile(*self._engine.profile())
 
     def phi(self, z: Any) -> FloatArray:
-        """phi at heights, at the time reached."""
+        """phi at heights, at the time reached.
+
+        Parameters
+        ----------
+        z : array_like
+            Heights inside the domain, in the unit of z.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of z.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.track(0.1).phi([0.25, 0.75])
+        array([0., 1.])
+        """
         z = np.asarray(z, dtype=float)
         values: FloatArray = self._engine.at(flat(z))[0].reshape(z.shape)
         return values
 
     def M(self, z: Any) -> FloatArray:
-        """The integral of phi from the bottom up to heights, at the time reached."""
+        """The integral of phi from the bottom up to heights, at the time reached.
+
+        Parameters
+        ----------
+        z : array_like
+            Heights inside the domain, in the unit of z.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of z.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> scene.track(0.1).M(1.0).item()
+        0.5
+        """
         z = np.asarray(z, dtype=float)
         values: FloatArray = self._engine.at(flat(z))[1].reshape(z.shape)
         return values
@@ -119,6 +214,15 @@ class Tracking:
         -------
         ndarray
             Structured: layer, t_begin, z_begin, t_end, z_end, phi_below, phi_above.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> bed = scene.track(0.1)
+        >>> _ = bed.advance(0.5)
+        >>> bool((bed.fronts()["t_end"] == 0.5).all())
+        True
         """
         return self._engine.fronts().view(FRONT)
 
@@ -129,6 +233,15 @@ class Tracking:
         -------
         ndarray
             Structured: t, z, boundary, incoming, outgoing.
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> bed = scene.track(0.1)
+        >>> _ = bed.advance(0.7)
+        >>> bed.collisions()["z"].tolist()
+        []
         """
         return self._engine.collisions().view(COLLISION)
 
@@ -168,7 +281,25 @@ class Tracking:
             self.advance(until)
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the fronts; see :func:`shearfront.pictures.fronts`."""
+        """Draws the fronts; see :func:`shearfront.pictures.fronts`.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> bed = scene.track(0.1)
+        >>> _ = bed.advance(0.5)
+        >>> bed.plot().get_xlabel()
+        't'
+        """
         from . import pictures
 
         return pictures.fronts(self, ax=ax)

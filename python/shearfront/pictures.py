@@ -64,7 +64,7 @@ def profiles(of: Solution, ax: Axes | None = None) -> Axes:
         ax.plot(of.phi[i, order], of.z[order], color=colour, label=f"t = {t:.4g}")
     _interfaces(of.scene, ax)
     _label(ax, of.scene, r"$\varphi$", "z")
-    ax.legend(frameon=False, fontsize="small")
+    ax.legend(framealpha=0.8, edgecolor="none", fontsize="small")
     return ax
 
 
@@ -137,8 +137,8 @@ def map(of: Scene, until: float, ax: Axes | None = None, *, method: str = "exact
     --------
     >>> import shearfront as sf
     >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-    >>> sf.pictures.map(scene, 6.5).get_xlim()
-    (np.float64(0.0), np.float64(6.5))
+    >>> sf.pictures.map(scene, 6.5).get_xlabel()
+    't'
     """
     ax = _axes(ax, (6.4, 4.2))
     t = (np.arange(_MAP_TIMES) + 0.5) * (until / _MAP_TIMES)
@@ -229,7 +229,7 @@ def fit(of: Fit, ax: Axes | None = None, *, most_times: int = 6) -> Axes:
         ax.errorbar(seen.value[rows], seen.z[rows], xerr=error, yerr=height, fmt="o", ms=3, color=colour, lw=0.8)
     _interfaces(of.scene, ax)
     _label(ax, of.scene, "M" if seen.quantity == "cumulative" else r"$\varphi$", "z")
-    ax.legend(frameon=False, fontsize="small")
+    ax.legend(framealpha=0.8, edgecolor="none", fontsize="small")
     return ax
 
 
@@ -242,7 +242,7 @@ def _fit_of_heights(of: Fit, ax: Axes) -> Axes:
         label="data",
     )  # fmt: skip
     _label(ax, of.scene, "t", "H")
-    ax.legend(frameon=False, fontsize="small")
+    ax.legend(framealpha=0.8, edgecolor="none", fontsize="small")
     return ax
 
 
@@ -283,7 +283,7 @@ def rate(of: Fit, ax: Axes | None = None, *, truth: Scene | None = None) -> Axes
     else:
         ax.set_xlim(left=0)
     _label(ax, of.scene, "s a(z)", "z")
-    ax.legend(frameon=False, fontsize="small")
+    ax.legend(framealpha=0.8, edgecolor="none", fontsize="small")
     return ax
 
 

@@ -53,6 +53,7 @@ NB_MODULE(_core, m) {
   bind_scene(m);
   bind_solve(m);
   bind_tracking(m);
+  bind_observations(m);
   bind_fit(m);
   bind_estimate(m);
   bind_misfit(m);

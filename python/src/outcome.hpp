@@ -69,6 +69,7 @@ void bind_models(nb::module_& m);
 void bind_scene(nb::module_& m);
 void bind_solve(nb::module_& m);
 void bind_tracking(nb::module_& m);
+void bind_observations(nb::module_& m);
 void bind_fit(nb::module_& m);
 void bind_estimate(nb::module_& m);
 void bind_misfit(nb::module_& m);

@@ -102,7 +102,7 @@ nb::tuple sample_places(const SharedScene& shared, const Method& method, const N
   return nb::make_tuple(views[0], views[1]);
 }
 
-/// One place: no arrays, and no lock let go, which would cost more than the answer.
+/// One place by a method that takes microseconds: no arrays, and no lock let go, which would cost more than the answer.
 std::pair<double, double> sample_place(const SharedScene& shared, const Method& method, double t, double z) {
   const PlaceSamples result = sample(*shared.scene, method, {{t, z}});
   expect_usable(result.summary);

@@ -9,8 +9,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from hypothesis import configuration, settings
 
 import shearfront as sf
+
+# The same examples in every run, and nothing kept between runs.
+configuration.set_hypothesis_home_dir(Path(__file__).resolve().parents[2] / "build" / "python" / "hypothesis")
+settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
+settings.load_profile("fixed")
 
 SOURCE = Path(__file__).resolve().parents[2]
 
@@ -29,6 +35,16 @@ def program() -> str:
     if not found:
         pytest.skip("the program is not built (scripts/build release), nor named by SHEARFRONT_PROGRAM")
     return found
+
+
+@pytest.fixture(scope="session")
+def refuses(program: str):
+    """Whether the program ends without a result."""
+
+    def call(*arguments: str) -> bool:
+        return subprocess.run([program, *arguments], capture_output=True, check=False).returncode in (1, 2)
+
+    return call
 
 
 @pytest.fixture(scope="session")

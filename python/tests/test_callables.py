@@ -72,6 +72,17 @@ def test_the_stated_error_of_fluxes(gamma: float, tolerance: float) -> None:
     assert np.abs(M[0] - M[1]).max() <= 0.7 * found.error + 2e-5
 
 
+def test_a_flux_by_its_function() -> None:
+    def f(phi: np.ndarray) -> np.ndarray:
+        return -phi * (1 - phi) * (1 - 0.5 * phi)
+
+    scene = sf.Scene(shear_rate=1, initial=sf.Step(0.5), flux=f)
+    assert scene == scene.with_(flux=sf.sampled(f, kind="flux").model)
+    exact = scene.with_(flux=sf.Cubic(0.5))
+    M = [s.M(Z, 0.7, method="front-tracking", resolution=0.001) for s in (scene, exact)]
+    assert np.abs(M[0] - M[1]).max() < 2e-5
+
+
 def test_smooth_starts() -> None:
     f = lambda z: 0.5 + 0.3 * np.sin(6 * z)  # noqa: E731
     scene = sf.Scene(shear_rate=1, initial=f)

@@ -15,11 +15,18 @@ import shearfront as sf
 
 DATASETS = SOURCE / "datasets"
 SCENES = sorted(p for p in DATASETS.glob("*/scene*.toml"))
-FITS = sorted(DATASETS.glob("*/fit*.toml"))
+#: Folders and files whose fits take seconds.
+SLOW = ("dem-", "traffic-us-101", "may-2010-diffusion", "may-2010-bed-height/fit-noise", "paper-example-5/fit-paper")
 
 
 def ident(path: Path) -> str:
     return str(path.relative_to(DATASETS))
+
+
+FITS = [
+    pytest.param(path, marks=[pytest.mark.slow] if ident(path).startswith(SLOW) else [])
+    for path in sorted(DATASETS.glob("*/fit*.toml"))
+]
 
 
 def test_there_are_data_sets() -> None:
@@ -53,13 +60,19 @@ def test_solve(path: Path, run) -> None:
 
 
 @pytest.mark.parametrize("path", SCENES, ids=ident)
-def test_events(path: Path, run) -> None:
+def test_events(path: Path, run, refuses) -> None:
     scene = sf.read(path)
-    try:
-        events = scene.events()
-    except (sf.InputError, sf.NoResult):
-        pytest.skip("the exact method gives no event times of this scene")
-    expected = json.loads(run("events", str(path), "--json"))
+    found = {}
+    for method in ("exact", "front-tracking"):
+        try:
+            found[method] = scene.events(method=method)
+        except (sf.InputError, sf.NoResult):
+            assert refuses("events", str(path), "--method", method, "--json")
+    for method, events in found.items():
+        same_events(json.loads(run("events", str(path), "--method", method, "--json")), events)
+
+
+def same_events(expected: dict[str, object], events: sf.Events) -> None:
     for key in ("mass", "steady_height", "t0", "t1", "t_star"):
         assert expected[key] == getattr(events, key), key
     assert expected["interfaces"] == [{"z": i.z, "first": i.first, "last": i.last} for i in events.interfaces]

@@ -84,6 +84,18 @@ def test_keywords_are_the_same_as_a_file() -> None:
     assert file.warnings == words.warnings
 
 
+@pytest.mark.slow
+def test_options_of_the_method() -> None:
+    folder = DATASETS / "may-2010-diffusion"
+    scene = sf.read(folder / "scene-1e-2.toml")
+    words = sf.problem(
+        scene, folder / "observations.csv", ["diffusion.D", "shear_rate.values"], start=[0.03, 1.5, 0.5],
+        method="crank-nicolson", method_options={"tolerance": 1e-4},
+    )  # fmt: skip
+    assert words._engine.method.settings == sf.read_fit(folder / "fit.toml")._engine.method.settings
+    np.testing.assert_array_equal(words.run().estimates, sf.fit(folder / "fit.toml").estimates)
+
+
 def test_error_bars(may: sf.Scene, seen: sf.Observations) -> None:
     found = sf.fit(may, seen, "shear_rate.values")
     J = sf.problem(may, seen, "shear_rate.values").misfit.jacobian(found.estimates)
@@ -125,6 +137,7 @@ def test_profile_and_bootstrap(may: sf.Scene) -> None:
     assert np.sqrt(once.covariance.diagonal()) == pytest.approx(found.std_errors, rel=0.4)
 
 
+@pytest.mark.slow
 def test_draws_for_arviz(may: sf.Scene) -> None:
     pytest.importorskip("arviz")
     seen = may.observe(T, Z, quantity="cumulative", noise=1e-4)
@@ -153,6 +166,8 @@ def test_other_searches(may: sf.Scene, seen: sf.Observations) -> None:
     misfit = problem.misfit
     found = optimize.least_squares(misfit.residuals, misfit.start, misfit.jacobian, bounds=misfit.bounds, x_scale="jac")
     np.testing.assert_allclose(found.x, problem.run().estimates, rtol=1e-5)
+    again = pickle.loads(pickle.dumps(misfit))  # samplers send it to other processes
+    np.testing.assert_array_equal(again.residuals([2, 0.3]), misfit.residuals([2, 0.3]))
     assert misfit.log_likelihood([-1, 1]) == -np.inf
     assert misfit([1, -1]) == np.inf
     with pytest.raises(sf.InputError, match="one number per unknown"):
@@ -182,3 +197,33 @@ def test_models_are_compared(may: sf.Scene, seen: sf.Observations) -> None:
     other = sf.fit(may, may.observe(T, Z, quantity="cumulative"), "shear_rate.values")
     with pytest.raises(sf.InputError, match="cannot be compared"):
         sf.compare_fits({"two": two, "other": other})
+
+
+LAB = {
+    "spreadsheet": ("spreadsheet.csv", {"columns": {"t": "Zeit", "z": "Höhe", "width": "Breite", "phi": "Konzentration klein"}}),
+    "wide": ("wide.txt", {"width": 2}),
+    "percent": ("percent.csv", {"columns": {"phi_large": "large"}, "replicates": "mean", "width": 2}),
+    "chunks": ("chunks.txt", {"columns": {"phi": "v_small"}, "time_step": 0.001, "width": 2}),
+}
+
+
+@pytest.mark.parametrize("name", LAB)
+def test_files_of_laboratories(name: str) -> None:
+    """The same as the fit file beside it, whose tables say the same."""
+    file, how = LAB[name]
+    folder = DATASETS / "lab-files"
+    scene = sf.read(folder / "scene.toml")
+    seen = sf.read_data(scene, folder / file, **how)
+    expected = sf.read_fit(folder / f"fit-{name}.toml").observations
+    assert seen.to_csv() == expected.to_csv()
+    assert file in seen.understood
+
+
+def test_how_a_file_is_read_is_checked(may: sf.Scene) -> None:
+    for wrong in (
+        {"columns": {"time": "Zeit"}}, {"separator": "tabs"}, {"layout": "deep"}, {"width": -1.0}, {"replicates": "sum"},
+    ):  # fmt: skip
+        with pytest.raises(sf.InputError, match=next(iter(wrong))):
+            sf.read_data(may, "nowhere.csv", **wrong)
+    with pytest.raises(sf.InputError, match="not both"):
+        sf.data(may, "nowhere.csv", t=1)

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import ast
 import doctest
 import importlib
+import inspect
 import pkgutil
 import subprocess
 import sys
@@ -22,20 +24,33 @@ MODULES = [f"shearfront.{m.name}" for m in pkgutil.iter_modules(sf.__path__) if 
 def test_examples(name: str) -> None:
     if name.endswith("pictures"):
         pytest.importorskip("matplotlib").use("Agg")
-    for extra in {"shearfront._misfit": ["scipy"], "shearfront._solution": ["pandas", "xarray"]}.get(name, []):
+    needs = {
+        "_misfit": ["scipy"],
+        "_scene": ["matplotlib"],
+        "_tracking": ["matplotlib"],
+        "_data": ["pandas"],
+        "_study": ["pandas"],
+    }
+    needs |= {"_solution": ["pandas", "xarray", "matplotlib"], "_estimate": ["pandas", "matplotlib"]}
+    for extra in needs.get(name.removeprefix("shearfront."), []):
         pytest.importorskip(extra)
+    if "matplotlib" in sys.modules:
+        sys.modules["matplotlib"].use("Agg")
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
 
 
-def test_everything_public_has_an_example_or_is_a_result() -> None:
-    results = {"Complaint", "Events", "Interface", "Jacobian", "Solution", "Observations", "Parameter", "Prediction"}
-    results |= {"RateBand", "Bootstrap", "Fit", "Problem", "Profile", "Sampled", "Study", "Model", "NoResult", "pictures"}
+def test_everything_public_has_an_example() -> None:
+    results = {"Complaint", "Model", "pictures"}
     for name in sf.__all__:
         thing = getattr(sf, name)
         assert thing.__doc__, name
         is_model = isinstance(thing, type) and issubclass(thing, sf.Model)
         assert is_model or name in results or ">>>" in thing.__doc__, name
+        methods = [m for m in vars(thing).items() if isinstance(thing, type) and inspect.isfunction(m[1])] if not is_model else []
+        for key, method in methods:
+            if not key.startswith("_") and key != "to_arviz":
+                assert ">>>" in (method.__doc__ or ""), f"{name}.{key}"
 
 
 def run(*command: str) -> None:
@@ -45,6 +60,19 @@ def run(*command: str) -> None:
 
 def test_stubs_are_what_the_library_has() -> None:
     run("scripts/stubs.py", "--check")
+
+
+def test_the_stub_of_the_engines_names_what_is_there() -> None:
+    from shearfront import _core
+
+    stub = ast.parse((SOURCE / "python" / "shearfront" / "_core.pyi").read_text(encoding="utf-8"))
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    there = {name: value for name, value in vars(_core).items() if not name.startswith("_")}
+    assert functions | set(classes) == set(there)
+    for name, node in classes.items():
+        members = {m.name for m in node.body if isinstance(m, ast.FunctionDef)} - {"__init__"}
+        assert members == {m for m in vars(there[name]) if not m.startswith("_")}, name
 
 
 def test_types() -> None:

@@ -105,7 +105,7 @@ positive = st.floats(1e-3, 1e3)
 inside = st.lists(st.floats(0.001, 0.999), min_size=1, max_size=6, unique=True).map(sorted)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(breaks=inside, data=st.data(), scale=positive)
 def test_numbers_keep_their_bits(breaks: list[float], data: st.DataObject, scale: float) -> None:
     values = data.draw(st.lists(positive, min_size=len(breaks) + 1, max_size=len(breaks) + 1))
@@ -117,7 +117,7 @@ def test_numbers_keep_their_bits(breaks: list[float], data: st.DataObject, scale
     assert sf.Scene.from_dict(scene.to_dict()) == scene
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(name=st.text(max_size=30).filter(lambda s: s.isprintable()))
 def test_names_survive(name: str) -> None:
     scene = sf.Scene(shear_rate=1, initial=sf.Step(0.5), name=name)

@@ -95,6 +95,7 @@ def test_points_as_tables(may: sf.Scene) -> None:
         sf.study(may, [rows[0], {"initial.breaks[0]": 0.6}])
 
 
+@pytest.mark.slow
 def test_dask_workers(may: sf.Scene) -> None:
     distributed = pytest.importorskip("distributed")
     here = sf.study(may, GRID, OUTPUTS)
@@ -117,6 +118,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_mpi_ranks(may: sf.Scene, tmp_path: Path) -> None:
     import pickle
 

@@ -59,6 +59,19 @@ class FitFiles : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(FitFiles, OfASceneAndObservationsInMemoryIsThatOfTheFiles) {
+  const Scene<double> scene = parse_scene<double>(kScene, "scene");
+  const std::string settings = kFit.substr(kFit.find("[unknown]"));
+  const FitFile memory = parse_fit(settings, "fit", scene, parse_observations(kData, "data", scene));
+  const Estimate expected = fit(parse(kFit)), found = fit(memory.spec);
+  ASSERT_TRUE(found.usable());
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(found.parameters.at(i).estimate, expected.parameters.at(i).estimate);
+  EXPECT_EQ(memory.scene + memory.observations, "");
+  // Names of files have no place beside them.
+  EXPECT_THROW((void)parse_fit(kFit, "fit", scene, parse_observations(kData, "data", scene)), FileError);
+}
+
 TEST_F(FitFiles, DefaultsAreThoseOfTheSpecification) {
   const FitSpec spec = parse(kFit);
   EXPECT_EQ(spec.name, "fit");
