@@ -14,7 +14,7 @@ sys.path.insert(0, str(HERE / "_extensions"))
 
 project = "shearfront"
 author = "the shearfront authors"
-copyright = "the shearfront authors, BSD-3-Clause"  # noqa: A001  (a name of Sphinx)
+copyright = "the shearfront authors, BSD-3-Clause"
 version = release = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE).group(1)
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links", "interfaces"]

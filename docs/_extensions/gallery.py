@@ -98,7 +98,7 @@ def _of_gallery(pictures):
 
 def _image(picture, page):
     up = "../" * page.count("/")
-    return f'{up}_images/gallery/{picture.name}{picture.file.suffix}'
+    return f"{up}_images/gallery/{picture.name}{picture.file.suffix}"
 
 
 class Thumbnails(SphinxDirective):
@@ -114,12 +114,13 @@ class Thumbnails(SphinxDirective):
             self.env.note_dependency(str(picture.script))
         self.env.note_dependency(__file__)
         up = "../" * page.count("/")
-        wanted = [line.partition(": ")[::2] for line in self.content if line.strip()] or [
-            (p.name, p.title) for p in _of_gallery(pictures)
-        ]
+        wanted = [line.partition(": ")[::2] for line in self.content if line.strip()]
+        if not wanted:
+            wanted = [(p.name, p.title) for p in _of_gallery(pictures)]
         size = " large" if len(wanted) < 4 else ""
         cells = "".join(
-            f'<a href="{up}gallery/index.html#{name}"><img src="{_image(pictures[name], page)}" alt="{pictures[name].title}">{text}</a>'
+            f'<a href="{up}gallery/index.html#{name}">'
+            f'<img src="{_image(pictures[name], page)}" alt="{pictures[name].title}">{text}</a>'
             for name, text in wanted
         )
         return [nodes.raw("", f'<div class="thumbnails{size}">{cells}</div>', format="html")]

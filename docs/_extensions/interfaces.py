@@ -4,9 +4,10 @@ Python package)."""
 
 import pathlib
 
-import shearfront
 from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
+
+import shearfront
 
 
 class Header(SphinxDirective):

@@ -13,7 +13,7 @@ def _read(app, name, source):
     root = pathlib.Path(app.srcdir).resolve()
 
     def replaced(match):
-        text, target, anchor = match.groups()
+        text, target = match.group(1, 2)
         path = (page / target).resolve()
         if path.is_relative_to(root) and not path.is_dir():
             return match.group(0)

@@ -1,8 +1,9 @@
 # A fan
-# Small grains above large ones, one layer. Left: φ(z) at three times. Right: the waves in the (t, z) plane; each line carries one
-# concentration. The lines leave a point and spread: that is the mixing.
+# Small grains above large ones, one layer. Left: φ(z) at three times. Right: the waves in the (t, z) plane; each line carries
+# one concentration. The lines leave a point and spread: that is the mixing.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))

@@ -1,8 +1,10 @@
 # The flux and its slopes
-# Left: f(φ) = φ (φ - 1), what passes a height for s a = 1; negative, because small grains move down. Its slope at φ is the speed
-# of a wave of that concentration: pure large grains (φ = 0) send waves down, pure small ones (φ = 1) up. Right: the speeds.
+# Left: f(φ) = φ (φ - 1), what passes a height for s a = 1; negative, because small grains move down. Its slope at φ is the
+# speed of a wave of that concentration: pure large grains (φ = 0) send waves down, pure small ones (φ = 1) up. Right: the
+# speeds.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))

@@ -1,9 +1,11 @@
 # At an interface
-# A jump of s a from 2.4 (below) to 0.31 (above). Left: the two fluxes. What comes down from above with φ = 0.3 has the flux of the
-# dashed line; below the interface the same flux belongs to φ = 0.028 (and to 0.972, which waves cannot carry away from
-# there). No more than the lowest point of the flatter curve ever passes. Right: φ around z = 0.29 when the fan has crossed: φ jumps, the flux does not.
+# A jump of s a from 2.4 (below) to 0.31 (above). Left: the two fluxes. What comes down from above with φ = 0.3 has the flux of
+# the dashed line; below the interface the same flux belongs to φ = 0.028 (and to 0.972, which waves cannot carry away from
+# there). No more than the lowest point of the flatter curve ever passes. Right: φ around z = 0.29 when the fan has crossed: φ
+# jumps, the flux does not.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

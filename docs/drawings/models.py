@@ -1,7 +1,8 @@
 # Three models of the same data
-# s a(z) by each of the three fits, with 95 % bands, and the truth dashed. The bands of the wrong models are narrow too: they know
-# nothing of being wrong.
+# s a(z) by each of the three fits, with 95 % bands, and the truth dashed. The bands of the wrong models are narrow too: they
+# know nothing of being wrong.
 import matplotlib.pyplot as plt
+
 import shearfront as sf
 
 truth = sf.read("datasets/paper-example-5/scene.toml")

@@ -2,6 +2,7 @@
 # All fronts of the bed of this page, and φ(z) at three times.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.Scene(

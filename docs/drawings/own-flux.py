@@ -2,6 +2,7 @@
 # Left: the law of this page (line) beside φ (φ - 1) (dashed). Right: its fronts; a fan can end in a shock now.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 

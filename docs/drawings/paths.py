@@ -1,9 +1,10 @@
 # Cheapest paths
 # Where the grains below a height came from: the cheapest path to each of some points, followed back with the speed of its wave.
-# Left: in the shear cell of May, Shearer and Daniels paths are bent where the rate changes. Right: with the slow layer below, some
-# paths arrive at the interface, rest there (thick), because no more can pass, and go on.
+# Left: in the shear cell of May, Shearer and Daniels paths are bent where the rate changes. Right: with the slow layer below,
+# some paths arrive at the interface, rest there (thick), because no more can pass, and go on.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 
@@ -18,17 +19,17 @@ def path(scene, z, t):
         v = a * np.sqrt(max(0.0, 1 - 4 * H / a)) * (1 if up else -1)
         edge = 0.29 if (z - 0.29) * v > 1e-9 else None  # where it came from: against its speed
         if abs(v) < 1e-6:
-            return corners + [(0.0, z)]
+            return [*corners, (0.0, z)]
         start = t if edge is None else (z - edge) / v
         if edge is None or start >= t:
-            return corners + [(0.0, z - v * t)]
+            return [*corners, (0.0, z - v * t)]
         t, z = t - start, edge
         corners.append((t, z))
         across = float(scene.shear_rate(z + (-1e-6 if up else 1e-6)))
-        if 4 * H > across * (1 - 1e-9):  # nothing comes from there: it rested, and came from the side of its jump
+        if across * (1 - 1e-9) < 4 * H:  # nothing comes from there: it rested, and came from the side of its jump
             a = float(scene.shear_rate(z + 1e-6))
             arrived = (0.5 - z) / (a * np.sqrt(1 - 4 * H / a))
-            return corners + [(arrived, z), (0.0, 0.5)]
+            return [*corners, (arrived, z), (0.0, 0.5)]
     return corners
 
 

@@ -1,8 +1,9 @@
 # Why points are bad and bins are good
-# What a sensor at z = 0.88 would see at t = 1.5 against the rate of the highest of five layers. The value at a point jumps when the
-# shock passes; its slope says nothing of that. The mean over a bin 0.1 wide slides, the amount below has a kink.
+# What a sensor at z = 0.88 would see at t = 1.5 against the rate of the highest of five layers. The value at a point jumps when
+# the shock passes; its slope says nothing of that. The mean over a bin 0.1 wide slides, the amount below has a kink.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/paper-example-4/scene.toml")

@@ -1,8 +1,9 @@
 # The flux as a polygon
-# With corners at steps of 0.2 (left) the curve becomes a polygon, and the fan (right) five jumps with constant speeds, the slopes
-# of its sides.
+# With corners at steps of 0.2 (left) the curve becomes a polygon, and the fan (right) five jumps with constant speeds, the
+# slopes of its sides.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Step(0.5))

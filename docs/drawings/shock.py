@@ -1,8 +1,9 @@
 # A shock
-# Large grains above small ones below: φ falls upwards from 0.9 to 0.3. Left: the lines of both sides run into each other, and one
-# jump remains. Right: its speed is the slope of the chord between the two states on the flux.
+# Large grains above small ones below: φ falls upwards from 0.9 to 0.3. Left: the lines of both sides run into each other, and
+# one jump remains. Right: its speed is the slope of the chord between the two states on the flux.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 low, high = 0.9, 0.3

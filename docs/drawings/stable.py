@@ -1,7 +1,8 @@
 # The two orders
-# Left: small above large, a fan opens, the bed mixes and then segregates. Right: a mixture above small grains, large grains above
-# a mixture: only shocks, they bring the pure states.
+# Left: small above large, a fan opens, the bed mixes and then segregates. Right: a mixture above small grains, large grains
+# above a mixture: only shocks, they bring the pure states.
 import matplotlib.pyplot as plt
+
 import shearfront as sf
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.8), layout="constrained")

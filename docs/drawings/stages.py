@@ -3,6 +3,7 @@
 # segregates, at rest.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

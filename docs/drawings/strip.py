@@ -1,7 +1,7 @@
 # Front tracking step by step
 # Six moments of one run with five fronts in the fan. Above: all fronts so far, collisions as dots. Below: φ(z) at that moment.
 import matplotlib.pyplot as plt
-import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

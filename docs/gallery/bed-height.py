@@ -2,6 +2,7 @@
 # Mixed grains pack closer: the bed sinks while it mixes and rises while it segregates. This is what a shear cell records.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-bed-height/scene.toml")

@@ -2,6 +2,7 @@
 # 300 synthetic data sets, each fitted anew: what the noise leaves possible. Cross: the estimate; circle: the truth.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 truth = sf.Scene(shear_rate=sf.Exponential(2.0, 0.4), initial=sf.Step(0.5))

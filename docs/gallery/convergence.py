@@ -2,6 +2,7 @@
 # Front tracking against the exact solution: φ is of first order in the resolution, M of second.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

@@ -2,6 +2,7 @@
 # The shear cell of May, Shearer and Daniels, without diffusion (left) and with D = 0.01 (right): fronts become layers of finite
 # width, and the bed is never quite segregated.
 import matplotlib.pyplot as plt
+
 import shearfront as sf
 
 sharp = sf.read("datasets/may-2010-piecewise/scene.toml")

@@ -2,6 +2,7 @@
 # A spreadsheet of small grains at 21 heights and 15 times: measured and fitted φ, and s a(z) with the band that holds it with
 # 95 %. Dashed: the bed that made the data.
 import matplotlib.pyplot as plt
+
 import shearfront as sf
 
 fit = sf.read_fit("datasets/lab-files/fit-percent.toml").run()

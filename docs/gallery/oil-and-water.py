@@ -1,6 +1,8 @@
 # Oil and water
-# Water pushes oil out of a rock (Buckley and Leverett): a shock with a fan behind it, which no flux that bends one way can have.
+# Water pushes oil out of a rock (Buckley and Leverett): a shock with a fan behind it, which no flux that bends one way can
+# have.
 import numpy as np
+
 import shearfront as sf
 
 rock = sf.Scene(

@@ -3,6 +3,7 @@
 # godunov, made for this case, does not.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/packing-example-4/scene-large.toml")

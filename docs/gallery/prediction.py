@@ -2,6 +2,7 @@
 # φ(z) at a time at which nobody measured, with the 95 % band that follows from the noise of the data.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 truth = sf.Scene(shear_rate=sf.Exponential(2.0, 0.4), initial=sf.Step(0.5))

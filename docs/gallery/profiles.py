@@ -1,6 +1,7 @@
 # Profiles of φ
 # Exact φ over height at five times: first a fan opens, then pure grains grow from both walls.
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

@@ -1,7 +1,9 @@
 # What each rate changes
-# Exact derivatives of M, the amount of small grains below a height, by the rates of both layers: where to measure to learn them.
+# Exact derivatives of M, the amount of small grains below a height, by the rates of both layers: where to measure to learn
+# them.
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")

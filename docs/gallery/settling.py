@@ -1,5 +1,6 @@
 # Settling
-# 15 % of spheres in a column half a metre high (Richardson and Zaki). The clear liquid grows from above, the sediment from below.
+# 15 % of spheres in a column half a metre high (Richardson and Zaki). The clear liquid grows from above, the sediment from
+# below.
 import shearfront as sf
 
 column = sf.read("datasets/settling-column/scene.toml")

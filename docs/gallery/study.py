@@ -3,6 +3,7 @@
 # the first wave come to the bottom?
 import matplotlib.pyplot as plt
 import numpy as np
+
 import shearfront as sf
 
 scene = sf.read("datasets/may-2010-piecewise/scene.toml")
