@@ -9,7 +9,7 @@
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/io/file_error.hpp"
 
-/// Fit files (TOML; the format is described in docs/formats).
+/// Fit files (TOML; the format is described in docs/reference/formats).
 namespace shearfront::fit {
 
 /// [compare]: shear rates that are fitted to the same observations in place of the scene's own. The entries of each are

@@ -12,7 +12,7 @@
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/observation.hpp"
 
-/// Files of observations (CSV; the format is described in docs/formats).
+/// Files of observations (CSV; the format is described in docs/reference/formats).
 namespace shearfront {
 
 class OutputFile;

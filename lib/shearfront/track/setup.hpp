@@ -23,7 +23,7 @@ namespace shearfront {
 
 /// Number of layers of the staircase that stands for a smooth a(z): proportional to the variation of ln a
 /// and ln c over the domain and to 1 / resolution, so that the steps of the staircase contribute less to the
-/// error of phi than those of the fans (measured in docs/accuracy.md). 1 for a constant a(z).
+/// error of phi than those of the fans (measured in docs/evidence/accuracy.md). 1 for a constant a(z).
 template <Real Scalar>
 [[nodiscard]] std::size_t staircase_layers(const Scene<Scalar>& scene, const Scalar& resolution) {
   constexpr int kSamples = 4096;

@@ -46,7 +46,7 @@ struct RunLimits {
 ///   (4) equal input gives bitwise equal output; advance_to(t1), advance_to(t2) equals advance_to(t2), and so
 ///       does a copy;
 ///   (5) observers cannot steer.
-/// What rounding costs in the worst cases: docs/stability.md.
+/// What rounding costs in the worst cases: docs/evidence/stability.md.
 /// A Tracker is a value: copy it to keep a state to return to.
 /// Cost: O(log n) per event for n fronts that are about to meet; memory 64 bytes per front (double).
 ///

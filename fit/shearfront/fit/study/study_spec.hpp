@@ -72,7 +72,7 @@ struct StudySpec {
   std::optional<FitFile> fit_file;  ///< of design fit and replicates
 };
 
-/// Reads a study file (docs/formats). Errors: FileError with every complaint.
+/// Reads a study file (docs/reference/formats). Errors: FileError with every complaint.
 [[nodiscard]] StudySpec read_study(const std::string& path);
 
 }  // namespace shearfront::fit
