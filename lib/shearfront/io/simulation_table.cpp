@@ -56,8 +56,8 @@ std::pair<std::string_view, std::size_t> name_and_width(std::string_view field) 
   const std::size_t dash = range.find('-');
   const auto from = parse_count(range.substr(0, dash));
   const auto to = dash == std::string_view::npos ? from : parse_count(range.substr(dash + 1));
-  constexpr unsigned long long kMostColumns = 100;
-  if (!from || !to || *to < *from || *to - *from >= kMostColumns) return {field, 1};
+  constexpr unsigned long long kWidest = 100;
+  if (!from || !to || *to < *from || *to - *from >= kWidest) return {field, 1};
   return {field.substr(colon + 1), static_cast<std::size_t>(*to - *from + 1)};
 }
 
