@@ -175,7 +175,7 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 }
 
 int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
-                  const std::vector<double>& times) {
+                  const std::vector<double>& times, const std::vector<Method>& others) {
   SolverRequest request;
   request.times = times;
   request.heights = equally_spaced(scene.bottom(), scene.top(), kProfileHeights);
@@ -187,7 +187,16 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
   picture.add_file("profiles.csv", write(solve(scene, method, request)));
-  const bool compare = !method.guarantees().exact;
+  std::string names;
+  for (const Method& other : others) {
+    const SolverResult result = solve(scene, other, request);
+    if (!result.summary.usable()) return report_unusable(result.summary);
+    names += (names.empty() ? "" : " ") + std::string(other.name());
+    picture.add_file(fmt::format("other{}.csv", 1 + std::count(names.begin(), names.end(), ' ')),
+                     write(result));
+  }
+  picture.set("others", names);
+  const bool compare = !method.guarantees().exact && others.empty();
   const SolverResult exact = compare ? solve(scene, Method(), request) : SolverResult{};
   picture.set("has_exact", exact.summary.usable());
   if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));
