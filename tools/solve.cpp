@@ -37,6 +37,7 @@ struct Task {
   Scene<double> scene;
   Method method;
   std::vector<double> times;
+  std::vector<Method> others = {};  ///< in the picture of profiles
 };
 
 SolvedQuantity quantity_of(const SolveArguments& arguments) {
@@ -204,7 +205,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
     code = request.fronts ? draw_fronts(arguments.plot, task.scene, result.fronts,
                                         result.timeline.value_or(Timeline<double>{}),
                                         number_of(task.method, "resolution"))
-                          : draw_profiles(arguments.plot, task.scene, task.method, times);
+                          : draw_profiles(arguments.plot, task.scene, task.method, times, task.others);
   if (arguments.map.empty() || code != kDone) return code;
   const double t_end = last_time(times);
   return draw_map(arguments.map, task.scene, task.method,
@@ -212,12 +213,17 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
 }
 
 int solve_scene(SolveArguments& arguments) {
-  const Method method = arguments.method.method();
+  std::vector<Method> methods = arguments.method.methods();
+  const Method method = methods.front();
+  methods.erase(methods.begin());
+  if (!methods.empty() && (arguments.plot.empty() || !arguments.fronts.empty()))
+    refuse("--method", fmt::format("{},{}", method.name(), methods.front().name()),
+           "must be one, unless --plot draws the profiles of several");
   check_arguments(arguments, method);
   const auto scene = arguments.scene.read();
   if (arguments.scene.draws() && arguments.json)
     throw InputError("--json", "", "must not be given with a fit file or [uncertain], whose bands are CSV");
-  const Task task{scene, method, times_of(arguments, scene, method)};
+  const Task task{scene, method, times_of(arguments, scene, method), std::move(methods)};
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);
 }

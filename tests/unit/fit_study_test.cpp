@@ -224,7 +224,7 @@ TEST(StudyFile, RefusesWhatCannotBe) {
       {kScene + kTwo + kOutputs, "must be another than grid: shear_rate.values[0] has a distribution"},
       {kScene + kTwo + "[design]\nkind = \"random\"\n" + kOutputs, "design.runs: missing"},
       {kScene + kTwo + design("random", 3), "outputs: missing"},
-      {kScene + kTwo + design("random", 3) + "[outputs]\n", "must ask for events or quantities"},
+      {kScene + kTwo + design("random", 3) + "[outputs]\n", "must ask for events, quantities or estimates"},
       {kScene + kTwo + design("random", 3) + "[outputs]\nevents = [\"t2\"]\n",
        "must be of: t_0, t_1, t*, t_c(1), t^_c(1)"},
       {kScene + kTwo + design("random", 3) + "[outputs]\nquantities = [\"phi\"]\ntimes = [1]\n",

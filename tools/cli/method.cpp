@@ -74,6 +74,15 @@ Method MethodArguments::method() const {
   return with(name_);
 }
 
+std::vector<Method> MethodArguments::methods() const {
+  std::vector<Method> all;
+  for (const std::string_view name : split(name_, ',')) {
+    (void)choice_option("--method", name, Method::names());
+    all.push_back(with(name));
+  }
+  return all;
+}
+
 double number_of(const Method& method, std::string_view option) {
   double number = 0;
   method.visit_options([&]<class Value>(const OptionInfo& info, const Value& value) {

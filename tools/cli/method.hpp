@@ -23,6 +23,8 @@ class MethodArguments {
   /// The solver with its options. Those that only other solvers have are checked and change nothing, which is said on
   /// standard error. Errors: InputError for the first option with a value that is not allowed.
   [[nodiscard]] Method method() const;
+  /// Several, where --method may be a list; each with those of the options that it has.
+  [[nodiscard]] std::vector<Method> methods() const;
   /// Whether an option was given.
   [[nodiscard]] bool has(std::string_view option) const;
   /// Another solver with those of the options that it has.

@@ -9,7 +9,7 @@
 # Variables: those of fit.gp, and
 #            is_rate_unknown   1 if anything about s or a was
 #            has_truth    1 if there is truth.csv
-#            estimates    'shear_rate.values[0]=2.4±0.1 ...', words
+#            estimates    'values[0]=2.4±0.1 ...', words
 #            rate_symbol       '{/:Italic a}' or with the scale '{/:Italic s} {/:Italic a}'
 if (!exists("is_rate_unknown")) is_rate_unknown = 1
 if (!exists("rate_symbol")) rate_symbol = '{/:Italic a}'
@@ -23,7 +23,7 @@ eval set_subtitle
 # The estimates below the legend, where they are few.
 estimates_text = ''
 do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
-set label 1001 estimates_text noenhanced at screen 0.44,0.29 left font sprintf(',%.2f', 0.75 * letters) textcolor rgb '#303030'
+set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', 0.7 * letters) textcolor rgb '#303030'
 left = 0.08
 right = 0.42
 bottom = 0.095

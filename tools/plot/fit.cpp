@@ -31,8 +31,9 @@ void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate&
   constexpr std::size_t kMostEstimates = 7;
   std::string estimates;
   for (const fit::ParameterEstimate& p : estimate.parameters)
-    estimates += fmt::format("{}{}={:.4g}{}", estimates.empty() ? "" : " ", p.name, p.estimate,
-                             p.std_error ? fmt::format("±{:.2g}", *p.std_error) : "");
+    estimates +=
+        fmt::format("{}{}={:.4g}{}", estimates.empty() ? "" : " ", p.name.substr(p.name.find('.') + 1),
+                    p.estimate, p.std_error ? fmt::format("±{:.2g}", *p.std_error) : "");
   picture.set("estimates", estimate.parameters.size() > kMostEstimates ? "" : estimates);
   picture.set("symbol", is_cumulative ? "{/:Italic M}" : "{/:Italic φ}");
   picture.set("unit_t", without_markup(data.units.t));

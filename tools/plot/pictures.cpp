@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -49,18 +52,47 @@ double least_shock(const Scene<double>& scene, const std::vector<FrontSegment<do
   return std::min(least, 0.5);
 }
 
-/// All shocks, and of the others those that some of 60 states lie between: more of a fan are a moire or a solid area.
+/// c a f(phi / c) at a height: what a front keeps on its way through the layers.
+double flux_at(const Scene<double>& scene, double z, double phi) {
+  const SceneSpec<double>& spec = scene.spec();
+  const auto i =
+      std::upper_bound(spec.flux_breaks.begin(), spec.flux_breaks.end(), z) - spec.flux_breaks.begin();
+  const double c = scene.solid_fraction_at(z);
+  return c * scene.rate_at(z) * spec.fluxes[static_cast<std::size_t>(i)].value(phi / c);
+}
+
+/// Few fronts as they are. Of many all shocks, of the others those that some of 80 states lie between, wherever they go from
+/// there: more of a fan are a moire or a solid area. The states are closer to each other at both ends, where a fan from a slow
+/// layer ends up in a fast one.
 std::vector<FrontSegment<double>> thinned(const Scene<double>& scene,
                                           const std::vector<FrontSegment<double>>& fronts, double least) {
-  constexpr double kMostStates = 60;
+  constexpr double kMostStates = 80, kSteps = 1e7;  // of fluxes, to be found again
+  constexpr std::size_t kFewFronts = 600;
+  if (fronts.size() <= kFewFronts) return fronts;
   const StateRange<double> states = states_of(scene);
   const auto state = [&](double phi) {
-    return std::floor((phi - states.lowest) / (states.highest - states.lowest) * kMostStates);
+    const double part = std::clamp((phi - states.lowest) / (states.highest - states.lowest), 0.0, 1.0);
+    return std::floor(std::asin(std::sqrt(part)) * 2 / std::numbers::pi * kMostStates);
   };
+  double largest = 0;
+  const auto fluxes = [&](const FrontSegment<double>& f) {
+    const double z = std::isfinite(f.z_end) ? (f.z_begin + f.z_end) / 2 : f.z_begin;
+    return std::minmax({flux_at(scene, z, f.phi_below), flux_at(scene, z, f.phi_above)});
+  };
+  for (const auto& f : fronts) largest = std::max(largest, std::abs(fluxes(f).first));
+  const auto key = [&](const FrontSegment<double>& f) {
+    const auto [low, high] = fluxes(f);
+    return std::pair(std::llround(low / largest * kSteps), std::llround(high / largest * kSteps));
+  };
+  const auto is_shock = [&](const FrontSegment<double>& f) {
+    return std::abs(f.phi_above - f.phi_below) > least;
+  };
+  std::set<std::pair<long long, long long>> shown;
+  for (const auto& f : fronts)
+    if (!is_shock(f) && state(f.phi_above) != state(f.phi_below)) shown.insert(key(f));
   std::vector<FrontSegment<double>> kept;
   for (const auto& f : fronts)
-    if (std::abs(f.phi_above - f.phi_below) > least || state(f.phi_above) != state(f.phi_below))
-      kept.push_back(f);
+    if (is_shock(f) || shown.contains(key(f))) kept.push_back(f);
   return kept;
 }
 
@@ -143,7 +175,7 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
 }
 
 int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
-                  const std::vector<double>& times) {
+                  const std::vector<double>& times, const std::vector<Method>& others) {
   SolverRequest request;
   request.times = times;
   request.heights = equally_spaced(scene.bottom(), scene.top(), kProfileHeights);
@@ -155,7 +187,16 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
   picture.add_file("profiles.csv", write(solve(scene, method, request)));
-  const bool compare = !method.guarantees().exact;
+  std::string names;
+  for (const Method& other : others) {
+    const SolverResult result = solve(scene, other, request);
+    if (!result.summary.usable()) return report_unusable(result.summary);
+    names += (names.empty() ? "" : " ") + std::string(other.name());
+    picture.add_file(fmt::format("other{}.csv", 1 + std::count(names.begin(), names.end(), ' ')),
+                     write(result));
+  }
+  picture.set("others", names);
+  const bool compare = !method.guarantees().exact && others.empty();
   const SolverResult exact = compare ? solve(scene, Method(), request) : SolverResult{};
   picture.set("has_exact", exact.summary.usable());
   if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));

@@ -19,10 +19,10 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
                 const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline,
                 double resolution);
 
-/// Profiles at some times; a method that is not exact gets the exact profile as a thin line on top
-/// (profiles.gp).
+/// Profiles at some times, and those of other methods dashed; a method that is not exact gets the exact profile as a thin
+/// line on top (profiles.gp).
 int draw_profiles(const std::string& path, const Scene<double>& scene, const Method& method,
-                  const std::vector<double>& times);
+                  const std::vector<double>& times, const std::vector<Method>& others = {});
 
 /// phi over t (from 0) and z (map.gp).
 int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end);

@@ -2,8 +2,10 @@
 #
 # profiles.csv   t,z,phi,M   as written by `shearfront solve -o`: the same heights at every time
 # exact.csv      the same by the exact method, drawn as thin lines on top
+# other1.csv, other2.csv, ...   the same by other methods, dashed
 #
-# Variables: times               words, in the order of the file
+# Variables: others              their names, words
+#            times               words, in the order of the file
 #            has_exact           1 if there is exact.csv
 #            z_low, z_high       bottom and top
 #            phi_low, phi_high   states of the bed
@@ -16,6 +18,7 @@ if (!exists("times")) {  # one profile, of unknown time
   times = 'unknown'
 }
 if (!exists("has_exact")) has_exact = 0
+if (!exists("others")) others = ''
 if (!exists("z_low")) z_low = 0
 if (!exists("z_high")) z_high = 1
 if (!exists("phi_low")) phi_low = 0
@@ -45,6 +48,10 @@ n = STATS_records / n_times
 t_of(i) = real(word(times, i))
 line_width = has_exact ? 2.4 : 2.0
 exact = has_exact ? 'exact.csv' : 'profiles.csv'
+n_others = words(others)
+other(j) = n_others == 0 ? 'profiles.csv' : sprintf('other%d.csv', j)
+dash_of(j) = 2 + j % 4
+dark_of(k) = 'black'
 unit = unit_t eq '' ? '' : ' ' . unit_t
 dash(i) = t_of(i) == 0 ? 2 : 1  # the start is seen between lines on top of it
 if (n_times <= words(many_colours)) {
@@ -53,8 +60,11 @@ if (n_times <= words(many_colours)) {
       with lines lw line_width dt dash(n_times-k+1) lc rgb word(many_colours, n_times-k+1) notitle, \
     for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
       with lines lw 0.8 lc rgb 'black' notitle, \
+    for [j=1:n_others] for [k=1:n_times] other(j) using "phi":"z" every ::((k-1)*n)::(k*n-1) \
+      with lines lw 1.3 dt dash_of(j) lc rgb dark_of(k) notitle, \
     for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)).unit, \
-    for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact'
+    for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact', \
+    for [j=1:n_others] keyentry with lines lw 1.3 dt dash_of(j) lc rgb 'black' title word(others, j)
 } else {  # too many to be named
   eval "set palette defined (" . phi_palette . ")"
   first = t_of(1)

@@ -76,7 +76,7 @@ round_up(x) = round_up_with(x, 10**floor(log10(x)))
 
 is_narrow = scale < 0.75
 # Steps of tics that leave room for their labels.
-steps_of(range) = round_up(range / (is_narrow ? 4.0 : 7.0))
+steps_of(range) = round_up(range / (is_narrow ? 5.0 : 7.0))
 # Right above the axes, in a line that the title leaves free; above everything where there are panels.
 if (!exists("is_subtitle_below")) is_subtitle_below = 0
 if (subtitle ne '' && !is_panels && !is_subtitle_below) title = title . "\n"

@@ -28,6 +28,21 @@ std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const
   return std::nullopt;
 }
 
+/// Where no line has names that are known and the first no commas: the line that semicolons or tabs take apart into the most
+/// fields is the one whose names are to be said.
+void guess_header(std::string_view text, const std::vector<std::size_t>& lines, Dialect& found) {
+  std::vector<CsvField> fields;
+  if (lines.empty() || (!split_csv(line_at(text, lines[0]), fields, ',') && fields.size() > 1)) return;
+  std::size_t most = 1;
+  for (const std::size_t line : lines)
+    for (const char separator : {';', '\t'}) {
+      if (split_csv(line_at(text, line), fields, separator) || fields.size() <= most) continue;
+      most = fields.size();
+      found.separator = separator;
+      found.header = line;
+    }
+}
+
 }  // namespace
 
 std::string Dialect::text() const {
@@ -80,9 +95,8 @@ Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {
     found.separator = ' ';
     return found;
   }
-  if (is_asked_wide || !search(is_header_of_rows)) {
-    if (!is_asked_rows) (void)search(is_wide);
-  }
+  const bool is_found = (!is_asked_wide && search(is_header_of_rows)) || (!is_asked_rows && search(is_wide));
+  if (!is_found && !format.separator) guess_header(text, lines, found);
   if (lines.empty()) return found;
   const std::size_t below = found.header + line_at(text, found.header).size() + 1;
   const std::vector<std::size_t> next =
