@@ -174,8 +174,8 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
     out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
     if (const std::size_t n = table.n_kinks(); n > 0)
       out.write(fmt::format(
-          "\n{} where only the slope of the bed jumps, the points of a table: --json lists them\n",
-          n == 1 ? std::string("1 height") : fmt::format("{} heights", n)));
+          "\n{} left out where only the slope of the bed jumps, as at points of a table: --json has {}\n",
+          n == 1 ? std::string("1 height is") : fmt::format("{} heights are", n), n == 1 ? "it" : "them"));
     if (table.forms.t0)
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "

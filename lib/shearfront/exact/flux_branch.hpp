@@ -55,18 +55,18 @@ class FluxBranch {
     return pieces_[i];
   }
 
+  /// From the nearer end.
   [[nodiscard]] Scalar lack(const Scalar& d) const {
-    if (is_in_last(d)) return d * (kink_ + d * (square_ + d * cube_));
+    if (is_by_peak(d)) return d * (kink_ + d * (square_ + d * cube_));
     const Scalar m = reach_ - d;
-    return Scalar(1) - piece_at(m).at(m);
+    return Scalar(1) - height_beside(m);
   }
   [[nodiscard]] Scalar slope(const Scalar& d) const {
-    if (is_in_last(d)) return kink_ + d * (Scalar(2) * square_ + Scalar(3) * d * cube_);
-    const Scalar m = reach_ - d;
-    return piece_at(m).slope_at(m);
+    if (is_by_peak(d)) return kink_ + d * (Scalar(2) * square_ + Scalar(3) * d * cube_);
+    return slope_beside(Scalar(reach_ - d));
   }
   [[nodiscard]] Scalar bend(const Scalar& d) const {
-    if (is_in_last(d)) return Scalar(2) * square_ + Scalar(6) * d * cube_;
+    if (is_by_peak(d)) return Scalar(2) * square_ + Scalar(6) * d * cube_;
     const Scalar m = reach_ - d;
     return -piece_at(m).bend_at(m);
   }
@@ -89,7 +89,7 @@ class FluxBranch {
     using std::sqrt;
     const Scalar& begin = pieces_.back().begin;
     const Scalar most = reach_ - begin;
-    if (begin > 0 && e > lack(most)) return reach_ - distance(Scalar(Scalar(1) - e));
+    if (begin > 0 && e > Scalar(1) - pieces_.back().G0) return reach_ - distance(Scalar(Scalar(1) - e));
     if (square_ == 0 && cube_ == 0) return std::min(most, Scalar(e / kink_));
     const Scalar root = sqrt(e);
     const Scalar guess = kink_ > 0 ? first_guess(kink_, square_, e)
@@ -110,8 +110,8 @@ class FluxBranch {
   }
 
  private:
-  [[nodiscard]] bool is_in_last(const Scalar& d) const {
-    return pieces_.size() == 1 || d <= reach_ - pieces_.back().begin;
+  [[nodiscard]] bool is_by_peak(const Scalar& d) const {
+    return d + d < reach_ && d <= reach_ - pieces_.back().begin;
   }
   /// Of a parabola; where that does not come so far, of a line.
   [[nodiscard]] static Scalar first_guess(const Scalar& slope, const Scalar& square, const Scalar& y) {

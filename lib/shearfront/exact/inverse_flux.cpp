@@ -39,40 +39,37 @@ InverseFlux<Scalar>::InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
       kink_[up] =
           size(flux_.secant(extremum_, Scalar(up == is_concave_ ? extremum_ - near : extremum_ + near))) *
           width_ / depth_;
-  with_model(flux_, [&]<class Model>(const Model& f) {
-    if constexpr (degree_between_joints<Model>() <= 3)
-      for (const bool up : {false, true}) branches_.push_back(branch_of(f, up));
-  });
+  if (flux_.degree_between_joints() <= 3)
+    for (const bool up : {false, true}) branches_.push_back(branch_of(up));
 }
 
-/// From the slopes and bends inside the pieces: at joints a model says those of one side.
+/// From three slopes of each piece, between joints from inside it: there a model says those of one side.
 template <Real Scalar>
-template <class Model>
-FluxBranch<Scalar> InverseFlux<Scalar>::branch_of(const Model& f, bool up) const {
+FluxBranch<Scalar> InverseFlux<Scalar>::branch_of(bool up) const {
   const Scalar zero(0), two(2), four(4), six(6);
-  if constexpr (Model::kIsParabola) return {reach(up), {{zero, zero, four, -four, zero}}, zero, four, zero};
-  // As functions of m.
-  const auto slope = [&](const Scalar& m) { return Scalar(slope_of(f, Scalar(reach(up) - m), up)); };
-  const auto bend = [&](const Scalar& m) -> Scalar {  // G''
-    if constexpr (degree_between_joints<Model>() < 2)
-      return zero;
-    else
-      return -bend_of(f, Scalar(reach(up) - m), up);
+  if (flux_.is_parabola()) return {reach(up), {{zero, zero, four, -four, zero}}, zero, four, zero};
+  const int degree = flux_.degree_between_joints();
+  const auto slope_at = [&](const Scalar& m) {
+    return Scalar(size(flux_.derivative(place_beside(m, up))) * (width_ / depth_));
   };
   std::vector<Scalar> ends{zero};
   ends.insert(ends.end(), joints_[up].begin(), joints_[up].end());
   ends.push_back(reach(up));
   std::vector<typename FluxBranch<Scalar>::Piece> pieces;
-  Scalar at_peak(0), third(0);
+  Scalar at_peak(0), third(0);  // the third derivative of a piece
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const Scalar &lo = ends[i], width = ends[i + 1] - lo, middle = lo + width / two;
-    third = (bend(Scalar(lo + width * Scalar(0.75))) - bend(Scalar(lo + width / four))) / (width / two);
-    const Scalar in_middle = bend(middle), begin = in_middle - third * width / two;
-    at_peak = in_middle + third * width / two;
-    const Scalar first = i == 0 ? Scalar(size(f.derivative(pure_share(up))) * (width_ / depth_))
-                                : Scalar(slope(middle) - width / two * (in_middle - third * width / four));
-    pieces.push_back({lo, i == 0 ? zero : Scalar(Scalar(1) - lack_of(f, Scalar(reach(up) - lo), up)), first,
-                      begin / two, third / six});
+    const Scalar &lo = ends[i], quarter = (ends[i + 1] - lo) / four, half = two * quarter;
+    const Scalar inset = joints_[up].empty() ? zero : quarter, arm = half - inset;
+    const Scalar first = slope_at(Scalar(lo + inset)), middle = slope_at(Scalar(lo + half)),
+                 last = inset > 0 ? slope_at(Scalar(ends[i + 1] - inset)) : kink_[up];
+    third = degree > 2 ? Scalar(((last - middle) - (middle - first)) / (arm * arm)) : zero;
+    const Scalar bend = degree > 1 ? Scalar((last - first) / (two * arm)) : zero, begin = bend - third * half;
+    at_peak = bend + third * half;
+    const Scalar slope = i == 0 ? slope_at(zero) : Scalar(middle - half * (bend - third * quarter));
+    const Scalar G0 =
+        i == 0 ? zero
+               : Scalar(size(flux_.secant(pure_share(up), place_beside(lo, up))) * (width_ * lo / depth_));
+    pieces.push_back({lo, G0, slope, begin / two, third / six});
   }
   return {reach(up), std::move(pieces), kink_[up], -at_peak / two, third / six};
 }

@@ -79,8 +79,7 @@ class InverseFlux {
   [[nodiscard]] Scalar place_beside(const Scalar& distance, bool up) const {
     return up == is_concave_ ? lowest_ + width_ * distance : highest_ - width_ * distance;
   }
-  template <class Model>
-  [[nodiscard]] FluxBranch<Scalar> branch_of(const Model& f, bool up) const;
+  [[nodiscard]] FluxBranch<Scalar> branch_of(bool up) const;
   template <class Model>
   [[nodiscard]] Scalar distance_of(const Model& f, const Scalar& G, bool up) const;
   template <class Model>

@@ -47,6 +47,9 @@ class Flux {
   [[nodiscard]] Scalar value(const Scalar& phi) const { return held_->value(phi); }
   [[nodiscard]] Scalar derivative(const Scalar& phi) const { return held_->derivative(phi); }
   [[nodiscard]] Scalar secant(const Scalar& p, const Scalar& q) const { return held_->secant(p, q); }
+  /// Of polynomials between extrema and joints; large for any other flux.
+  [[nodiscard]] int degree_between_joints() const { return held_->degree_between_joints(); }
+  [[nodiscard]] std::vector<Scalar> joints() const { return held_->joints(); }
   void check(const std::string& prefix, Complaints& complaints) const { held_->check(prefix, complaints); }
 
   /// Calls visit(FieldInfo, member) for the model's entries of a scene file, as the models do.
@@ -92,6 +95,8 @@ class Flux {
     [[nodiscard]] virtual Scalar secant(const Scalar& p, const Scalar& q) const = 0;
     virtual void check(const std::string& prefix, Complaints& complaints) const = 0;
     [[nodiscard]] virtual std::vector<Place> entries() = 0;
+    [[nodiscard]] virtual int degree_between_joints() const = 0;
+    [[nodiscard]] virtual std::vector<Scalar> joints() const = 0;
   };
   template <class Model>
   struct Held final : Any {
@@ -113,6 +118,11 @@ class Flux {
       std::vector<Place> all;
       Model::fields(model, [&](const FieldInfo& info, auto& member) { all.push_back({info, &member}); });
       return all;
+    }
+    int degree_between_joints() const override { return shearfront::degree_between_joints<Model>(); }
+    std::vector<Scalar> joints() const override {
+      if constexpr (requires { model.joints(); }) return model.joints();
+      return {};
     }
     Model model;
   };
