@@ -79,7 +79,10 @@ void print_events_row(std::string_view delta, std::string_view who, const Times&
 Times tracked_times(const Scene<double>& scene, GridKind grid, double resolution) {
   SolverRequest request;
   request.timeline = true;
-  const auto result = solve<FrontTrackingSolver>(scene, request, {.resolution = resolution, .grid = grid});
+  // The method of the paper has the first fronts; ours what runs before them.
+  const FanEdges edges = grid == GridKind::levels ? FanEdges::characteristic : FanEdges::secant;
+  const auto result =
+      solve<FrontTrackingSolver>(scene, request, {.resolution = resolution, .grid = grid, .edges = edges});
   return times_of(*result.timeline);
 }
 

@@ -76,8 +76,9 @@ TEST(FirstArrivals, SecantsAreLate) {
                   ->interfaces[0]
                   .first;
     };
-    if (grid == GridKind::levels)
+    if (grid == GridKind::levels) {
       EXPECT_NEAR(t_c(FanEdges::characteristic), *exact.interfaces[0].first, 1e-14);
+    }
     EXPECT_GE(t_c(FanEdges::secant), t_c(FanEdges::characteristic) * 1.02);
   }
 }

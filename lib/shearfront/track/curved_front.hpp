@@ -53,6 +53,8 @@ namespace curved_front_detail {
 
 /// Levels whose capacities differ by less than this part are taken for one where a difference would be rounding.
 inline constexpr double kNearLevels = 1e-7;
+/// Between levels nearer to each other than this part of r q^2 means are taken by Gauss's rule of three points, of which this is one.
+inline constexpr double kCloseLevels = 0.0125, kOuterNode = 0.11270166537925831;
 
 /// front_slope() for fluxes that are no parabola.
 [[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
@@ -136,13 +138,27 @@ namespace curved_front_detail {
                                          double s_above, double bend, double d, double shrink) {
   const double at_origin = 1 / f.rate, here = at_origin * (1 + shrink);  // 1 / r
   const double q_below = std::sqrt(1 - h_below * here), q_above = std::sqrt(1 - h_above * here);
+  const double scale = 2 / bend, slope = 2 * s_above * here / (q_below + q_above);
+  const double least = std::min({q_below, q_above, f.q_below, f.q_above});
+  if (s_below == s_above &&
+      std::abs(h_below - h_above) * std::max(at_origin, here) < kCloseLevels * least * least) {
+    // As mean_time().
+    const auto time = [&](double share) {
+      const double before =
+          f.q_below * f.q_below + share * ((f.q_above - f.q_below) * (f.q_above + f.q_below));
+      const double q = q_below * q_below + share * ((q_above - q_below) * (q_above + q_below));
+      return 1 / (std::sqrt(before) + std::sqrt(q));
+    };
+    const double mean = (5 * (time(kOuterNode) + time(1 - kOuterNode)) + 8 * time(0.5)) / 18;
+    return {f.t - s_above * mean * scale * at_origin * shrink, slope};
+  }
   const double delta_below = -h_below * at_origin * shrink / (f.q_below + q_below),
                delta_above = -h_above * at_origin * shrink / (f.q_above + q_above);
-  const double a = 1 + f.q_below, b = 1 + f.q_above, scale = 2 / bend, over = 2 / (h_below - h_above);
+  const double a = 1 + f.q_below, b = 1 + f.q_above, over = 2 / (h_below - h_above);
   if (s_below == s_above) {
     const double logarithm = std::log1p((delta_above * a - delta_below * b) / (b * (a + delta_below)));
     const double way = scale * ((delta_below - delta_above) + logarithm);
-    return {f.t + over * s_above * way, 2 * s_above * here / (q_below + q_above)};
+    return {f.t + over * s_above * way, slope};
   }
   const double logarithm =
       std::log1p((delta_below * b + delta_above * a + delta_below * delta_above) / (a * b));
@@ -150,35 +166,50 @@ namespace curved_front_detail {
   return {f.t + over * s_above * way, over * s_above * (q_below + q_above)};
 }
 
-/// int dz / (r q) from the origin to z for the mean of two levels of one side that are so near to each other that the difference
-/// of their areas would be rounding: the front is the characteristic between them. Nothing where that is not so, or too near to
-/// its turning height.
-[[nodiscard]] inline std::optional<double> mean_characteristic(const LevelCurves& grid, const CurvedNode& f,
-                                                               double h_below, double h_above, double z,
-                                                               double rate, double q_below, double q_above) {
-  constexpr double kFarFromTurn = 1e3;
-  const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
-  const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
-  const double least = std::min(f.q_below, f.q_above);
-  if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
+/// When a front of one side is at z after it was at its origin, as the mean over its levels of the times of characteristics, by Gauss's
+/// rule of three points: a relative error of 1e-15 where levels are near to each other, while the difference of their areas loses what
+/// their distance is of their flux. Nothing where they are not near, or too near to their turning height.
+[[nodiscard]] inline std::optional<double> mean_time(const LevelCurves& grid, const CurvedNode& f,
+                                                     double h_below, double h_above, double z, double rate,
+                                                     double q_below, double q_above) {
+  const double spread = std::abs(h_below - h_above), least = std::min(q_below, q_above);
+  if (!(spread < kCloseLevels * rate * least * least)) return std::nullopt;
+  // A joint of a tabulated flux is no place for Gauss.
+  if (grid.flux() && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
+  const bool is_from_turn = f.q_below == 0 && f.q_above == 0;
+  const double least_before = std::min(f.q_below, f.q_above);
+  if (!(spread <
+        kCloseLevels * (is_from_turn ? std::min(h_below, h_above) : f.rate * least_before * least_before)))
+    return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
-  if (grid.flux()) {
-    const LevelCurves::Place origin{q_origin == 0 ? piece.height_of(h) : f.z, q_origin == 0 ? h : f.rate,
-                                    q_origin},
-        here{z, rate, q};
-    if (q_origin > 0 && !(least * least > kFarFromTurn * spread)) return std::nullopt;
-    const bool rises = z > origin.z;
-    const double time = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
-                                                 rises ? here : origin);
-    return rises ? time : -time;
-  }
-  if (q_origin == 0)
-    return (piece.curve == RateCurve::exponential ? q / h : std::atanh(q)) * (2 / piece.bend);
-  if (!(least * least > kFarFromTurn * spread)) return std::nullopt;
+  const double d = z - f.z;
+  const auto time = [&](double share) {
+    const double h = h_below + share * (h_above - h_below);
+    const auto root = [&](double below, double above) {  // q^2 is linear in h
+      return std::sqrt(below * below + share * ((above - below) * (above + below)));
+    };
+    const double q = root(q_below, q_above), before = is_from_turn ? 0 : root(f.q_below, f.q_above);
+    if (grid.flux()) {
+      const LevelCurves::Place origin{is_from_turn ? piece.height_of(h) : f.z, is_from_turn ? h : f.rate,
+                                      before},
+          here{z, rate, q};
+      const bool rises = z > origin.z;
+      const double way = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
+                                                  rises ? here : origin);
+      return rises ? way : -way;
+    }
+    if (piece.curve == RateCurve::exponential) return is_from_turn ? q / h : 1 / (before + q);
+    return is_from_turn ? std::atanh(q)
+                        : std::log1p(h * (piece.bend * d) / (f.rate * rate * (before + q) * (1 + before)));
+  };
+  const double mean = (5 * (time(kOuterNode) + time(1 - kOuterNode)) + 8 * time(0.5)) / 18;
+  if (grid.flux()) return mean;
+  if (is_from_turn) return mean * 2 / piece.bend;
   if (piece.curve == RateCurve::exponential)
-    return -2 * std::expm1(-piece.bend * (z - f.z)) / (f.rate * piece.bend * (q_origin + q));
-  const double delta = h * (piece.bend * (z - f.z)) / (f.rate * rate * (q_origin + q));
-  return (2 * std::log1p(delta / (1 + q_origin)) + RatePiece::log_ratio(f.rate, rate)) / piece.bend;
+    return mean * -2 * std::expm1(-piece.bend * d) / (f.rate * piece.bend);
+  const double rise = piece.bend * d;
+  const double logarithm = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(rise / f.rate);
+  return (2 * mean + logarithm) / piece.bend;
 }
 
 }  // namespace curved_front_detail
@@ -194,33 +225,31 @@ namespace curved_front_detail {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const double h_i = grid.capacity(i), h_j = grid.capacity(j), factor = 2 / (h_i - h_j);
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
-  const bool is_near_pair = s_i == s_j && std::abs(h_i - h_j) < curved_front_detail::kNearLevels * h_i;
+  const bool is_one_side = s_i == s_j;
   if (piece.curve == RateCurve::exponential && !grid.flux()) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
-    if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink) && !is_near_pair)
+    if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink))
       return curved_front_detail::far_passage(f, h_i, h_j, s_i, s_j, piece.bend, d, shrink);
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
-    if (is_near_pair)
-      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, a.q, b.q))
+    if (is_one_side)
+      if (const auto mean = curved_front_detail::mean_time(grid, f, h_i, h_j, z, rate, a.q, b.q))
         return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
-    const bool is_same_side = s_i == s_j;
-    double way = is_same_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
+    double way = is_one_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
     const double weight = std::max(std::abs(a.weight), std::abs(b.weight)) * (piece.bend < 0 ? -1 : 1);
     if (weight != 0) {
       const double x = b.logarithm, y = a.logarithm;
-      way += weight * (is_same_side ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
+      way += weight * (is_one_side ? std::log1p((x - y) / (1 + y)) : std::log1p(x + y + x * y));
     }
     return {f.t + factor * s_j * way, front_slope(grid, f, rate, a.q, b.q)};
   }
   const double rate = piece.rate(z);
   const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
-  if (is_near_pair)
-    if (const auto mean =
-            curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, below.q, above.q))
+  if (is_one_side)
+    if (const auto mean = curved_front_detail::mean_time(grid, f, h_i, h_j, z, rate, below.q, above.q))
       return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
   const double E_i = grid.deficit(p, f.below, {f.z, f.rate, f.q_below}, below),
                E_j = grid.deficit(p, f.above, {f.z, f.rate, f.q_above}, above);

@@ -44,7 +44,7 @@ class CurvedReconstruction {
     double h = 0;     ///< 4 H of the characteristic
   };
   [[nodiscard]] Node node_of(const CurvedNode& front, double z) const;
-  [[nodiscard]] static std::vector<Node> joined(const std::vector<Node>& nodes);
+  [[nodiscard]] std::vector<Node> joined(const std::vector<Node>& nodes) const;
   void add_stretch(std::size_t low, std::size_t high);
   void add_steps(std::size_t low, std::size_t high);
   [[nodiscard]] std::vector<Node> end_of(std::size_t region, double limit, const Node& first,
