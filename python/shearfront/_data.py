@@ -158,7 +158,7 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     scene : Scene
         Whose domain, units and states they must suit.
     source : path, DataFrame or mapping, optional
-        A file as a laboratory writes it (docs/formats.md), or columns by name.
+        A file as a laboratory writes it (docs/reference/formats.md), or columns by name.
     replicates : {"refuse", "keep", "mean"}, optional
         What becomes of several values at one place (of arrays).
     **columns : array_like

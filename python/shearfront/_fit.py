@@ -194,7 +194,7 @@ def fit(
         algorithm : "ceres", "global" or "nlopt:NAME"; starts; seed; max_evaluations; tolerance;
         profile : bool, bootstrap : int, bootstrap_seed, threads : more intervals;
         name.
-        They are those of a fit file (docs/formats.md), with the same defaults.
+        They are those of a fit file (docs/reference/formats.md), with the same defaults.
 
     Returns
     -------

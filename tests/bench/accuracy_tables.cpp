@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints tables of docs/accuracy.md:
+// Prints tables of docs/evidence/accuracy.md:
 //   shearfront_accuracy_tables paper                   Tables 1 and 2 of Buerger, Martinez & Villada (2023)
 //   beside ours shearfront_accuracy_tables events SCENE            event times seen by methods that know none
 //   shearfront_accuracy_tables rounding SCENE T...     the exact engine against 50 digits, as JSON: [error,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finite volumes: cell updates per second of the march on Example 1. docs/performance.md quotes these
+// Finite volumes: cell updates per second of the march on Example 1. docs/evidence/performance.md quotes these
 // figures.
 #include <benchmark/benchmark.h>
 

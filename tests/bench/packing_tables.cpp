@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the tables of docs/packing.md: the one-dimensional examples of a thesis on segregation in a granular
+// Prints the tables of docs/evidence/packing.md: the one-dimensional examples of a thesis on segregation in a granular
 // flow model (its Tables 5.1 to 5.5) by the schemes it compares, and by front tracking.
 #include <algorithm>
 #include <array>

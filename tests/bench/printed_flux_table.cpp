@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints a table of docs/accuracy.md: the Engquist-Osher flux as printed in Buerger, Martinez & Villada
+// Prints a table of docs/evidence/accuracy.md: the Engquist-Osher flux as printed in Buerger, Martinez & Villada
 // (2023) beside the consistent one, on their Example 1.
 #include <cstdio>
 

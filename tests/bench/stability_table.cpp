@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the tables of docs/stability.md: every hard case in double and in 50 digits, side by side. Each cell
+// Prints the tables of docs/evidence/stability.md: every hard case in double and in 50 digits, side by side. Each cell
 // is the largest error and, in brackets, how far the 50-digit result moves when the numbers of the scene are
 // moved by up to their own rounding (s among them, which moves every t): what no computation in double can
 // avoid.

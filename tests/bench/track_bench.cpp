@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Front tracking: time per collision, building the grid included. docs/performance.md quotes these figures.
+// Front tracking: time per collision, building the grid included. docs/evidence/performance.md quotes these figures.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -30,7 +30,7 @@ TEST(ShownSearch, IsAsLongAsTheSearchIs) {
                                                "/datasets/paper-example-4/fit-bin-noise-0.01.toml"));
   const std::regex line(std::to_string(estimate.observations) +
                         R"( observations, (\d+) evaluations, (\d+) iterations)");
-  for (const std::string page : {"README.md", "docs/identification.md"}) {
+  for (const std::string page : {"README.md", "docs/how-to/identification.md"}) {
     std::smatch found;
     const std::string text = text_of(page);
     ASSERT_TRUE(std::regex_search(text, found, line)) << page;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Double against 50 digits in every hard case of docs/stability.md: the same collisions in the same order,
+// Double against 50 digits in every hard case of docs/evidence/stability.md: the same collisions in the same order,
 // and no more digits lost than the rounding of the scene's own numbers explains. Moving these numbers by
 // their rounding in 50 digits shows how much that is; a factor of 100 (two digits) is allowed on top, because
 // the roundings of a run are many and a few random moves do not find the worst direction.

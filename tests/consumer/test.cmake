@@ -1,4 +1,4 @@
-# The program of the README's "library in ten lines", built as a user would: against the installed package, and with
+# The program of the README's ten lines of C++, built as a user would: against the installed package, and with
 # the sources as a subfolder. Building all of the library again takes a while: that one has the label slow.
 set(consumer_flags "")
 if(SHEARFRONT_SANITIZE)

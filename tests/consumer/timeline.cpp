@@ -5,14 +5,10 @@
 int main(int, char** argv) {
   const auto scene = shearfront::read_scene(argv[1]);
   const auto times = shearfront::event_times(scene);
-  std::printf("first wave at the bottom %.12g, at the top %.12g\n", times.t0.value(), times.t1.value());
-  for (const auto& at : times.interfaces)
-    std::printf("interface z = %g: first %.12g, last %.12g\n", at.z, at.first.value(), at.last.value());
-  std::printf("steady after %.12g\n", times.t_star.value());
-
+  std::printf("waves: %zu interface, bottom %.12g, top %.12g; at rest from %.12g\n", times.interfaces.size(),
+              times.t0.value(), times.t1.value(), times.t_star.value());
   const auto exact = shearfront::solve(scene, "exact", {.times = {2.5}, .heights = {0.25, 0.75}});
   std::printf("at t = 2.5: phi(0.25) = %.12g, M(0.75) = %.12g\n", exact.phi(0, 0), exact.M(0, 1));
-
   auto bed = shearfront::track(scene, {.resolution = 0.01, .history = true});
   auto finer = shearfront::track(scene, {.resolution = 0.001});
   bed.advance(2.5), finer.advance(2.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fluxes that are neither convex nor concave: the distance of the finite volumes from front tracking falls
-// with the first power of the cell size, in L1 times a logarithm. docs/fluxes.md quotes the slow tests.
+// with the first power of the cell size, in L1 times a logarithm. docs/evidence/fluxes.md quotes the slow tests.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -16,7 +16,7 @@ namespace {
 
 using Tracked = Tracker<LevelGrid<double>>;
 
-// docs/accuracy.md: mass to 1e-13 of the largest height, however many events.
+// docs/evidence/accuracy.md: mass to 1e-13 of the largest height, however many events.
 constexpr double kMassSlack = 1e-13;
 constexpr double kSpeedSlack = 1e-9;
 // Small amounts, in states next to pure ones or in thin pieces: they move long after M is final to rounding.

@@ -3,7 +3,7 @@
 #include <vector>
 
 /// The ten Riemann problems between beds of different solid fraction, L below and R above, of Table 4.1 of the
-/// thesis named in docs/packing.md: f(phi) = -phi (c - phi) / c, small grains.
+/// thesis named in docs/evidence/packing.md: f(phi) = -phi (c - phi) / c, small grains.
 namespace shearfront::support {
 
 inline double small_grains_flux(double phi, double c) { return -phi * (c - phi) / c; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fluxes between a layer L below and a layer R above: the ten cases of Table 4.1 of the thesis named in
-// docs/packing.md, and what a fine run makes of them.
+// docs/evidence/packing.md, and what a fine run makes of them.
 #include "shearfront/fv/face_flux.hpp"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ namespace shearfront {
 /// coefficients are continuous, by an amount that does not fall with dz at a jump; at large jumps the scheme
 /// diverges. It is `godunov` where the coefficients are constant. Guaranteed: the mass is kept, nothing else.
 /// Half the time step of godunov, since shares beyond [0, 1] are faster. Parabolas only. Tables:
-/// docs/packing.md, also for the source.
+/// docs/evidence/packing.md, also for the source.
 struct ClassicalGodunovSolver : fv::GridSolver<fv::RuleOptions<fv::Rule::classical_godunov>> {
   static constexpr std::string_view kName = "classical-godunov";
   static constexpr std::string_view kDescription =

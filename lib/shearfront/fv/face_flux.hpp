@@ -28,7 +28,7 @@ namespace shearfront::fv {
 /// take the extremum of f between the states and f(lo) + rise(x_l) + fall(x_r), with equal k. The other two lack the balance k_l f_l = k_r f_r at jumps.
 /// Sources: Engquist & Osher (1981), Math. Comp. 36; Towers (2000), SIAM J. Numer. Anal. 38 (coefficients
 /// staggered against states); Adimurthi, Jaffre & Veerappa Gowda (2004), SIAM J. Numer. Anal. 42 (Godunov);
-/// classical_godunov and upwind: the thesis named in docs/packing.md, Sections 4.2, 4.3.
+/// classical_godunov and upwind: the thesis named in docs/evidence/packing.md, Sections 4.2, 4.3.
 enum class Rule { godunov, engquist_osher, classical_godunov, upwind };
 
 [[nodiscard]] constexpr bool is_monotone(Rule rule) {

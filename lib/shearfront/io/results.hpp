@@ -13,7 +13,7 @@
 #include "shearfront/solution/timeline.hpp"
 #include "shearfront/solver/solver.hpp"
 
-/// Results as CSV and JSON (docs/formats). With the units of the scene headers read "t [s],z [mm],phi,M [mm]" and JSON
+/// Results as CSV and JSON (docs/reference/formats). With the units of the scene headers read "t [s],z [mm],phi,M [mm]" and JSON
 /// has "units":{"z","t"}. Doubles are written with the shortest text that reads back to the
 /// same number; what is not a finite number is null in JSON and empty in CSV. Errors: FileError from the
 /// file.

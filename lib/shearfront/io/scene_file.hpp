@@ -14,7 +14,7 @@ struct SceneChange {
 };
 using SceneChanges = std::vector<SceneChange>;
 
-/// Reads a scene file (TOML; the format is described in docs/formats).
+/// Reads a scene file (TOML; the format is described in docs/reference/formats).
 ///
 /// Models are looked up in FluxList and DepthFunctionList and their entries read through fields(), so a new
 /// model needs no change here. Guaranteed:

@@ -16,7 +16,7 @@ namespace shearfront {
 ///
 /// the volume of all grains over the cross section never changes, and segregated grains fill the domain,
 /// H = top - bottom. Where c_rcp(0) = c_rcp(1) and c = 1 this is H = int c_rcp(0) / c_rcp(phi) dz.
-/// Source: the thesis named in docs/packing.md, Sections 2.3 and 5.3.
+/// Source: the thesis named in docs/evidence/packing.md, Sections 2.3 and 5.3.
 class BedHeight {
  public:
   /// The scene's close packing, or that of spheres of size ratio 2. Precondition: refusal(scene) is empty.

@@ -28,7 +28,7 @@ struct Mixing {
 [[nodiscard]] Mixing mixing(double entropy, double amount, double solid);
 
 /// Mixing of a profile of phi in the scene's bed, with the accuracy of share_integral(). Source: the thesis
-/// named in docs/packing.md, eqs. (5.4) to (5.9).
+/// named in docs/evidence/packing.md, eqs. (5.4) to (5.9).
 [[nodiscard]] Mixing mixing(const Scene<double>& scene, const Profile<double>& profile);
 
 }  // namespace shearfront

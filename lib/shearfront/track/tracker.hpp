@@ -46,7 +46,7 @@ struct RunLimits {
 ///   (4) equal input gives bitwise equal output; advance_to(t1), advance_to(t2) equals advance_to(t2), and so
 ///       does a copy;
 ///   (5) observers cannot steer.
-/// What rounding costs in the worst cases: docs/stability.md.
+/// What rounding costs in the worst cases: docs/evidence/stability.md.
 /// A Tracker is a value: copy it to keep a state to return to.
 /// Cost: O(log n) per event for n fronts that are about to meet; memory 64 bytes per front (double).
 ///
@@ -124,6 +124,10 @@ class Tracker {
   /// that leave it at time 0 count as met at 0.
   [[nodiscard]] const std::optional<Scalar>& first_wave(std::size_t k) const {
     return system_.waves(k).first;
+  }
+  /// The first one, where it is the edge of a fan the characteristic there, which is faster than any front.
+  [[nodiscard]] const std::optional<Scalar>& first_edge(std::size_t k) const {
+    return system_.waves(k).first_edge;
   }
   [[nodiscard]] const std::optional<Scalar>& last_wave(std::size_t k) const { return system_.waves(k).last; }
 

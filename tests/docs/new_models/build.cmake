@@ -1,4 +1,4 @@
-# Applies the changes that docs/extending.md shows to a copy of the library and builds CMakeLists.txt against it:
+# Applies the changes that docs/tutorials/extending.md shows to a copy of the library and builds CMakeLists.txt against it:
 #   cmake -D source= -D work= -D generator= -D compiler= -D launcher= -D patch= -P build.cmake
 cmake_minimum_required(VERSION 3.25)
 function(run)
@@ -11,7 +11,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${work}/copy)
 file(COPY ${source}/CMakeLists.txt ${source}/cmake ${source}/lib ${source}/fit DESTINATION ${work}/copy)
-file(READ ${source}/docs/extending.md page)
+file(READ ${source}/docs/tutorials/extending.md page)
 set(n_changes 0)
 while(TRUE)
   string(FIND "${page}" "\n```diff\n" begin)
@@ -28,7 +28,7 @@ while(TRUE)
   math(EXPR n_changes "${n_changes} + 1")
 endwhile()
 if(NOT n_changes EQUAL 2)
-  message(FATAL_ERROR "docs/extending.md shows ${n_changes} diffs, not a depth function and a flux")
+  message(FATAL_ERROR "docs/tutorials/extending.md shows ${n_changes} diffs, not a depth function and a flux")
 endif()
 
 run(${CMAKE_COMMAND} -G ${generator} -S ${source}/tests/docs/new_models -B build -D copy=${work}/copy -D tests=${source}/tests

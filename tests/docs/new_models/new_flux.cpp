@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled against a copy of the library in which the flux that docs/extending.md adds is listed: what follows
+// Compiled against a copy of the library in which the flux that docs/tutorials/extending.md adds is listed: what follows
 // from the list by itself. Nothing here but the name, its argument, knows of that flux.
 #include <cmath>
 #include <cstdio>

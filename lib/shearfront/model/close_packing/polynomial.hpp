@@ -15,7 +15,7 @@ namespace shearfront {
 ///
 /// x in [0, 1] is the share of small grains; pure = c_rcp(0) = c_rcp(1), 0 < pure < 0.95. Largest for
 /// x = 0.375, by 0.0345.
-/// Source: the thesis named in docs/packing.md, eq. (2.98), after Kyrylyuk et al. (2010).
+/// Source: the thesis named in docs/evidence/packing.md, eq. (2.98), after Kyrylyuk et al. (2010).
 template <Real Scalar>
 struct PackingPolynomial {
   static constexpr std::string_view kName = "polynomial";

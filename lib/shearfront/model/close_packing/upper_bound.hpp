@@ -15,7 +15,7 @@ namespace shearfront {
 ///     c_rcp(x) = min( pure / (1 - x), pure / (x + (1 - x) pure) ),      0 < pure < 1.
 ///
 /// x in [0, 1] is the share of small grains. Largest at the kink x = (1 - pure) / (2 - pure), where all gaps
-/// are full: pure (2 - pure). Source: the thesis named in docs/packing.md, eq. (2.95).
+/// are full: pure (2 - pure). Source: the thesis named in docs/evidence/packing.md, eq. (2.95).
 template <Real Scalar>
 struct PackingUpperBound {
   static constexpr std::string_view kName = "upper-bound";

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How Sphinx builds the pages; scripts/docs calls it. Nothing is loaded from the network when a page is read."""
+
+import pathlib
+import re
+import sys
+
+from pygments.lexers.special import TextLexer
+from sphinx.highlighting import lexers
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE / "_extensions"))
+
+project = "shearfront"
+author = "the shearfront authors"
+copyright = "the shearfront authors, BSD-3-Clause"
+version = release = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE).group(1)
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links", "interfaces"]
+exclude_patterns = ["_extensions", "drawings"]
+nitpicky = False
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 4
+myst_dmath_allow_space = False
+myst_dmath_allow_digits = False
+
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+html_theme = "furo"
+html_title = f"shearfront {version}"
+html_static_path = ["_static"]
+html_css_files = ["shearfront.css"]
+html_show_sphinx = False
+html_copy_source = False
+html_show_sourcelink = False
+html_theme_options = {"navigation_with_keys": True}
+highlight_language = "text"
+lexers["csv"] = TextLexer()  # Pygments has none
+pygments_style = "friendly"
+
+
+def _docstring(app, what, name, obj, options, lines):
+    """Absolute values, |z|, are no substitutions."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def setup(app):
+    """Called by Sphinx."""
+    app.connect("autodoc-process-docstring", _docstring, priority=0)
