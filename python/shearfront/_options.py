@@ -25,7 +25,7 @@ class Options(TypedDict, total=False):
     reconstruct: Literal["constant", "linear"]
     """phi between fronts (front-tracking)."""
     edges: Literal["characteristic", "secant"]
-    """first arrivals of fans where the rate varies smoothly (front-tracking)."""
+    """first arrivals of fans (front-tracking)."""
     max_collisions: int
     """stop after so many collisions, from 1 to 1000000000000000 (front-tracking)."""
     max_fronts: int
