@@ -66,15 +66,20 @@ def short_number(x: float) -> str: ...
 
 def options_module() -> str:
     """_options.py."""
-    found: dict[str, tuple[str, list[str]]] = {}
+    types = {"N": "int", "X": "float", "": "bool"}
+    found: dict[str, str] = {}
+    solvers: dict[str, dict[str, list[str]]] = {}  # of each option, by what it says
     for method in _core.methods():
         for name, kind, sentence, allowed, _ in method["options"]:
             key = name.replace("-", "_")
-            types = {"N": "int", "X": "float", "": "bool"}
-            kind = types.get(kind) or "Literal[" + ", ".join(f'"{k}"' for k in kind.split("|")) + "]"
-            says = f"{method['name']}: {sentence}" + (f", {allowed}" if allowed else "")
-            found.setdefault(key, (kind, []))[1].append(says)
-    lines = [f'    {key}: {kind}\n    """{"; ".join(says)}."""\n' for key, (kind, says) in found.items()]
+            found[key] = types.get(kind) or "Literal[" + ", ".join(f'"{k}"' for k in kind.split("|")) + "]"
+            says = sentence + (f", {allowed}" if allowed else "")
+            solvers.setdefault(key, {}).setdefault(says, []).append(method["name"])
+    lines = []
+    for key, kind in found.items():
+        says = [f"{sentence} ({', '.join(names)})" for sentence, names in solvers[key].items()]
+        text = "\n\n    ".join(says)
+        lines.append(f'    {key}: {kind}\n    """{text}."""\n')
     doc = '"""Options of methods as keyword arguments, for type checkers and editors."""\n\n'
     imports = "from __future__ import annotations\n\nfrom typing import Literal, TypedDict\n\n\n"
     body = 'class Options(TypedDict, total=False):\n    """Every option of every method; each method takes its own."""\n\n'

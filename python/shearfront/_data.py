@@ -188,6 +188,8 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
             raise one_complaint("data", None, "must be a file or columns, not both; read_data says how a file is to be read")
         return read_data(scene, source, replicates=replicates)
     if source is not None:
+        if not isinstance(source, Mapping) and not hasattr(source, "columns"):
+            raise one_complaint("data", type(source).__name__, "must be a file, a table, columns by name, or come from data()")
         table = source if isinstance(source, Mapping) else {name: source[name] for name in source.columns}
         columns = {**{name: table[name] for name in _COLUMNS if name in table}, **columns}
     unknown = [name for name in columns if name not in _COLUMNS]

@@ -22,7 +22,13 @@ def table_of_part(part: Any) -> Any:
 
 def initial_part(part: Any, ends: tuple[float, float]) -> Any:
     """The table of an initial state; functions are sampled."""
-    return table_of_part(initial_table(part, ends) if callable(part) else part)
+    if callable(part):
+        return initial_table(part, ends).to_dict()
+    if isinstance(part, (Model, Mapping)):
+        return table_of_part(part)
+    return Pieces(
+        [], [_number("initial", part, "a model such as Step or Pieces, a table, a function of z or a number")]
+    ).to_dict()
 
 
 def ends_of(domain: Any) -> tuple[float, float]:
@@ -31,24 +37,35 @@ def ends_of(domain: Any) -> tuple[float, float]:
         return 0.0, 1.0
     if isinstance(domain, Mapping):
         return float(domain.get("bottom", 0)), float(domain.get("top", 1))
-    bottom, top = domain
-    return float(bottom), float(top)
+    try:
+        bottom, top = domain
+        return float(bottom), float(top)
+    except (TypeError, ValueError):
+        raise one_complaint("domain", repr(domain), "must be a pair (bottom, top)") from None
 
 
-def depth_table(part: Any, ends: tuple[float, float]) -> Any:
+def depth_table(key: str, part: Any, ends: tuple[float, float]) -> Any:
     """The table of a function of height; functions are sampled, a number is constant."""
     if part is None or isinstance(part, (Model, Mapping)):
         return table_of_part(part)
     if callable(part):
         return table_of(part, *ends).to_dict()
-    return {"model": "piecewise", "breaks": [], "values": [float(part)]}
+    value = _number(key, part, "a model such as Piecewise or Exponential, a table, a function of z or a number")
+    return {"model": "piecewise", "breaks": [], "values": [value]}
 
 
 def diffusion_table(part: Any) -> Any:
     """The table of diffusion; a number is D."""
     if part is None or isinstance(part, Mapping):
         return part
-    return {"D": float(part)}
+    return {"D": _number("diffusion", part, "a number or a table")}
+
+
+def _number(key: str, part: Any, allowed: str) -> float:
+    try:
+        return float(part)
+    except (TypeError, ValueError):
+        raise one_complaint(key, repr(part), f"must be {allowed}") from None
 
 
 def flux_tables(part: Any) -> Any:
@@ -63,8 +80,11 @@ def flux_tables(part: Any) -> Any:
     for i, member in enumerate(part):
         above: dict[str, Any] = {}
         if i > 0:
-            height, member = member
-            above = {"above": float(height)}
+            try:
+                height, member = member
+                above = {"above": float(height)}
+            except (TypeError, ValueError):
+                raise one_complaint(f"flux[{i}]", repr(member), "must be a pair (height above which it holds, flux)") from None
         tables.append({**flux_tables(member), **above})
     return tables
 
@@ -90,8 +110,12 @@ def replace_entry(tables: Table, path: str, keys: list[str], value: Any) -> None
 def shown_parts(tables: Table) -> list[tuple[str, str]]:
     """What a scene shows of itself: its parts but for those at their defaults."""
     shown = [("name", repr(tables["name"]))] if tables["name"] not in ("", "scene") else []
-    fluxes = tables["flux"] if isinstance(tables["flux"], list) else [tables["flux"]]
-    shown += [("flux", repr(model_of("flux", flux))) for flux in fluxes if flux != {"model": "quadratic"}]
+    fluxes = tables["flux"]
+    if isinstance(fluxes, list):
+        above = [f"({short_number(f['above'])}, {model_of('flux', f)!r})" for f in fluxes[1:]]
+        shown.append(("flux", f"[{', '.join([repr(model_of('flux', fluxes[0])), *above])}]"))
+    elif fluxes != {"model": "quadratic"}:
+        shown.append(("flux", repr(model_of("flux", fluxes))))
     for key in DEPTH_FUNCTIONS:
         if key in tables:
             shown.append((key, repr(model_of("depth", tables[key]))))

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import flat, times_of
-from ._errors import one_complaint, without_places
+from ._errors import InputError, one_complaint, without_places
 from ._methods import EXACT, method_of, option_texts
 from ._parts import (
     DEPTH_FUNCTIONS,
@@ -48,10 +48,10 @@ class Scene:
 
     Parameters
     ----------
-    shear_rate : Model, mapping or callable
+    shear_rate : Model, mapping, callable or float
         a(z): :class:`Piecewise`, :class:`Exponential`, :class:`Table`, :class:`Chute`, the table of a scene file, or a
         function of z that takes arrays (sampled, see :func:`sampled`).
-    initial : Model, mapping or callable
+    initial : Model, mapping, callable or float
         phi(z, 0) / c(z): :func:`Step`, :class:`Pieces`, a smooth start, or a function of z.
     flux : Model, mapping, str, callable, or a list of them, optional
         f; phi (phi - 1) unless given; a function of phi is sampled on [0, 1]. In a list every flux but the lowest is
@@ -114,9 +114,9 @@ class Scene:
         tables: Table = {
             "name": name or "scene",
             "flux": flux_tables(flux),
-            "shear_rate": depth_table(shear_rate, ends),
-            "solid_fraction": depth_table(solid_fraction, ends),
-            "temperature": depth_table(temperature, ends),
+            "shear_rate": depth_table("shear_rate", shear_rate, ends),
+            "solid_fraction": depth_table("solid_fraction", solid_fraction, ends),
+            "temperature": depth_table("temperature", temperature, ends),
             "close_packing": table_of_part(close_packing),
             "diffusion": diffusion_table(diffusion),
             "initial": initial_part(initial, ends),
@@ -412,7 +412,7 @@ class Scene:
                 tables["flux"] = flux_tables(value)
             elif key in DEPTH_FUNCTIONS:
                 scale = {"scale": tables["shear_rate"]["scale"]} if key == "shear_rate" else {}
-                tables[key] = value if value is None else {**scale, **(depth_table(value, ends) or {})}
+                tables[key] = value if value is None else {**scale, **(depth_table(key, value, ends) or {})}
             elif key == "diffusion":
                 tables[key] = diffusion_table(value)
             elif key == "domain":
@@ -818,7 +818,12 @@ def read(path: str | os.PathLike[str], numbers: Mapping[str, float] | None = Non
     'bed'
     """
     texts = [(name, repr(float(value))) for name, value in (numbers or {}).items()]
-    return Scene._of(_core.read_scene(os.fspath(path), texts))
+    try:
+        return Scene._of(_core.read_scene(os.fspath(path), texts))
+    except InputError as error:
+        if any(c.constraint.startswith("unknown key") and c.key in ("observations", "unknown") for c in error.complaints):
+            raise one_complaint(os.fspath(path), None, "is a fit file; read_fit and fit take it") from None
+        raise
 
 
 def _scene_of(text: str) -> Scene:

@@ -15,6 +15,7 @@
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
 #include "shearfront/model/flux/all.hpp"
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solution/mixing.hpp"
@@ -66,6 +67,18 @@ std::vector<std::string> names_of_fluxes(const SharedScene& self) {
 }
 
 }  // namespace
+
+void check_height(const Scene<double>& scene, double z) {
+  if (z >= scene.bottom() && z <= scene.top()) return;
+  throw InputError(
+      "z", number_text(z),
+      "must be inside the domain [" + number_text(scene.bottom()) + ", " + number_text(scene.top()) + "]");
+}
+
+void check_place(const Scene<double>& scene, double t, double z) {
+  check_height(scene, z);
+  if (!(t >= 0)) throw InputError("t", number_text(t), "must be >= 0");
+}
 
 void bind_scene(nb::module_& m) {
   nb::class_<SharedScene>(m, "Scene")

@@ -14,4 +14,9 @@ struct SharedScene {
   std::shared_ptr<const Scene<double>> scene;
 };
 
+/// Refuses heights outside the domain. Errors: InputError (key "z").
+void check_height(const Scene<double>& scene, double z);
+/// Refuses times below 0 as well; infinity is the steady state.
+void check_place(const Scene<double>& scene, double t, double z);
+
 }  // namespace shearfront::python

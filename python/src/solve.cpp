@@ -91,10 +91,19 @@ nb::dict solve_scene(const SharedScene& scene, const Method& method, const Numbe
   return all;
 }
 
-/// phi and M at places (t[i], z[i]).
-nb::tuple sample_places(const SharedScene& shared, const Method& method, const Numbers& t, const Numbers& z) {
+/// (t[i], z[i]), checked.
+std::vector<Place> places_of(const Scene<double>& scene, const Numbers& t, const Numbers& z) {
   std::vector<Place> places(t.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = {t.data()[i], z.data()[i]};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[i] = {t.data()[i], z.data()[i]};
+    check_place(scene, places[i].t, places[i].z);
+  }
+  return places;
+}
+
+/// phi and M at places.
+nb::tuple sample_places(const SharedScene& shared, const Method& method, const Numbers& t, const Numbers& z) {
+  const std::vector<Place> places = places_of(*shared.scene, t, z);
   PlaceSamples result =
       without_lock([&](const Progress& progress) { return sample(*shared.scene, method, places, progress); });
   expect_usable(result.summary);
@@ -104,6 +113,7 @@ nb::tuple sample_places(const SharedScene& shared, const Method& method, const N
 
 /// One place by a method that takes microseconds: no arrays, and no lock let go, which would cost more than the answer.
 std::pair<double, double> sample_place(const SharedScene& shared, const Method& method, double t, double z) {
+  check_place(*shared.scene, t, z);
   const PlaceSamples result = sample(*shared.scene, method, {{t, z}});
   expect_usable(result.summary);
   return {result.samples[0].phi, result.samples[0].M};
@@ -136,8 +146,7 @@ nb::tuple linearise(const SharedScene& shared, const Method& method, const Numbe
   if (chosen.empty())
     throw InputError("method", std::string(method.name()),
                      "has no derivatives with respect to entries of this scene");
-  std::vector<Place> places(t.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = {t.data()[i], z.data()[i]};
+  const std::vector<Place> places = places_of(scene, t, z);
   Linearisation result = without_lock([&](const auto&) {
     std::any memory;
     return method.linearise(scene, places, chosen, memory);

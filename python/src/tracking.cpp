@@ -84,8 +84,10 @@ nb::tuple profile(const TrackedBed& self) {
 }
 
 nb::tuple at(const TrackedBed& self, const Numbers& z) {
+  const std::vector<double> heights = vector_of(z);
+  for (const double height : heights) check_height(*self.scene, height);
   const auto field = self.tracking.field(*self.scene);
-  const nb::tuple views = views_of(field->at(vector_of(z)), 1, z.size());
+  const nb::tuple views = views_of(field->at(heights), 1, z.size());
   return nb::make_tuple(views[0], views[1]);
 }
 

@@ -55,6 +55,8 @@ def test_data_are_checked_as_files_are(may: sf.Scene) -> None:
         sf.data(may, t=[1, 1], z=[0.5, 0.5], phi=[0.5, 0.6])
     assert len(sf.data(may, t=[1, 1], z=[0.5, 0.5], phi=[0.5, 0.6], replicates="keep")) == 2
     assert len(sf.data(may, t=[1, 2], z=[0.5, 0.5], phi=[0.5, np.nan])) == 1, "NaN is missing"
+    with pytest.raises(sf.InputError, match="data = ndarray; must be a file"):
+        sf.data(may, np.zeros((3, 3)))
     for wrong, match in (({"t": 1, "z": 0.5}, "must have t, z"), ({"t": 1, "z": 0, "phi": 0, "nope": 1}, "no column"),
                          ({"t": 1, "z": 0.5, "phi": 0.5, "sigma": 0}, r"sigma\[0\]")):  # fmt: skip
         with pytest.raises(sf.InputError, match=match):

@@ -73,6 +73,37 @@ def test_files_say_where(tmp_path: Path) -> None:
         sf.read(tmp_path / "none.toml")
 
 
+@pytest.mark.parametrize(
+    ("parts", "says"),
+    [
+        ({"shear_rate": [2.4, 0.3]}, "shear_rate = .*must be a model such as Piecewise"),
+        ({"shear_rate": "exponential"}, "shear_rate = 'exponential'; must be a model"),
+        ({"shear_rate": sf.Cubic(0.3)}, "shear_rate.model"),
+        ({"initial": [0, 1]}, "initial = .*must be a model such as Step"),
+        ({"domain": 2}, r"domain = 2; must be a pair \(bottom, top\)"),
+        ({"flux": ["quadratic", "cubic"]}, r"flux\[1\] = 'cubic'; must be a pair"),
+        ({"diffusion": "much"}, "diffusion = 'much'; must be a number"),
+        ({"units": {"z": 3}}, "units.z"),
+        ({"boundary": {"bottom": {"value": [0.2]}}}, "boundary.bottom"),
+    ],
+)
+def test_parts_of_the_wrong_kind(parts: dict[str, object], says: str) -> None:
+    with pytest.raises(sf.InputError, match=says):
+        sf.Scene(**{"shear_rate": 1, "initial": sf.Step(0.5), **parts})
+
+
+def test_numbers_and_lists_of_fluxes() -> None:
+    assert sf.Scene(shear_rate=1, initial=0.3) == sf.Scene(shear_rate=sf.Piecewise([], [1]), initial=sf.Pieces([], [0.3]))
+    two = sf.Scene(shear_rate=1, initial=0.3, flux=["quadratic", (0.5, sf.Cubic(0.3))])
+    assert repr(two).startswith("Scene(flux=[Quadratic(), (0.5, Cubic(0.3))], ")
+    assert eval(repr(two), vars(sf)) == two
+
+
+def test_a_fit_file_is_no_scene() -> None:
+    with pytest.raises(sf.InputError, match="is a fit file"):
+        sf.read(SOURCE / "datasets" / "paper-example-3" / "fit.toml")
+
+
 def test_models_say_what_they_take() -> None:
     with pytest.raises(TypeError, match="no entry 'breaks'"):
         sf.Exponential(breaks=1)

@@ -149,6 +149,18 @@ def test_unlike_inputs_are_refused(may: sf.Scene) -> None:
         may.solve("stead")
 
 
+@pytest.mark.parametrize(("z", "t"), [(1.5, 0.5), (-0.1, 0.5), (0.5, -1.0), (np.nan, 1.0), (0.5, np.nan)])
+def test_places_outside_are_refused(may: sf.Scene, z: float, t: float) -> None:
+    key = "z" if t == abs(t) and not 0 <= z <= 1 else "t"
+    for call in (may.phi, may.M, may.jacobian):
+        for places in ((z, t), ([z], [t]), ([0.5, z], [1.0, t]), ([[0.5], [z]], [1.0, t])):
+            with pytest.raises(sf.InputError, match=rf"^({key}|times|heights|depths)\b"):
+                call(*places)
+    if key == "z":
+        with pytest.raises(sf.InputError, match="inside the domain"):
+            may.track(0.1).phi([0.5, z])
+
+
 def test_bed(may: sf.Scene) -> None:
     bed = may.bed([0, 0.7, "steady"])
     np.testing.assert_allclose(bed["mixing"][[0, 2]], 0, atol=1e-12)
