@@ -92,8 +92,17 @@ def _pictures(app):
     return app.shearfront_gallery
 
 
-def _of_gallery(pictures):
-    return [p for p in pictures.values() if p.script.parent.name == "gallery"]
+def _of_gallery(app):
+    """Areas with their pictures; every script of the gallery is in one."""
+    pictures = _pictures(app)
+    areas = app.config.gallery_areas
+    there = {p.name for p in pictures.values() if p.script.parent.name == "gallery"}
+    listed = [name for names in areas.values() for name in names]
+    if sorted(listed) != sorted(there):
+        raise ExtensionError(
+            f"gallery_areas and the scripts of docs/gallery differ: {', '.join(there.symmetric_difference(listed))}"
+        )
+    return {area: [pictures[name] for name in names] for area, names in areas.items()}
 
 
 def _image(picture, page):
@@ -116,7 +125,7 @@ class Thumbnails(SphinxDirective):
         up = "../" * page.count("/")
         wanted = [line.partition(": ")[::2] for line in self.content if line.strip()]
         if not wanted:
-            wanted = [(p.name, p.title) for p in _of_gallery(pictures)]
+            wanted = [(p.name, p.title) for shown in _of_gallery(self.env.app).values() for p in shown]
         size = " large" if len(wanted) < 4 else ""
         cells = "".join(
             f'<a href="{up}gallery/index.html#{name}">'
@@ -130,19 +139,26 @@ class Gallery(SphinxDirective):
     """Every picture with its text and its code."""
 
     def run(self):
-        """A section for each picture."""
+        """A section for each area."""
         made = []
-        for picture in _of_gallery(_pictures(self.env.app)):
-            self.env.note_dependency(str(picture.script))
-            section = nodes.section(ids=[picture.name], names=[picture.name])
-            code = nodes.literal_block(picture.code, picture.code)
-            code["language"] = picture.language
-            section += nodes.title(picture.title, picture.title)
-            section += nodes.paragraph(picture.text, picture.text)
-            section += nodes.raw("", f'<img src="{_image(picture, self.env.docname)}" alt="{picture.title}">', format="html")
-            section += code
-            made.append(section)
+        for area, pictures in _of_gallery(self.env.app).items():
+            part = nodes.section(ids=[nodes.make_id(area)], names=[area])
+            part += nodes.title(area, area)
+            part += [self.section(picture) for picture in pictures]
+            made.append(part)
         return made
+
+    def section(self, picture):
+        """Title, text, picture and code."""
+        self.env.note_dependency(str(picture.script))
+        section = nodes.section(ids=[picture.name], names=[picture.name])
+        code = nodes.literal_block(picture.code, picture.code)
+        code["language"] = picture.language
+        section += nodes.title(picture.title, picture.title)
+        section += nodes.paragraph(picture.text, picture.text)
+        section += nodes.raw("", f'<img src="{_image(picture, self.env.docname)}" alt="{picture.title}">', format="html")
+        section += code
+        return section
 
 
 class OnePicture(SphinxDirective):
@@ -168,6 +184,7 @@ class OnePicture(SphinxDirective):
 
 def setup(app):
     """Adds the directives."""
+    app.add_config_value("gallery_areas", {}, "env")
     app.add_directive("picture", OnePicture)
     app.add_directive("gallery", Gallery)
     app.add_directive("gallery-thumbnails", Thumbnails)
