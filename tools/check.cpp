@@ -11,6 +11,8 @@
 #include "cli/command.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/parameters.hpp"
+#include "shearfront/fit/scene_uncertainty.hpp"
+#include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
@@ -64,7 +66,8 @@ std::string summary_text(const Observations& data) {
 std::string summary_text(const fit::FitFile& file) {
   const fit::FitSpec& spec = file.spec;
   return fmt::format("{}, {}, {} ({}), {}, {}", quoted_text(spec.name, 80),
-                     counted(fit::Parameters(spec.scene, spec.unknown).size(), "unknown"),
+                     file.choice ? counted(file.choice->models.size(), "model")
+                                 : counted(fit::Parameters(spec.scene, spec.unknown).size(), "unknown"),
                      counted(spec.observations.rows.size(), "observation"),
                      name_of(spec.observations.quantity), spec.forward.method.name(), spec.search.algorithm);
 }
@@ -75,6 +78,11 @@ bool is_csv(const std::string& file) {
   return extension == ".csv";
 }
 
+void check_scene(const std::string& file, const Scene<double>& scene) {
+  print_remarks(scene.spec().remarks);
+  (void)fit::read_uncertainty(detail::TextSource::read(file).text(), file, scene);
+}
+
 /// What there is to say about a good file.
 std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
   if (!is_csv(file)) {
@@ -82,7 +90,7 @@ std::string check_file(const std::string& file, const std::optional<Scene<double
     if (const auto* fit_file = std::get_if<fit::FitFile>(&content))
       print_remarks(fit_file->remarks);
     else
-      print_remarks(std::get<Scene<double>>(content).spec().remarks);
+      check_scene(file, std::get<Scene<double>>(content));
     return std::visit([](const auto& good) { return summary_text(good); }, content);
   }
   const Observations data = scene ? read_observations(file, *scene) : read_observations(file);

@@ -26,6 +26,7 @@ namespace {
 constexpr Bounds kPositive{0, HUGE_VAL, true};
 
 struct CompareArguments {
+  PictureOptions pictures;
   SceneArgument scene;
   std::string output, plot;
   std::optional<std::string> times, methods, cells, resolutions, budget, repeat;
@@ -185,6 +186,7 @@ int compare(CompareArguments& arguments) {
   const auto methods = compared_methods("--methods", arguments.methods);
   const auto cells = resolutions_of(arguments, "cells"), steps = resolutions_of(arguments, "resolution");
   ComparisonLimits limits = limits_of(arguments);
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   const bool is_csv = arguments.output == "-";  // instead of the table
   if (is_csv && arguments.json)
@@ -251,6 +253,7 @@ Command add_compare(CLI::App& program) {
   app->add_option("-o", arguments->output, "all rows as CSV; - instead of the table")->type_name("FILE");
   app->add_option("--plot", arguments->plot, "picture of error against time: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   app->footer("Ctrl-C ends the comparison with what is done; a second one ends the program.");
   return {app, "SCENE", [arguments] { return compare(*arguments); }};

@@ -34,6 +34,7 @@ constexpr double kPictureResolution = 0.04;
 constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
+  PictureOptions pictures;
   SceneArgument scene;
   std::string digits, plot;
   bool json = false;
@@ -53,6 +54,7 @@ std::string band_text(const fit::Interval& band) {
 
 /// Event times as they are computed and printed, beside those by another road (formula or exact solver).
 struct EventTable {
+  const Scene<double>& scene;
   const Timeline<double>& timeline;
   const TimelineText& text;
   ClosedForms forms;
@@ -82,17 +84,25 @@ struct EventTable {
                       std::optional<std::string> TimelineText::InterfaceTimes::*text_member,
                       const std::optional<ClosedForm>& form,
                       std::optional<fit::Interval> fit::PredictedEvents::InterfaceBands::*band) {
-    const std::size_t n = timeline.interfaces.size();
+    const std::size_t n = timeline.interfaces.size() - n_kinks();
+    std::size_t number = 0;
     const std::string in_unit = units.z.empty() ? "" : " " + printable(units.z, 20);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < timeline.interfaces.size(); ++i) {
       const auto& at = timeline.interfaces[i];
+      if (!scene.jumps_at(at.z)) continue;
+      ++number;
       std::optional<double> other;
       for (const auto& same : exact.value_or(Timeline<double>{}).interfaces)
         if (same.z == at.z) other = same.*member;
-      add(event + (n == 1 ? "" : fmt::format("({})", i + 1)), meaning + number_text(at.z) + in_unit,
+      add(event + (n == 1 ? "" : fmt::format("({})", number)), meaning + number_text(at.z) + in_unit,
           at.*member, text.interfaces[i].*text_member, form, other,
           bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : std::nullopt);
     }
+  }
+  /// Heights of the timeline that are no interfaces: points of a table where only the slope jumps.
+  [[nodiscard]] std::size_t n_kinks() const {
+    return static_cast<std::size_t>(std::count_if(timeline.interfaces.begin(), timeline.interfaces.end(),
+                                                  [&](const auto& at) { return !scene.jumps_at(at.z); }));
   }
   [[nodiscard]] std::string all() {
     const Timeline<double> other = exact.value_or(Timeline<double>{});
@@ -153,10 +163,19 @@ void print_events(const EventsArguments& arguments, const Method& method, const 
                       bands ? bands_of(*bands) : EventBands{}, scene.spec().units);
   } else {
     const bool compare = !method.guarantees().exact;
-    EventTable table{
-        timeline, text,  closed_forms(scene), compare ? std::optional(exact_times(scene)) : std::nullopt,
-        digits,   bands, scene.spec().units};
+    EventTable table{scene,
+                     timeline,
+                     text,
+                     closed_forms(scene),
+                     compare ? std::optional(exact_times(scene)) : std::nullopt,
+                     digits,
+                     bands,
+                     scene.spec().units};
     out.write(fmt::format("{} ({})\n\n{}", printable(scene.name(), 100), method.name(), table.all()));
+    if (const std::size_t n = table.n_kinks(); n > 0)
+      out.write(fmt::format(
+          "\n{} where only the slope of the bed jumps, the points of a table: --json lists them\n",
+          n == 1 ? std::string("1 height") : fmt::format("{} heights", n)));
     if (table.forms.t0)
       out.write(
           "\nz0 initial jump, zc interface, h top (heights above the bottom); "
@@ -213,6 +232,7 @@ int events(EventsArguments& arguments) {
     refuse("--digits", arguments.digits,
            fmt::format("must be <= {} with --method {}; only {} computes more digits", kDoubleDigits,
                        method.name(), Method().name()));
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   check_outputs(arguments.scene.file(), {{"--plot", arguments.plot}});
   const auto scene = arguments.scene.read();
@@ -240,9 +260,9 @@ int events(EventsArguments& arguments) {
     result.summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   std::optional<fit::PredictedEvents> bands;
-  if (const auto& fitted = arguments.scene.fit()) {
-    bands = fit::predict_events(scene, fitted->draws, method);
-    note_draws(fitted->draws, bands->n_failed);
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
+    bands = fit::predict_events(scene, *draws, method);
+    note_draws(*draws, bands->n_failed);
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);
@@ -265,6 +285,7 @@ Command add_events(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of the fronts in the (t, z) plane: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   return {app, "SCENE", [arguments] { return events(*arguments); }};
 }

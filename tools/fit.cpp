@@ -18,6 +18,7 @@
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/rate_band.hpp"
 #include "shearfront/io/file_error.hpp"
+#include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 
@@ -25,8 +26,9 @@ namespace shearfront::tools {
 namespace {
 
 struct FitArguments {
+  PictureOptions pictures;
   std::vector<std::string> files;
-  std::string output, plot, scene_out, band, predict, times, heights;
+  std::string output, plot, truth, scene_out, band, predict, times, heights;
   bool json = false;
 };
 
@@ -114,6 +116,36 @@ int print_several(const std::vector<std::string>& names, const std::vector<fit::
   return code;
 }
 
+/// The models of one file: which is how good, the best in full, and a line for what is to be said about each other.
+int print_models(const FittedModels& models, bool json) {
+  const std::vector<fit::Estimate>& estimates = models.all.estimates;
+  std::vector<std::string> names;
+  for (const fit::FitSpec& spec : models.all.specs) names.push_back(spec.name);
+  OutputFile out("-");
+  const auto compared = fit::compare_models(names, estimates);
+  if (json) {
+    detail::Json all{{"fits", detail::Json::array()}, {"comparison", comparison_json(compared)}};
+    all["best"] = models.best ? detail::Json(names[*models.best]) : detail::Json();
+    for (const fit::Estimate& estimate : estimates) all["fits"].push_back(to_json(estimate));
+    out.write(detail::json_document(all));
+  } else {
+    out.write(comparison_text(compared));
+    if (models.best) out.write("\n" + estimate_text(estimates[*models.best]));
+  }
+  out.commit();
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const fit::Estimate& e = estimates[i];
+    if (i == models.best)
+      (void)report_outcome(e, names[i] + ": ");
+    else if (!e.usable())
+      note(fmt::format("{}: no result ({}): {}", names[i], name_of(e.status), printable(e.message)));
+    else if (!e.warnings.empty())
+      note(fmt::format("{}: {}{}", names[i], printable(e.warnings.front(), 100),
+                       e.warnings.size() == 1 ? "" : fmt::format(" (and {} more)", e.warnings.size() - 1)));
+  }
+  return models.best ? kDone : kNoResult;
+}
+
 /// Where a prediction is wanted.
 struct PredictionPlan {
   std::vector<double> times, heights;
@@ -160,11 +192,19 @@ int fit_files(const FitArguments& arguments) {
   for (const Output& output : outputs)
     if (!is_one && !output.option.empty() && !output.path.empty())
       refuse(output.option, output.path, "needs a single fit file");
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
-  const std::vector<fit::FitFile> files = read_files(arguments.files);
+  std::vector<fit::FitFile> files = read_files(arguments.files);
+  for (std::size_t i = 0; !is_one && i < files.size(); ++i)
+    if (files[i].choice)
+      throw InputError(printable(arguments.files[i]), "",
+                       "compares models already: it must be the only file");
   check_comparable(arguments.files, files);
   for (const std::string& input : {arguments.files[0], files[0].scene, files[0].observations})
     check_outputs(input, outputs);
+  if (!arguments.truth.empty() && arguments.plot.empty()) refuse("--truth", arguments.truth, "needs --plot");
+  std::optional<Scene<double>> truth;
+  if (!arguments.truth.empty()) truth = with_remarks(read_scene<double>(arguments.truth));
   const PredictionPlan plan = plan_of(arguments, files[0].spec.scene);
   std::optional<OutputFile> output, scene_out, band, prediction;
   if (!arguments.output.empty()) output.emplace(arguments.output);
@@ -179,8 +219,16 @@ int fit_files(const FitArguments& arguments) {
 
   const InterruptGuard guard;
   std::vector<fit::Estimate> estimates;
-  for (std::size_t i = 0; i < files.size(); ++i)
-    estimates.push_back(run_fit(files[i].spec, arguments.files[i]));
+  if (is_one && files[0].choice) {
+    const FittedModels models = run_models(files[0], arguments.files[0]);
+    const int code = print_models(models, arguments.json);
+    if (!models.best) return code;
+    files[0].spec = models.all.specs[*models.best];
+    estimates.push_back(models.all.estimates[*models.best]);
+  } else {
+    for (std::size_t i = 0; i < files.size(); ++i)
+      estimates.push_back(run_fit(files[i].spec, arguments.files[i]));
+  }
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
   if (output && estimate.usable()) {
@@ -200,9 +248,9 @@ int fit_files(const FitArguments& arguments) {
     write_prediction(*prediction, plan, files[0].spec, estimate);
     prediction->commit();
   }
-  const int code = print_one(estimate, arguments.json);
+  const int code = files[0].choice ? kDone : print_one(estimate, arguments.json);
   if (arguments.plot.empty()) return code;
-  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate));
+  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate, truth));
 }
 
 }  // namespace
@@ -217,6 +265,7 @@ Command add_fit(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of data, fit, shear rate and search: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  app->add_option("--truth", arguments->truth, "scene whose s a(z) --plot shows as well")->type_name("SCENE");
   app->add_option("--scene-out", arguments->scene_out, "the fitted scene, a scene file")->type_name("FILE");
   app->add_option("--band", arguments->band, "s a(z) with its pointwise 95 % band as CSV")->type_name("FILE");
   app->add_option("--predict", arguments->predict,
@@ -225,6 +274,7 @@ Command add_fit(CLI::App& program) {
   app->add_option("--times", arguments->times, "of --predict: 0.5,6 or start:stop:count")->type_name("LIST");
   app->add_option("--heights", arguments->heights, "of --predict; default 101 over the whole domain")
       ->type_name("LIST");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "print JSON");
   app->footer(
       "Ctrl-C ends the search with the best point so far (status interrupted); a second one ends the "

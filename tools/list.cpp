@@ -84,7 +84,8 @@ std::string unknowns() {
       auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
       if (field == fields.end()) field = fields.insert(field, {name, ""});
       // Scale stands beside the models in the file, but every scene has it.
-      const bool is_of_model = !prefix.empty() && name.starts_with(prefix) && name != "shear_rate.scale";
+      const bool is_of_model =
+          !prefix.empty() && name.starts_with(prefix) && name != "shear_rate.scale" && name != "diffusion.D";
       if (is_of_model && field->models.find(model) == std::string::npos)
         field->models += (field->models.empty() ? "" : ", ") + std::string(model);
     });
@@ -109,6 +110,18 @@ std::string unknowns() {
     spec.close_packing = C{};
     visit(spec, "close_packing.", C::kName);
   });
+  DepthFunctionList<double>::for_each([&]<class A>() {
+    SceneSpec<double> spec;
+    spec.solid_fraction = A{};
+    spec.temperature = A{};
+    spec.diffusion.emplace().variation = A{};
+    for (const char* prefix : {"solid_fraction.", "temperature.", "diffusion."})
+      visit(spec, prefix, A::kName);
+  });
+  SceneSpec<double> plain;
+  plain.outside_bottom.emplace();
+  plain.outside_top.emplace();
+  visit(plain, "initial.", "without a model");
   std::stable_partition(fields.begin(), fields.end(), [](const Field& f) { return !f.models.empty(); });
   TextTable table({"name", "models"});
   for (const Field& field : fields) table.add({field.name, field.models});

@@ -10,6 +10,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/progress.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/text.hpp"
 
@@ -87,7 +88,10 @@ int run(int argc, char** argv) {
       tools::add_events(program), tools::add_solve(program),   tools::add_observe(program),
       tools::add_fit(program),    tools::add_compare(program), tools::add_check(program),
       tools::add_list(program),   tools::add_import(program),  tools::add_study(program)};
+  bool is_verbose = false;
   for (const Command& command : commands) {
+    command.app->add_flag("--verbose", is_verbose,
+                          "a line per minute on standard error where it is no terminal");
     command.app->allow_extras();
     command.app->get_formatter()->label("REQUIRED", "");
   }
@@ -109,6 +113,8 @@ int run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     check_leftovers(*command.app, {});
+    tools::ProgressLine::set_verbose(is_verbose);
+    tools::say_when_interrupted();
     return command.run();
   }
   check_leftovers(program, names_of(commands));

@@ -25,6 +25,7 @@ constexpr std::size_t kDefaultDepths = 101;
 constexpr double kMostSamples = 1e8;  // times x depths
 
 struct SolveArguments {
+  PictureOptions pictures;
   SceneArgument scene;
   std::string times, depths, quantity, output, fronts, plot, map;
   bool json = false;
@@ -51,6 +52,7 @@ void check_arguments(const SolveArguments& arguments, const Method& method) {
     refuse("--fronts", arguments.fronts,
            fmt::format("needs --method {}; {} has no fronts",
                        fmt::join(Method::names(&Guarantees::has_fronts), "|"), method.name()));
+  arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
   check_picture_name("--map", arguments.map);
   // Without -o the samples go to standard output.
@@ -69,6 +71,38 @@ void check_arguments(const SolveArguments& arguments, const Method& method) {
     refuse("--fronts", arguments.fronts, "must not be given with --quantity " + arguments.quantity);
 }
 
+bool has_steady(const std::vector<double>& times) {
+  return std::any_of(times.begin(), times.end(), [](double t) { return !std::isfinite(t); });
+}
+
+/// When the bed comes to rest: t* of the method, or of the first that knows it here. Errors: InputError if there is none.
+double steady_time(const SolveArguments& arguments, const Scene<double>& scene, const Method& method) {
+  std::optional<double> t_star;
+  try {
+    t_star = (method.guarantees().has_timeline ? event_times(scene, method) : event_times(scene)).t_star;
+  } catch (const InputError& error) {
+    refuse(
+        "--times", arguments.times,
+        "needs the time of the steady state, which is not known here: " + error.complaints().front().text());
+  }
+  if (!t_star)
+    refuse("--times", arguments.times, "needs the time of the steady state, which never comes here");
+  return *t_star;
+}
+
+/// --times, in which 0:steady:5 goes up to t*.
+std::vector<double> times_of(const SolveArguments& arguments, const Scene<double>& scene,
+                             const Method& method) {
+  constexpr std::string_view kSteady = ":steady:";
+  std::string text = arguments.times;
+  if (text.find(kSteady) != std::string::npos) {
+    const std::string stop = ":" + number_text(steady_time(arguments, scene, method)) + ":";
+    for (std::size_t at = text.find(kSteady); at != std::string::npos; at = text.find(kSteady, at))
+      text.replace(at, kSteady.size(), stop);
+  }
+  return list_option("--times", text, {0}, ">= 0", Steady::allowed);
+}
+
 std::vector<double> depths_of(const SolveArguments& arguments, const Scene<double>& scene) {
   if (arguments.depths.empty()) return equally_spaced(scene.bottom(), scene.top(), kDefaultDepths);
   const std::string inside =
@@ -82,14 +116,22 @@ SolverRequest request_of(const SolveArguments& arguments, const Task& task) {
   request.heights = depths_of(arguments, task.scene);
   const double n = static_cast<double>(request.times.size()) * static_cast<double>(request.heights.size());
   if (n > kMostSamples) refuse("--times", arguments.times, "must give at most 1e8 pairs of time and depth");
-  if (!arguments.map.empty() && !(last_time(request.times) > 0))
+  if (!arguments.map.empty() && !(last_time(request.times) > 0) && !has_steady(request.times))
     refuse("--map", arguments.map, "needs a time > 0 to draw up to among --times");
   request.fronts = !arguments.fronts.empty();
   // The event times are marked in the picture of fronts; the steady time stands for "steady" in the output.
-  request.timeline =
-      task.method.guarantees().has_timeline && task.scene.has_walls() &&
-      (request.fronts || !std::isfinite(*std::max_element(request.times.begin(), request.times.end())));
+  request.timeline = task.method.guarantees().has_timeline && task.scene.has_walls() &&
+                     (request.fronts || has_steady(request.times));
   return request;
+}
+
+/// Says how large a file of fronts becomes before it is written.
+void note_size(std::size_t n_fronts) {
+  constexpr double kBytes = 80, kMuch = 1e8;  // of a row
+  const double size = kBytes * static_cast<double>(n_fronts);
+  if (size > kMuch)
+    note(fmt::format("--fronts: {} fronts, about {:.0f} MB; a coarser --resolution has fewer", n_fronts,
+                     size / 1e6));
 }
 
 /// Numbers of the whole bed instead of concentrations.
@@ -101,9 +143,11 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
   note_unused_layers(arguments.method, task.scene);
-  const BedCourse course = with_progress([&](const Progress& progress) {
-    return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
-  });
+  const BedCourse course = with_progress(
+      [&](const Progress& progress) {
+        return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
+      },
+      last_time(task.times));
   if (!course.summary.usable()) return report_unusable(course.summary);
   note_remark(course.summary);
   const auto& lowest = course.lowest;
@@ -129,25 +173,29 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   check_picture_target(arguments.plot);
   check_picture_target(arguments.map);
   note_unused_layers(arguments.method, task.scene);
-  const SolverResult result = with_progress([&](const Progress& progress) {
-    return shearfront::solve(task.scene, task.method, request, progress);
-  });
+  const SolverResult result = with_progress(
+      [&](const Progress& progress) { return shearfront::solve(task.scene, task.method, request, progress); },
+      last_time(request.times));
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
     if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
-  if (const auto& fitted = arguments.scene.fit()) {
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     const fit::PredictedSamples samples =
-        fit::predict_samples(task.scene, fitted->draws, task.method, request.times, request.heights);
-    note_draws(fitted->draws, samples.n_failed);
+        fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
+    note_draws(*draws, samples.n_failed);
     write_prediction_csv(output, times, request.heights, samples);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary, task.scene.spec().units);
   else
     write_samples_csv(output, times, request.heights, result.samples, task.scene.spec().units);
+  if (has_steady(times))
+    note(fmt::format("{} has no time of the steady state: it goes to the state of rest, and t is empty",
+                     task.method.name()));
+  if (fronts) note_size(result.fronts.size());
   if (fronts) write_fronts_csv(*fronts, result.fronts, task.scene.spec().units);
   if (fronts) fronts->commit();
   output.commit();
@@ -158,16 +206,18 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
                                         number_of(task.method, "resolution"))
                           : draw_profiles(arguments.plot, task.scene, task.method, times);
   if (arguments.map.empty() || code != kDone) return code;
-  return draw_map(arguments.map, task.scene, task.method, last_time(times));
+  const double t_end = last_time(times);
+  return draw_map(arguments.map, task.scene, task.method,
+                  t_end > 0 ? t_end : steady_time(arguments, task.scene, task.method));
 }
 
 int solve_scene(SolveArguments& arguments) {
   const Method method = arguments.method.method();
   check_arguments(arguments, method);
   const auto scene = arguments.scene.read();
-  if (arguments.scene.fit() && arguments.json)
-    throw InputError("--json", "", "must not be given with a fit file, whose bands are CSV");
-  const Task task{scene, method, list_option("--times", arguments.times, {0}, ">= 0", Steady::allowed)};
+  if (arguments.scene.draws() && arguments.json)
+    throw InputError("--json", "", "must not be given with a fit file or [uncertain], whose bands are CSV");
+  const Task task{scene, method, times_of(arguments, scene, method)};
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);
 }
@@ -198,6 +248,7 @@ Command add_solve(CLI::App& program) {
   app->add_option("--map", arguments->map,
                   "picture of phi over time and height, up to the last time: FILE.svg, .png or .pdf")
       ->type_name("FILE");
+  arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "write JSON instead of CSV");
   return {app, "SCENE", [arguments] { return solve_scene(*arguments); }};
 }

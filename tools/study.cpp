@@ -88,9 +88,15 @@ std::vector<std::size_t> runs_of(const Shard& shard, std::size_t n) {
 class GrowingFile {
  public:
   /// Opens a new file with this head, or, to resume, one that begins with it: the lines that are complete are counted and
-  /// what follows them is cut off. Errors: FileError, InputError if the file is that of another study.
+  /// what follows them is cut off. Errors: FileError, InputError if the file is that of another study, or is there and not
+  /// to be resumed: hours of work may be in it.
   GrowingFile(const std::string& path, const std::string& head, bool resume) : path_(path) {
-    if (resume && std::filesystem::exists(path)) {
+    const bool is_there = std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) > 0;
+    if (is_there && !resume)
+      throw InputError(
+          "-o", quoted_text(path),
+          "is there already: --resume goes on with it; another name or no such file begins anew");
+    if (is_there) {
       const std::string text = detail::TextSource::read(path).text();
       const std::size_t complete = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
       const bool is_whole_head = complete >= head.size();
@@ -154,6 +160,7 @@ int run_study(const StudyArguments& arguments) {
   const bool has_indices = spec.design == fit::DesignKind::indices;
   if (!arguments.indices.empty() && (!has_indices || shard.n > 1))
     refuse("--indices", arguments.indices, "needs a whole study with design.kind = \"sobol-indices\"");
+  if (!spec.fit_file) print_remarks(spec.scene->spec().remarks);
   const fit::StudyRuns runs(std::move(spec));
   const std::string head = head_of(runs, study_text, shard);
   std::vector<std::size_t> which = runs_of(shard, runs.size());
@@ -174,15 +181,17 @@ int run_study(const StudyArguments& arguments) {
   ProgressLine progress;
   std::size_t n = n_done, n_failed = 0;
   std::vector<std::vector<double>> outputs;
-  runs.run_all(which, threads, [&](const fit::StudyRow& row) {
-    to_file ? file->write(line_of(row)) : standard.write(line_of(row));
-    n_failed += row.failure.empty() ? 0 : 1;
-    if (!arguments.indices.empty()) outputs.push_back(row.outputs);
-    ++n;
-    if (to_file && n % 64 == 0) file->flush();
-    progress.show_part(n, n_all);
-    return !InterruptGuard::is_interrupted();
-  });
+  runs.run_all(
+      which, threads,
+      [&](const fit::StudyRow& row) {
+        to_file ? file->write(line_of(row)) : standard.write(line_of(row));
+        n_failed += row.failure.empty() ? 0 : 1;
+        if (!arguments.indices.empty()) outputs.push_back(row.outputs);
+        ++n;
+        if (to_file && n % 64 == 0) file->flush();
+        progress.show_part(n, n_all);
+      },
+      [] { return !InterruptGuard::is_interrupted(); });
   if (to_file)
     file->flush();
   else

@@ -92,9 +92,6 @@ void row(const Case& example, const char* data_name, const Observations& data, c
   method.prefer_smooth(spec.scene);
   if (model.resolution > 0) set_option(method, "resolution", number_text(model.resolution), "resolution");
   if (model.cells > 0) set_option(method, "cells", std::to_string(model.cells), "cells");
-  // A smooth a(z) in as many layers as its steps need; by itself the tracker takes far more.
-  if (model.resolution > 0 && example.problem.is_exponential)
-    set_option(method, "layers", std::to_string(std::lround(0.5 / model.resolution)), "layers");
   spec.search.algorithm = algorithm;
   const Estimate estimate = fit(spec);
   const std::string setting = model.resolution > 0 ? " " + std::to_string(model.resolution).substr(0, 6)

@@ -69,27 +69,36 @@ class Soak {
       if (seed - settings_.seed >= settings_.scenes) return;
       worker.seed = seed;
       worker.begin = Clock::now().time_since_epoch().count();
-      const soak::Trial trial = soak::draw_trial(seed);
-      if (settings_.print) std::printf("%s\n", soak::text_of(trial).c_str());
-      soak::Findings findings;
-      try {
-        findings = soak::check_trial(trial);
-      } catch (const std::exception& error) {
-        findings.n_scenes = 1;
-        findings.complain("no engine throws", error.what());
-      }
+      check(
+          seed, [&] { return soak::check_trial(soak::draw_trial(seed)); },
+          [&] { return soak::text_of(soak::draw_trial(seed)); });
+      worker.begin = Clock::now().time_since_epoch().count();
+      check(
+          seed, [&] { return soak::check_any_kind(seed); }, [&] { return soak::text_of_any_kind(seed); });
       worker.begin = 0;
-      const std::lock_guard lock(mutex_);
-      total_.add(findings);
-      for (const auto& [law, places] : findings.violations()) {
-        std::printf("VIOLATED  %s\n", law.c_str());
-        for (const std::string& place : places) std::printf("    %s\n", place.c_str());
-      }
-      if (!findings.violations().empty()) {
-        std::printf("    replay: --seed %llu --scenes 1\n%s\n", static_cast<unsigned long long>(seed),
-                    soak::text_of(trial).c_str());
-        std::fflush(stdout);
-      }
+    }
+  }
+
+  template <class Check, class Text>
+  void check(std::uint64_t seed, Check&& laws, Text&& text) {
+    if (settings_.print) std::printf("%s\n", text().c_str());
+    soak::Findings findings;
+    try {
+      findings = laws();
+    } catch (const std::exception& error) {
+      findings.n_scenes = 1;
+      findings.complain("no engine throws", error.what());
+    }
+    const std::lock_guard lock(mutex_);
+    total_.add(findings);
+    for (const auto& [law, places] : findings.violations()) {
+      std::printf("VIOLATED  %s\n", law.c_str());
+      for (const std::string& place : places) std::printf("    %s\n", place.c_str());
+    }
+    if (!findings.violations().empty()) {
+      std::printf("    replay: --seed %llu --scenes 1\n%s\n", static_cast<unsigned long long>(seed),
+                  text().c_str());
+      std::fflush(stdout);
     }
   }
 
@@ -103,8 +112,10 @@ class Soak {
         const Clock::duration time = Clock::now().time_since_epoch() - Clock::duration(begin);
         if (std::chrono::duration<double>(time).count() < settings_.seconds_per_scene) continue;
         const std::lock_guard lock(mutex_);
-        std::printf("VIOLATED  every scene ends within %g s\n%s\n", settings_.seconds_per_scene,
-                    soak::text_of(soak::draw_trial(worker.seed)).c_str());
+        std::printf(
+            "VIOLATED  every scene ends within %g s\n%s\n", settings_.seconds_per_scene,
+            (soak::text_of(soak::draw_trial(worker.seed)) + "or\n" + soak::text_of_any_kind(worker.seed))
+                .c_str());
         ++total_.n_violations;
         print_summary();
         std::_Exit(1);

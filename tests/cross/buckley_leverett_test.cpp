@@ -191,5 +191,26 @@ TEST(BuckleyLeverett, ALayerMustTakeWhatComes) {
   EXPECT_LE(result.samples.at(0).phi, 1);
 }
 
+// What begins inside a stretch where a(z) falls must pass its narrow end too: front tracking searched for ever for states that
+// no layer has, and the schemes printed what they had lost. Found by the soak.
+TEST(BuckleyLeverett, ARateThatFallsMustTakeWhatBeginsBelow) {
+  SceneSpec<> spec = injection(BuckleyLeverett<double>{1}, {}, {1});
+  spec.shear_rate = Table<double>{{0, 1}, {2, 0.5}};
+  spec.outside_bottom->values = {0};
+  spec.initial_breaks.clear();
+  spec.initial_values = {0.5};  // f = 1/2: 2 f = 1 at the bottom, at most 0.5 at the top
+  for (const std::string& method : kMethods) {
+    const std::string why = Method(method).refusal(Scene<>(spec));
+    EXPECT_NE(why.find("has no state for the flux 1 that may come to it"), std::string::npos) << why;
+  }
+  // A quarter of it passes; and anything does where a rises.
+  spec.initial_values = {1 - std::sqrt(0.75)};
+  ASSERT_LT(2 * BuckleyLeverett<double>{1}.value(spec.initial_values[0]), 0.5);
+  for (const std::string& method : kMethods) EXPECT_EQ(Method(method).refusal(Scene<>(spec)), "") << method;
+  spec.shear_rate = Table<double>{{0, 1}, {0.5, 2}};
+  spec.initial_values = {1};
+  for (const std::string& method : kMethods) EXPECT_EQ(Method(method).refusal(Scene<>(spec)), "") << method;
+}
+
 }  // namespace
 }  // namespace shearfront

@@ -91,7 +91,7 @@ TEST(CurvedFronts, ShocksAreOfSecondOrder) {
 // Tables with throats, humps and jumps, exponentials, chutes; scenes that have come to rest say nothing.
 void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
   double coarse[3]{}, fine[3]{};
-  int counted = 0, missed = 0;
+  int counted = 0;
   for (int i = 0; i < n; ++i) {
     const SceneSpec<double> spec =
         support::random_curved_spec(support::seed_of(first + static_cast<std::uint64_t>(i)));
@@ -100,12 +100,8 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     const double t = t_scaled / spec.scale;
     const CurvedErrors a = curved_errors(scene, exact, 0.02, t), b = curved_errors(scene, exact, 0.0025, t);
     if (a.steps < 1e-6 || b.M < 1e-12) continue;
-    // The exact solution can miss a path at a single height, next to where two kinds of paths meet: then the integral, which
-    // bisects to there, is not that of the error.
-    if (std::max(a.M_at_pieces, b.M_at_pieces) > 1e-2) {
-      ++missed;
-      continue;
-    }
+    // At all heights to which the integrals bisect, next to where two kinds of paths meet above all.
+    EXPECT_LE(b.M_at_pieces, 1e-3) << "seed " << first + static_cast<std::uint64_t>(i);
     ++counted;
     const double now[3]{a.steps, a.lines, a.M}, then[3]{b.steps, b.lines, b.M};
     for (int k = 0; k < 3; ++k) coarse[k] += std::log2(now[k]), fine[k] += std::log2(then[k]);
@@ -113,7 +109,6 @@ void converge_in_random_beds(int n, std::uint64_t first, double t_scaled) {
     EXPECT_LE(b.steps, 1e-2) << "seed " << first + static_cast<std::uint64_t>(i);
   }
   EXPECT_GE(counted, n / 2);
-  EXPECT_LE(missed, 1 + n / 100);
   const auto order = [&](int k) { return (coarse[k] - fine[k]) / counted / 3; };
   std::printf("%d scenes: mean orders of steps %.2f, lines %.2f, M %.2f; mean errors %.1e, %.1e, %.1e\n",
               counted, order(0), order(1), order(2), std::exp2(fine[0] / counted),
@@ -173,6 +168,77 @@ TEST(CurvedFronts, OtherParabolas) {
     ++n;
   }
   EXPECT_EQ(n, 3);
+}
+
+/// Error of M of steps and lines at t = 0.3 and of the first arrivals, in a bed of one flux with 0 above and below a jump.
+struct OtherFluxErrors {
+  double steps, lines, arrivals;
+};
+OtherFluxErrors other_flux_errors(const Scene<double>& scene, const ExactSolution<double>& exact,
+                                  double resolution) {
+  OtherFluxErrors errors{0, 0, 0};
+  for (const Reconstruction kind : {Reconstruction::constant, Reconstruction::linear}) {
+    Tracking tracking(scene, {.resolution = resolution, .reconstruct = kind});
+    EXPECT_LE(tracking.summary().layers, 10u);  // no staircase
+    tracking.advance(0.3);
+    const auto field = tracking.field(scene);
+    double& largest = kind == Reconstruction::constant ? errors.steps : errors.lines;
+    for (int i = 1; i < 40; ++i)
+      largest = std::max(largest, std::abs(field->at(i / 40.0).M - exact.M(i / 40.0, 0.3)));
+    EXPECT_NEAR(field->at(1).M, scene.mass(), 1e-13);
+    const Timeline<double> tracked = *tracking.timeline(), timeline = exact_timeline(exact);
+    errors.arrivals = std::max({errors.arrivals, std::abs(*tracked.t0 / *timeline.t0 - 1),
+                                std::abs(*tracked.t1 / *timeline.t1 - 1)});
+  }
+  return errors;
+}
+
+// Convex and concave fluxes that are no parabolas, with and without layers of the solid fraction.
+TEST(CurvedFronts, OtherFluxes) {
+  int n = 0;
+  double coarse = 0, fine = 0;
+  for (const Flux<double>& flux : {Flux<double>(Cubic<double>{0.25}), Flux<double>(Cubic<double>{0.5}),
+                                   Flux<double>(LwrCubic<double>{0.8, 0.4})})
+    for (const DepthFunction<double>& rate :
+         {DepthFunction<double>(Exponential<double>{2, 0.4}),
+          DepthFunction<double>(Table<double>{{0, 0.4, 0.7, 1}, {1, 2, 0.6, 1.4}})})
+      for (const bool has_layers_of_c : {false, true}) {
+        SceneSpec<double> spec;
+        spec.fluxes = {flux};
+        spec.shear_rate = rate;
+        spec.initial_breaks = {0.5};
+        const double most = flux.range().highest;
+        spec.initial_values = {0, most};
+        if (flux.value(flux.extrema().front()) > 0) spec.initial_values = {most, 0};
+        if (has_layers_of_c) spec.solid_fraction = Piecewise<double>{{0.35}, {0.62, 0.5}};
+        const Scene<double> scene(spec);
+        const ExactSolution<double> exact(scene);
+        ASSERT_TRUE(exact.is_exact());
+        const OtherFluxErrors a = other_flux_errors(scene, exact, 0.02),
+                              b = other_flux_errors(scene, exact, 0.0025);
+        EXPECT_LE(b.arrivals, 1e-12) << flux.name();
+        EXPECT_LE(b.steps, 2e-5) << flux.name();
+        EXPECT_LE(b.lines, 2e-5) << flux.name();
+        coarse += std::log2(a.steps);
+        fine += std::log2(b.steps);
+        ++n;
+      }
+  EXPECT_EQ(n, 12);
+  EXPECT_GE((coarse - fine) / n / 3, 1.7);
+}
+
+// A flux with straight branches has contacts instead of fans: layers carry them.
+TEST(CurvedFronts, StraightBranchesAreTrackedInLayers) {
+  SceneSpec<double> spec;
+  spec.fluxes = {Triangular<double>{0.25, 1}};
+  spec.shear_rate = Exponential<double>{2, 0.4};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {1, 0};
+  const Scene<double> scene(spec);
+  Tracking tracking(scene, {.resolution = 0.02});
+  EXPECT_GT(tracking.summary().layers, 50u);
+  tracking.advance(0.6);
+  EXPECT_NEAR(tracking.profile().mass(), scene.mass(), 1e-13);
 }
 
 // What rests beyond an end is a wall.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
@@ -82,7 +83,16 @@ void lengthen(std::string& text, const std::vector<std::string>& words, Random& 
   text.insert(at, many);
 }
 
+/// What is being read, for report_text().
+const std::string* current = nullptr;
+
+/// A property that does not hold aborts (report.hpp): says on which text.
+extern "C" void report_text(int /*signal*/) {
+  if (current) std::cerr << "on\n" << *current << std::endl;
+}
+
 void run(const std::string& text) {
+  current = &text;
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
@@ -90,6 +100,7 @@ void run(const std::string& text) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::signal(SIGABRT, report_text);
   const auto texts = shearfront::fuzz::corpus();
   const auto words = shearfront::fuzz::words();
   if (arguments.size() == 2 && arguments[0] == "--file") {

@@ -55,4 +55,10 @@ void check_text(const Trial& trial, Findings& findings);
 /// All of it, on the trial of one seed.
 [[nodiscard]] Findings check_trial(const Trial& trial);
 
+/// A scene of any kind (every flux and pair of fluxes, c(z), T(z), smooth starts, tables, chutes, walls, open and joined
+/// ends, diffusion, any units) through every solver that takes it: it ends, range, mass, M monotone, scaling by powers of
+/// two, exact near Godunov, text. The mildly hard scenes; those of draw_trial() are harder, of one flux.
+[[nodiscard]] Findings check_any_kind(std::uint64_t seed);
+[[nodiscard]] std::string text_of_any_kind(std::uint64_t seed);
+
 }  // namespace shearfront::soak

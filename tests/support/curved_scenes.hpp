@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "shearfront/model/flux/all.hpp"
 #include "support/random_scene.hpp"
 
 /// Random beds whose rate varies smoothly in pieces: tables with throats, humps, flats and jumps, exponentials falling and rising,
@@ -58,6 +59,28 @@ inline SceneSpec<double> random_curved_spec(std::uint64_t seed) {
     const int kind = maker.integer(0, 5);
     spec.initial_values.push_back(kind <= 1 ? kind : kind == 2 ? 0.5 : maker.uniform(0, 1));
   }
+  return spec;
+}
+
+/// The same with another flux, convex or concave, and in half of them layers of the solid fraction.
+inline SceneSpec<double> random_curved_flux_spec(std::uint64_t seed) {
+  SceneMaker maker(seed);
+  SceneSpec<double> spec = random_curved_spec(seed);
+  switch (maker.integer(0, 2)) {
+    case 0:
+      spec.fluxes = {Cubic<double>{maker.uniform(0.01, 0.5)}};
+      break;
+    case 1:
+      spec.fluxes = {LwrCubic<double>{maker.uniform(0.3, 1), maker.uniform(0.01, 0.5)}};
+      break;
+    default:  // its slope changes slowly, but not smoothly
+      spec.fluxes = {FluxTable<double>{{0, 0.25, 0.5, 0.75, 1}, {0, -0.18, -0.24, -0.18, 0}}};
+  }
+  const Flux<double>& flux = spec.fluxes.front();
+  for (double& value : spec.initial_values)
+    value = value == 0.5 ? flux.extrema().front() : value * flux.range().highest;
+  if (maker.integer(0, 1) == 0)
+    spec.solid_fraction = Piecewise<double>{maker.heights(1, 0.1, 0.9), {maker.uniform(0.4, 0.7), 0.6}};
   return spec;
 }
 

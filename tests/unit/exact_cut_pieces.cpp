@@ -77,6 +77,10 @@ TEST(CutPieces, ExponentialOnesAreAsTheWhole) { check_cuts(RateForm::exponential
 TEST(CutPieces, LinearOnesAreAsTheWhole) { check_cuts(RateForm::linear, 5, 5301, 4e-15); }
 // exp is right to as many units as its argument is large, and so are times.
 TEST(CutPieces, SteepExponentialOnesAreAsTheWhole) { check_cuts(RateForm::exponential, 100, 5302, 1e-14); }
+// Down to the least numbers: squares of rates and dT/dh are none any more.
+TEST(CutPieces, ExponentialOnesOverAllExponentsAreAsTheWhole) {
+  check_cuts(RateForm::exponential, 680, 5306, 1e-14);
+}
 TEST(CutPieces, LinearOnesThatAlmostVanishAreAsTheWhole) { check_cuts(RateForm::linear, 100, 5303, 1e-14); }
 TEST(CutPieces, FlatOnesAreAsTheWhole) { check_cuts(RateForm::linear, 0, 5304, 4e-15); }
 // Of a slope of some units in the last place.

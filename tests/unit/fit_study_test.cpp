@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -125,8 +126,8 @@ TEST(StudyRuns, EveryRunIsTheSceneWithItsNumbersWhateverTheThreads) {
   std::vector<std::size_t> all(runs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::vector<StudyRow> one, three;
-  runs.run_all(all, 1, [&](const StudyRow& row) { return one.push_back(row), true; });
-  runs.run_all(all, 3, [&](const StudyRow& row) { return three.push_back(row), true; });
+  runs.run_all(all, 1, [&](const StudyRow& row) { one.push_back(row); });
+  runs.run_all(all, 3, [&](const StudyRow& row) { three.push_back(row); });
   ASSERT_EQ(one.size(), 300u);
   ASSERT_EQ(three.size(), 300u);
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -160,6 +161,52 @@ TEST(StudyRuns, AFailureIsARow) {
   EXPECT_NE(failed.failure.find("initial.breaks[0] = 1.5; must be inside the domain"), std::string::npos)
       << failed.failure;
   EXPECT_TRUE(std::isnan(failed.outputs[0]));
+}
+
+/// Fits of fresh noise about the estimate scatter as the fit says, whatever the threads; what is asked of the scene is that
+/// of the estimate of the row.
+TEST(StudyRuns, ReplicatesScatterAsTheErrorBars) {
+  const StudyRuns runs(
+      written("fit = \"" SHEARFRONT_SOURCE_DIR "/datasets/paper-example-3/fit-bin-noise-0.01.toml\"\n" +
+              design("replicates", 60, 3) + "[outputs]\nestimates = true\nevents = [\"t*\"]\n"));
+  ASSERT_EQ(runs.size(), 60u);
+  EXPECT_TRUE(runs.entries().empty());
+  const auto& outputs = runs.spec().outputs;
+  ASSERT_EQ(outputs.size(), 6u);
+  EXPECT_EQ(outputs[0].name, "t*");
+  EXPECT_EQ(outputs[3].name, "shear_rate.values[1]");
+  EXPECT_EQ(outputs[4].name, "std_error(shear_rate.values[1])");
+  EXPECT_EQ(outputs[5].name, "misfit");
+  std::vector<std::size_t> all(runs.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<StudyRow> one, two;
+  runs.run_all(all, 1, [&](const StudyRow& row) { one.push_back(row); });
+  runs.run_all(all, 2, [&](const StudyRow& row) { two.push_back(row); });
+  ASSERT_EQ(two.size(), 60u);
+  double mean = 0, variance = 0, stated = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].failure, "");
+    EXPECT_EQ(one[i].outputs, two[i].outputs) << i;
+    // t* of two layers is 2 h / k1 (May et al. 2010).
+    EXPECT_NEAR(one[i].outputs[0] * one[i].outputs[3], 2, 1e-9);
+    mean += one[i].outputs[3] / 60;
+    stated += one[i].outputs[4] / 60;
+  }
+  for (const StudyRow& row : one) variance += std::pow(row.outputs[3] - mean, 2) / 59;
+  EXPECT_NEAR(std::sqrt(variance) / stated, 1, 0.35);  // 60 estimates know their scatter to 9 %
+}
+
+TEST(StudyRuns, ItEndsWhenItMayNotGoOn) {
+  const StudyRuns runs(written(kScene + kTwo + design("random", 5000, 9) + kOutputs));
+  std::vector<std::size_t> all(runs.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::atomic<std::size_t> n = 0;
+  runs.run_all(
+      all, 3, [&](const StudyRow& row) { EXPECT_EQ(row.run, n++); }, [&] { return n < 200; });
+  EXPECT_GE(n, 200u);
+  EXPECT_LT(n, 1000u);
+  EXPECT_THROW(runs.run_all(all, 3, [](const StudyRow&) { throw InputError("disk", "", "is full"); }),
+               InputError);
 }
 
 TEST(StudyFile, RefusesWhatCannotBe) {
@@ -198,7 +245,7 @@ TEST(StudyFile, RefusesWhatCannotBe) {
       {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\nuniform = [2, 1]\n" + design("random", 3) + kOutputs,
        "must ascend"},
       {kScene + kTwo + kTwo + design("random", 3) + kOutputs, "must not vary twice"},
-      {kScene + kTwo + design("fit", 3) + kOutputs, "must be fit for a fit file"},
+      {kScene + kTwo + design("fit", 3) + kOutputs, "must be fit or replicates for a fit file"},
   };
   for (const auto& [text, expected] : cases)
     EXPECT_NE(report(text).find(expected), std::string::npos) << text << "gives\n" << report(text);

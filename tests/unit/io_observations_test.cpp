@@ -117,6 +117,29 @@ TEST(Observations, BinsMayPassTheEndsByRounding) {
   EXPECT_THROW((void)parse("t,z,phi,width\n0,0.95,1,0.1000000001\n"), FileError);
 }
 
+// The spread of n values about their mean over n - 1, over the root of n; and where squares are beyond doubles, as found by
+// mutations of files.
+TEST(Observations, MeansOfReplicatesHaveTheSpreadOfTheirValues) {
+  ObservationFormat format;
+  format.replicates = Replicates::averaged;
+  const auto read = [&](const std::string& rows) {
+    return parse_observations("t,z,phi\n" + rows, "data.csv", 0, 1, format);
+  };
+  const Observations pair = read("0,0.5,0.25\n0,0.5,0.75\n1,0.5,0.5\n");
+  ASSERT_EQ(pair.rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(pair.rows[0].value, 0.5);
+  EXPECT_DOUBLE_EQ(pair.rows[0].sigma, 0.25);                   // sqrt(0.125 / 1 / 2)
+  EXPECT_DOUBLE_EQ(pair.rows[1].sigma, 0.25 * std::sqrt(2.0));  // one value
+  // Three of 0.1 / 3 are not 0.1: the sum of thirds must not pass for a spread.
+  const Observations same = read("0,0.5,0.1\n0,0.5,0.1\n0,0.5,0.1\n");
+  ASSERT_EQ(same.rows.size(), 1u);
+  EXPECT_EQ(same.rows[0].value, 0.1);
+  EXPECT_TRUE(std::isnan(same.rows[0].sigma));
+  EXPECT_DOUBLE_EQ(read("0,0.5,1e300\n0,0.5,3e300\n").rows[0].sigma, 1e300);
+  EXPECT_DOUBLE_EQ(read("0,0.5,1e-200\n0,0.5,3e-200\n").rows[0].sigma, 1e-200);
+  EXPECT_THROW(static_cast<void>(read("0,0.5,-1.7e308\n0,0.5,1.7e308\n")), FileError);
+}
+
 TEST(Observations, WithoutADomainEveryHeightIsAllowed) {
   EXPECT_EQ(parse_observations("t,z,phi\n0,-5,1\n0,1e308,1\n", "data.csv").rows.size(), 2u);
 }
@@ -141,6 +164,17 @@ TEST(Observations, TextReadsBackToTheBit) {
     EXPECT_EQ(again.rows[i].width, data.rows[i].width);
     EXPECT_EQ(again.rows[i].sigma, data.rows[i].sigma);
   }
+}
+
+// Found by mutations of files: comments copied from averages over chunks made a table one of these.
+TEST(Observations, CommentsOfChunksAboveATableAreComments) {
+  const std::string text =
+      "# Chunk-averaged data for fix profile\n# Timestep Number-of-chunks Total-count\n"
+      "# Chunk Coord1 Ncount c_phi\nt,z,phi\n0,0.5,0.25\n";
+  const Observations data = parse(text);
+  ASSERT_EQ(data.rows.size(), 1u);
+  EXPECT_EQ(data.rows[0].value, 0.25);
+  EXPECT_EQ(observations_text(data), text);
 }
 
 TEST(Observations, FileIsReadAndWritten) {

@@ -47,6 +47,7 @@ std::string estimate_text(const fit::Estimate& estimate) {
                p.std_error ? fmt::format("{:.2g}", *p.std_error) : "none", interval_text(p.ci95, digits),
                interval_text(p.profile95, digits), interval_text(p.bootstrap95, digits),
                p.at_bound                          ? "at bound"
+               : p.held_by_shape                   ? "held by shape"
                : p.check && p.check->is_doubtful() ? "doubtful interval"
                                                    : ""});
   }

@@ -19,10 +19,14 @@ bool is_fit_file(const std::string& path) {
   return fit::is_fit_file(path);
 }
 
-fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path) {
+namespace {
+
+/// work(progress) of a fit under a line of its own; Ctrl-C ends it, a refusal gets its place in the file.
+template <class Work>
+auto with_search_line(const std::string& path, Work&& work) {
   ProgressLine line;
   try {
-    return fit::fit(spec, [&](std::size_t evaluations, double misfit) {
+    return work([&](std::size_t evaluations, double misfit) {
       line.show_search(evaluations, misfit);
       return !InterruptGuard::is_interrupted();
     });
@@ -33,12 +37,43 @@ fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path) {
   }
 }
 
+}  // namespace
+
+fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path) {
+  return with_search_line(path, [&](const fit::Progress& progress) { return fit::fit(spec, progress); });
+}
+
+FittedModels run_models(const fit::FitFile& file, const std::string& path) {
+  FittedModels result{with_search_line(path,
+                                       [&](const fit::Progress& progress) {
+                                         return fit::fit_models(file.spec, *file.choice, progress);
+                                       }),
+                      std::nullopt};
+  const std::vector<fit::Estimate>& estimates = result.all.estimates;
+  const auto key = [&](std::size_t i) {
+    const fit::Estimate& e = estimates[i];
+    return std::pair(e.aic.value_or(HUGE_VAL), e.misfit);
+  };
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (estimates[i].usable() && (!result.best || key(i) < key(*result.best))) result.best = i;
+  return result;
+}
+
 Fitted fitted(const std::string& path) {
   fit::FitFile file = fit::read_fit_file(path);
   print_remarks(file.remarks);
   print_remarks(file.spec.observations.notes);
   const InterruptGuard guard;
-  fit::Estimate estimate = run_fit(file.spec, path);
+  fit::Estimate estimate;
+  if (file.choice) {
+    FittedModels models = run_models(file, path);
+    const std::size_t i = models.best.value_or(0);
+    note("the best model: " + models.all.specs[i].name);
+    file.spec = std::move(models.all.specs[i]);
+    estimate = std::move(models.all.estimates[i]);
+  } else {
+    estimate = run_fit(file.spec, path);
+  }
   if (!estimate.usable())
     throw InputError(printable(path), "",
                      fmt::format("has no estimate ({}): {}", name_of(estimate.status), estimate.message));

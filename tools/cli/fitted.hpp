@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shearfront/fit/fit_file.hpp"
+#include "shearfront/fit/model_choice.hpp"
 #include "shearfront/fit/prediction.hpp"
 #include "shearfront/fit/rate_band.hpp"
 #include "shearfront/io/output_file.hpp"
@@ -29,6 +32,14 @@ struct Fitted {
 
 /// One fit with the line of its progress; Ctrl-C ends the search with what it has. Errors: FileError.
 [[nodiscard]] fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path);
+
+/// The models of [compare]; `best` has the smallest AIC, or without one the smallest misfit; nothing if none is usable.
+struct FittedModels {
+  fit::ChosenModels all;
+  std::optional<std::size_t> best;
+};
+/// The same for every model of a file. Precondition: file.choice. Errors: FileError.
+[[nodiscard]] FittedModels run_models(const fit::FitFile& file, const std::string& path);
 
 /// Header t,z,phi,lower,upper,M,M_lower,M_upper: 95 % bands, empty without error bars. One row per time and height.
 void write_prediction_csv(OutputFile& file, const std::vector<double>& times,

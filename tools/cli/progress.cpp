@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <utility>
 
@@ -14,10 +15,27 @@ volatile sig_atomic_t interrupted = 0;
 
 extern "C" void remember_interrupt(int /*signal*/) { interrupted = 1; }
 
+extern "C" void end_with_a_word(int signal) {
+  constexpr char kText[] = "\nshearfront: interrupted; files are written whole or not at all\n";
+  (void)!write(STDERR_FILENO, kText, sizeof kText - 1);
+  std::signal(signal, SIG_DFL);
+  (void)std::raise(signal);
+}
+
+bool are_lines_wanted = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
 }  // namespace
 
-ProgressLine::ProgressLine() {
-  if (isatty(STDERR_FILENO) != 0)
+void ProgressLine::set_verbose(bool is_verbose) { are_lines_wanted = is_verbose; }
+
+void say_when_interrupted() {
+  struct sigaction now {};
+  sigaction(SIGINT, nullptr, &now);
+  if (now.sa_handler == SIG_DFL) std::signal(SIGINT, end_with_a_word);
+}
+
+ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {
+  if (is_terminal_ || are_lines_wanted)
     ticking_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
 }
 
@@ -28,13 +46,19 @@ ProgressLine::~ProgressLine() {
   if (is_shown_) std::fputs("\r\x1b[K", stderr);
 }
 
-Progress ProgressLine::callback() {
+Progress ProgressLine::callback(double t_end) {
   if (!ticking_.joinable()) return {};
-  return [this](double t, std::uint64_t work) {
-    show(work == 0 ? fmt::format("t = {:.6g}", t)
-                   : fmt::format("t = {:.6g}, {} events or cell updates", t, work));
+  return [this, t_end](double t, std::uint64_t work) {
+    const std::string part = t_end > 0 && t > 0 && t < t_end ? part_text(t / t_end) + ", " : "";
+    show(part + (work == 0 ? fmt::format("t = {:.6g}", t)
+                           : fmt::format("t = {:.6g}, {} events or cell updates", t, work)));
     return true;
   };
+}
+
+std::string ProgressLine::part_text(double part) const {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  return fmt::format("{:.0f} %, {:.0f} s left", 100 * part, seconds * (1 - part) / part);
 }
 
 void ProgressLine::show_search(std::size_t evaluations, double misfit) {
@@ -42,11 +66,7 @@ void ProgressLine::show_search(std::size_t evaluations, double misfit) {
 }
 
 void ProgressLine::show_part(std::size_t done, std::size_t all) {
-  if (!ticking_.joinable() || done == 0) return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  const double left = seconds * static_cast<double>(all - done) / static_cast<double>(done);
-  show(fmt::format("{:.0f} %, {:.0f} s left", 100.0 * static_cast<double>(done) / static_cast<double>(all),
-                   left));
+  if (ticking_.joinable() && done > 0) show(part_text(static_cast<double>(done) / static_cast<double>(all)));
 }
 
 void ProgressLine::show(std::string text) {
@@ -55,13 +75,19 @@ void ProgressLine::show(std::string text) {
 }
 
 void ProgressLine::tick(const std::stop_token& stop) {
-  constexpr std::chrono::milliseconds kPeriod{200};
+  constexpr std::chrono::milliseconds kPeriod{200}, kMinute{60'000};
   constexpr double kPatience = 1;  // short work shows nothing
   std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, stop, kPeriod, [&] { return stop.stop_requested(); })) {
+  while (!stopped_.wait_for(lock, stop, is_terminal_ ? kPeriod : kMinute,
+                            [&] { return stop.stop_requested(); })) {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (seconds < kPatience) continue;
-    fmt::print(stderr, "\r\x1b[K{}{}{:.0f} s", text_, text_.empty() ? "" : ", ", seconds);
+    const std::string line = fmt::format("{}{}{:.0f} s", text_, text_.empty() ? "" : ", ", seconds);
+    if (!is_terminal_) {
+      fmt::print(stderr, "shearfront: {}\n", line);
+      continue;
+    }
+    fmt::print(stderr, "\r\x1b[K{}", line);
     is_shown_ = true;
   }
 }

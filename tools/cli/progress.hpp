@@ -14,8 +14,8 @@
 /// While something is computed.
 namespace shearfront::tools {
 
-/// A line on standard error that shows how far it is and for how long it has run; only if standard error is a terminal.
-/// Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
+/// A line on standard error that shows how far it is and for how long it has run, if standard error is a terminal; elsewhere,
+/// with --verbose, a line per minute. Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
 /// written meanwhile.
 class ProgressLine {
  public:
@@ -24,8 +24,12 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Must not outlive this object. Empty if there is no terminal.
-  [[nodiscard]] Progress callback();
+  /// Whether there are lines where standard error is no terminal.
+  static void set_verbose(bool is_verbose);
+
+  /// Must not outlive this object. Empty if there are no lines. `t_end` > 0: with the part that is done and the time that
+  /// is left at the same pace.
+  [[nodiscard]] Progress callback(double t_end = 0);
   /// Evaluations of a search so far and its smallest misfit.
   void show_search(std::size_t evaluations, double misfit);
   /// How many of all are done, with the time that is left at the same pace.
@@ -34,6 +38,7 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   void show(std::string text);
+  [[nodiscard]] std::string part_text(double part) const;
   void tick(const std::stop_token& stop);
 
   const Clock::time_point begin_ = Clock::now();
@@ -41,15 +46,19 @@ class ProgressLine {
   std::condition_variable_any stopped_;
   std::string text_;
   bool is_shown_ = false;
+  const bool is_terminal_;
   std::jthread ticking_;  ///< none if there is no terminal; ends before the rest is gone
 };
 
 /// Calls work(Progress) under a line of its own.
 template <class Work>
-auto with_progress(Work&& work) {
+auto with_progress(Work&& work, double t_end = 0) {
   ProgressLine line;
-  return work(line.callback());
+  return work(line.callback(t_end));
 }
+
+/// Ctrl-C (SIGINT) ends the program at once, as ever, with a line that says what becomes of its files. nohup stays.
+void say_when_interrupted();
 
 /// While one of these exists, the first Ctrl-C (SIGINT) is only remembered, so that a long computation can
 /// end with what it has; the second one ends the program as usual.

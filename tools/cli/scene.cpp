@@ -4,13 +4,21 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "shearfront/fit/scene_uncertainty.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/scene_text.hpp"
 
 namespace shearfront::tools {
+namespace {
+
+constexpr std::uint64_t kUncertaintySeed = 1;
+
+}  // namespace
 
 void SceneArgument::add_to(CLI::App& app) {
   app.add_option("SCENE", file_, "scene file (- for standard input), or a fit file: the fitted scene")
@@ -39,12 +47,16 @@ SceneChanges SceneArgument::changes() const {
 Scene<double> SceneArgument::read() {
   if (file_ != "-" && is_fit_file(file_)) {
     if (!set_.empty()) refuse("--set", set_.front(), "must not be given with a fit file");
-    fit_ = fitted(file_);
-    text_ = scene_text(fit_->estimate.scene->spec());
-    return *fit_->estimate.scene;
+    Fitted result = fitted(file_);
+    draws_ = std::move(result.draws);
+    text_ = scene_text(result.estimate.scene->spec());
+    return *result.estimate.scene;
   }
   text_ = detail::TextSource::read(file_).text();
-  return with_remarks(parse_scene<double>(text_, file_, changes()));
+  Scene<double> scene = with_remarks(parse_scene<double>(text_, file_, changes()));
+  if (const auto uncertainty = fit::read_uncertainty(text_, file_, scene))
+    draws_ = fit::draw_scenes(scene, *uncertainty, kPredictionDraws, kUncertaintySeed);
+  return scene;
 }
 
 }  // namespace shearfront::tools

@@ -14,7 +14,7 @@ class App;
 namespace shearfront::tools {
 
 /// The scene a command works on: SCENE, a file or "-" for standard input, and --set for numbers in it. A fit file
-/// stands for the scene with its estimates in place.
+/// stands for the scene with its estimates in place. With error bars, of a fit or of [uncertain], results have bands.
 class SceneArgument {
  public:
   void add_to(CLI::App& app);
@@ -22,8 +22,8 @@ class SceneArgument {
   [[nodiscard]] const std::string& file() const { return file_; }
   /// Reads the file, once, and prints the remarks on it; a fit file is fitted. Errors: FileError, InputError.
   [[nodiscard]] Scene<double> read();
-  /// The fit behind the scene, if it came from a fit file.
-  [[nodiscard]] const std::optional<Fitted>& fit() const { return fit_; }
+  /// Scenes that the fit behind it or its [uncertain] leave possible; none for a scene that is certain. Precondition: read().
+  [[nodiscard]] const fit::DrawnScenes* draws() const { return draws_ ? &*draws_ : nullptr; }
   /// What was read. Precondition: read().
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::vector<std::string>& set() const { return set_; }
@@ -33,7 +33,7 @@ class SceneArgument {
  private:
   std::string file_, text_;
   std::vector<std::string> set_;
-  std::optional<Fitted> fit_;
+  std::optional<fit::DrawnScenes> draws_;
 };
 
 }  // namespace shearfront::tools

@@ -83,7 +83,8 @@ std::vector<ComparedMethod> compared_methods(std::string_view option,
   std::vector<ComparedMethod> chosen;
   for (const ComparedMethod& m : all) {
     names.push_back(m.name);
-    if (!list && (m.name == m.method.name() || m.name == kWorthIt)) chosen.push_back(m);
+    const bool is_sound = m.method.guarantees().bounded;  // what overshoots runs only when it is named
+    if (!list && is_sound && (m.name == m.method.name() || m.name == kWorthIt)) chosen.push_back(m);
   }
   if (!list) return chosen;
   for (const std::string_view name : split(*list, ',')) {

@@ -21,16 +21,22 @@ if (!exists("t_lowest")) t_lowest = 0
 set title title noenhanced offset 0,0.2
 set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
 set xrange [0:t_end]
+set xtics steps_of(t_end)
 if (quantity eq 'H') {
   set ylabel label('height of the bed {/:Italic H}', unit_z) offset 0.5,0
-  set offsets 0,0,graph 0.03,graph 0.12
+  set offsets 0,0,graph 0.03,graph 0.25
 } else {
   set ylabel 'mixing parameter Ψ' offset 0.5,0
   set yrange [-0.02:1.02]
 }
 if (t_lowest > 0) {
   set arrow from t_lowest,graph 0 to t_lowest,h_lowest nohead lw 0.8 dt (8,6) lc rgb '#7f7f7f' back
-  set label sprintf('lowest, {/:Italic t} = %.5g', t_lowest) at t_lowest,graph 0.05 offset 0.8,0 tc rgb '#505050'
+  lowest_text = sprintf("lowest: {/:Italic H} = %.5g%s\nat {/:Italic t} = %.5g%s", h_lowest, unit_z eq '' ? '' : ' '.unit_z, t_lowest, unit_t eq '' ? '' : ' '.unit_t)
+  if (t_lowest < 0.6 * t_end) {
+    set label lowest_text at t_lowest,graph 0.2 offset 0.8,0 tc rgb '#505050'
+  } else {
+    set label lowest_text at t_lowest,graph 0.2 right offset -0.8,0 tc rgb '#505050'
+  }
 }
 plot 'course.csv' using "t":(column(quantity)) with lines lw 2 lc rgb blue, \
   for [i=1:has_points] 'times.csv' using "t":(column(quantity)) with points pt 7 ps 0.5 lc rgb blue

@@ -17,6 +17,7 @@ width = 330 * (n_columns < 2 ? 2 : n_columns)
 legend_columns = width / 210
 legend_height = 24 * ((n_methods + legend_columns - 1) / legend_columns) + 14
 height = title_height + n_rows * panel_height + legend_height
+is_panels = 1
 load 'style.gp'
 
 colours = '#000000 #0072b2 #56b4e9 #d55e00 #e69f00 #009e73 #cc79a7 #7f7f7f'

@@ -3,17 +3,27 @@
 # rate.csv       z,a,lower,upper   of the estimate, bottom to top, a layer by its two ends. lower = upper: no unknown has a
 #                part in a there; empty: an unknown without error bars has
 # start.csv      z,a   of the start of the search
+# truth.csv      z,a   of the scene the data were made from
 # interfaces.csv z_lower,z_upper,a_lower,a_upper   where interfaces lie with 95 %
 #
 # Variables: those of fit.gp, and
 #            is_rate_unknown   1 if anything about s or a was
+#            has_truth    1 if there is truth.csv
+#            estimates    'shear_rate.values[0]=2.4±0.1 ...', words
 #            rate_symbol       '{/:Italic a}' or with the scale '{/:Italic s} {/:Italic a}'
 if (!exists("is_rate_unknown")) is_rate_unknown = 1
 if (!exists("rate_symbol")) rate_symbol = '{/:Italic a}'
+if (!exists("estimates")) estimates = ''
+if (!exists("has_truth")) has_truth = 0
 most_linear = 20   # a that varies by more gets a logarithmic axis
 widest_band = 4    # a band that goes on beyond so many times the curve is cut off
 
 load 'panel.gp'
+eval set_subtitle
+# The estimates below the legend, where they are few.
+estimates_text = ''
+do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
+set label 1001 estimates_text noenhanced at screen 0.44,0.29 left font sprintf(',%.2f', 0.75 * letters) textcolor rgb '#303030'
 left = 0.08
 right = 0.42
 bottom = 0.095
@@ -46,6 +56,11 @@ if (is_rate_unknown) {
   low = min(low, STATS_min)
   high = max(high, STATS_max)
 }
+if (has_truth) {
+  stats 'truth.csv' using (column("a")) nooutput
+  low = min(low, STATS_min)
+  high = max(high, STATS_max)
+}
 is_logarithmic = high > most_linear * low
 least = low / widest_band
 most = high * (is_logarithmic ? widest_band : 2)
@@ -70,6 +85,12 @@ if (is_logarithmic) {
   set logscale x
   set format x high > 1e4 * low ? '10^{%T}' : '%g'
   set mxtics high > 1e4 * low ? 1 : 10
+  if (high < 100 * low) {  # less than two powers of ten
+    set xtics ()
+    do for [k=floor(log10(low)):ceil(log10(high))] { do for [m in '1 2 5'] {
+      if (m * 10.0**k >= low && m * 10.0**k <= high) { set xtics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }
+    } }
+  }
 } else {
   set xtics tic_step(low, high, right - left)
 }
@@ -88,4 +109,5 @@ plot for [i=1:count(banded)>0] $band using 1:2 with filledcurves closed fs solid
   for [i=1:count(banded)>0] 'rate.csv' using (rate(banded)):1 skip 1 with lines lw 2.4 lc rgb blue title 'estimate', \
   for [i=1:count(open)>0] 'rate.csv' using (rate(open)):1 skip 1 with lines lw 2.4 dt (4,2) lc rgb blue title 'no error bar', \
   for [i=1:count(known)>0] 'rate.csv' using (rate(known)):1 skip 1 with lines lw 2.4 lc rgb (is_given ? 'black' : blue) \
-    title (is_given ? 'given' : 'estimate')
+    title (is_given ? 'given' : 'estimate'), \
+  for [i=1:has_truth] 'truth.csv' using 2:1 skip 1 with lines lw 1.3 dt (2,3) lc rgb 'black' title 'truth'

@@ -27,6 +27,13 @@ void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate&
   const StateRange<double> states =
       is_cumulative ? StateRange<double>{0, std::max(estimate.scene->mass(), 1e-300)} : states_of(spec.scene);
   picture.set("title", printable(spec.name, 120));
+  picture.set("subtitle", described(spec.forward.method));
+  constexpr std::size_t kMostEstimates = 7;
+  std::string estimates;
+  for (const fit::ParameterEstimate& p : estimate.parameters)
+    estimates += fmt::format("{}{}={:.4g}{}", estimates.empty() ? "" : " ", p.name, p.estimate,
+                             p.std_error ? fmt::format("±{:.2g}", *p.std_error) : "");
+  picture.set("estimates", estimate.parameters.size() > kMostEstimates ? "" : estimates);
   picture.set("symbol", is_cumulative ? "{/:Italic M}" : "{/:Italic φ}");
   picture.set("unit_t", without_markup(data.units.t));
   picture.set("unit_z", without_markup(data.units.z));
@@ -130,6 +137,13 @@ void add_maps(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   });
 }
 
+void add_curve(Picture& picture, std::string_view file_name, const std::vector<fit::RateRow>& rows) {
+  picture.add_file(file_name, [&](OutputFile& file) {
+    file.write("z,a\n");
+    for (const fit::RateRow& row : rows) file.write(csv_row({row.z, row.a}));
+  });
+}
+
 void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& estimate) {
   const fit::RateBand band = fit::rate_band(fit::Parameters(spec.scene, spec.unknown), estimate);
   picture.set("is_rate_unknown", band.is_unknown);
@@ -142,10 +156,7 @@ void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
       file.write(
           csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
   });
-  picture.add_file("start.csv", [&](OutputFile& file) {
-    file.write("z,a\n");
-    for (const fit::RateRow& row : band.start) file.write(csv_row({row.z, row.a}));
-  });
+  add_curve(picture, "start.csv", band.start);
   picture.add_file("interfaces.csv", [&](OutputFile& file) {
     file.write("z_lower,z_upper,a_lower,a_upper\n");
     for (const fit::InterfaceBand& at : band.interfaces)
@@ -173,7 +184,8 @@ void add_search(Picture& picture, const fit::Estimate& estimate) {
 
 }  // namespace
 
-int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate) {
+int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate,
+             const std::optional<Scene<double>>& truth) {
   if (!estimate.usable()) {
     note(fmt::format("no picture {}: the fit has no usable estimate", printable(path)));
     return kNoResult;
@@ -193,6 +205,8 @@ int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estim
   else
     add_maps(picture, spec, estimate);
   add_rate(picture, spec, estimate);
+  picture.set("has_truth", truth.has_value());
+  if (truth) add_curve(picture, "truth.csv", fit::rate_rows(*truth));
   add_search(picture, estimate);
   return picture.draw();
 }

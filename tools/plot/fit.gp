@@ -10,6 +10,7 @@
 #            has_search         1: the search is drawn
 width = 720
 height = 560
+is_panels = 1
 load 'style.gp'
 if (!exists("data")) data = 'maps'
 if (!exists("symbol")) symbol = '{/:Italic φ}'

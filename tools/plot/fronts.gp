@@ -12,6 +12,7 @@
 #            fan_width           width of these lines
 width = 640
 height = 440
+is_subtitle_below = 1  # labels of events stand above the axes
 load 'style.gp'
 if (!exists("t_end")) {
   stats 'fronts.csv' using (column("t_end")) nooutput
@@ -35,20 +36,21 @@ class(below, above) = min(n_widths - 1, floor(n_widths * share(abs(below - above
 end(text) = text eq '' ? t_end : real(text)  # a front that never ends
 
 set title title noenhanced offset 0,0.9
-set lmargin screen 0.105
-set rmargin screen 0.825
-set bmargin screen 0.17
-set tmargin screen 0.86
+set lmargin 5.5 + max(3, strlen(sprintf('%.4g', z_high)))
+set rmargin 14
+set bmargin 5
+set tmargin 4 + 0.9 * (strlen(title) > longest_line ? ceil(1.1 * strlen(title) / longest_line) - 1 : 0)
 set xlabel label('time {/:Italic t}', unit_t) offset 0,-0.2
-set ylabel label('height {/:Italic z}', unit_z) offset 1,0
+set ylabel label('height {/:Italic z}', unit_z) offset 0.3,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]
-set xtics offset 0,-0.7
+set xtics steps_of(t_end) offset 0,-0.7
+set ytics steps_of(z_high - z_low)
 set clip two
 set cbrange [phi_low:phi_high]
-set cblabel '{/:Italic φ}, mean of both sides' offset 0.3,0
+set cblabel is_narrow ? '{/:Italic φ}' : '{/:Italic φ}, mean of both sides' offset 0.3,0
 if (phi_low == 0 && phi_high == 1) set cbtics 0.25
-set colorbox noborder user origin screen 0.855,0.25 size screen 0.018,0.5
+set colorbox noborder user origin graph 1.045,0.15 size graph 0.025,0.7
 eval "set palette defined (" . phi_palette . ")"
 if (wall_low) set arrow from 0,z_low to t_end,z_low nohead lw 2.5 lc rgb 'black' front
 if (wall_high) set arrow from 0,z_high to t_end,z_high nohead lw 2.5 lc rgb 'black' front

@@ -1,4 +1,4 @@
-# phi over time and height, in colours with 20 contours.
+# phi over time and height, in colours, with contours at round values.
 #
 # map.csv   t,z,phi   the same heights at every time, with an empty line between times; from the output of
 #           `shearfront solve -o`:  awk -F, 'NR > 2 && $1 != t { print "" } { t = $1; print }' out.csv > map.csv
@@ -19,9 +19,9 @@ if (!exists("phi_low")) phi_low = 0
 if (!exists("phi_high")) phi_high = 1
 
 # Contours first, into a block of their own: they are drawn on top of the colours. Those of both ends are noise.
-step = (phi_high - phi_low) / 19
+step = round_up((phi_high - phi_low) / 12.0)
 set contour base
-set cntrparam levels incremental phi_low+step,step,phi_high-step/2
+set cntrparam levels incremental step*ceil(phi_low/step+0.001),step,phi_high-step/1000
 unset surface
 set table $contours
 splot 'map.csv' using "t":"z":"phi"
@@ -31,12 +31,17 @@ set surface
 
 set title title noenhanced offset 0,0.2
 set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
-set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
+set ylabel label('height {/:Italic z}', unit_z) offset 0,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]
 set cbrange [phi_low:phi_high]
 set cblabel 'concentration {/:Italic φ}' offset 0.8,0
 set colorbox noborder
+set cbtics is_narrow ? 2*step : step
+set xtics steps_of(t_end)
+set ytics steps_of(z_high - z_low)
+subtitle = subtitle . (subtitle eq '' ? '' : ', ') . sprintf('contours every %g', step)
+eval set_subtitle
 set border 3 lw 0.8 front
 set tics front
 eval "set palette defined (" . phi_palette . ")"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 #include <sys/wait.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -50,7 +51,38 @@ void keep_blanks(std::string& svg) {
     svg.replace(i, kText.size(), kKeeping);
 }
 
+/// What the templates are told about the size; of the one run this program makes.
+std::string size_settings;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+/// What a template printed about itself.
+void repeat_remarks(const std::string& errors) {
+  constexpr std::string_view kMark = "shearfront: ";
+  for (const std::string_view line : split(errors, '\n'))
+    if (line.starts_with(kMark)) note(printable(line.substr(kMark.size())));
+}
+
 }  // namespace
+
+void PictureOptions::add_to(CLI::App& app) {
+  app.add_option("--size", size_, "width of pictures in cm, or WIDTHxHEIGHT: 9, 18x12")->type_name("CM");
+  app.add_option("--dpi", dpi_, "pixels per inch of a .png, default 144")->type_name("N");
+}
+
+void PictureOptions::apply() const {
+  constexpr Bounds kCentimetres{2, 200}, kDots{20, 2400};
+  size_settings.clear();
+  if (!size_.empty()) {
+    const auto parts = split(size_, 'x');
+    if (parts.size() > 2) refuse("--size", size_, "must be a width in cm, or WIDTHxHEIGHT");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      size_settings +=
+          fmt::format("{} = real('{}')\n", i == 0 ? "width_cm" : "height_cm",
+                      number_text(number_option("--size", parts[i], kCentimetres, "from 2 to 200")));
+  }
+  if (!dpi_.empty())
+    size_settings +=
+        fmt::format("dpi = {}\n", number_text(number_option("--dpi", dpi_, kDots, "from 20 to 2400")));
+}
 
 void check_picture_name(std::string_view option, const std::string& path) {
   const std::string ending = ending_of(path);
@@ -102,7 +134,7 @@ int Picture::draw() const {
     return kNoResult;
   }
   add_file("run.gp", [&](OutputFile& file) {
-    file.write(variables_);
+    file.write(size_settings + variables_);
     file.write(fmt::format("set loadpath {}\nload '{}.gp'\n", quoted(templates.string(), "''"), kind_));
   });
   const std::string command =
@@ -121,6 +153,7 @@ int Picture::draw() const {
                      printable(errors.substr(errors.size() - std::min(errors.size(), kLongest)))));
     return kNoResult;
   }
+  repeat_remarks(content(folder_ + "/errors"));
   if (ending_of(path_) == ".svg") keep_blanks(picture);
   OutputFile file(path_);
   file.write(picture);

@@ -6,7 +6,22 @@
 
 #include "shearfront/io/output_file.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace shearfront::tools {
+
+/// --size and --dpi: of all pictures of the run.
+class PictureOptions {
+ public:
+  void add_to(CLI::App& app);
+  /// Errors: InputError for what is no size.
+  void apply() const;
+
+ private:
+  std::string size_, dpi_;
+};
 
 /// Refuses a picture whose name does not end in .svg, .png or .pdf. An empty name is no picture.
 void check_picture_name(std::string_view option, const std::string& path);

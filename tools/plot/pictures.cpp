@@ -8,6 +8,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/method.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -18,9 +19,10 @@ namespace {
 constexpr std::size_t kProfileHeights = 4001, kMapTimes = 241, kMapHeights = 321, kCourseTimes = 401;
 
 /// What every picture of a bed shows.
-void set_scene(Picture& picture, const Scene<double>& scene) {
+void set_scene(Picture& picture, const Scene<double>& scene, const std::string& subtitle) {
   const StateRange<double> states = states_of(scene);
   picture.set("title", scene.name());
+  picture.set("subtitle", subtitle);
   picture.set("unit_t", without_markup(scene.spec().units.t));
   picture.set("unit_z", without_markup(scene.spec().units.z));
   picture.set("z_low", scene.bottom());
@@ -45,6 +47,21 @@ double least_shock(const Scene<double>& scene, const std::vector<FrontSegment<do
     least = std::max(least, 1.3 * std::sqrt(std::abs(change)));
   }
   return std::min(least, 0.5);
+}
+
+/// All shocks, and of the others those that some of 60 states lie between: more of a fan are a moire or a solid area.
+std::vector<FrontSegment<double>> thinned(const Scene<double>& scene,
+                                          const std::vector<FrontSegment<double>>& fronts, double least) {
+  constexpr double kMostStates = 60;
+  const StateRange<double> states = states_of(scene);
+  const auto state = [&](double phi) {
+    return std::floor((phi - states.lowest) / (states.highest - states.lowest) * kMostStates);
+  };
+  std::vector<FrontSegment<double>> kept;
+  for (const auto& f : fronts)
+    if (std::abs(f.phi_above - f.phi_below) > least || state(f.phi_above) != state(f.phi_below))
+      kept.push_back(f);
+  return kept;
 }
 
 /// Latest time to show: a little after the steady state, else the end of the computed fronts.
@@ -86,6 +103,13 @@ std::string event_rows(const Scene<double>& scene, const Timeline<double>& timel
 
 }  // namespace
 
+std::string described(const Method& method) {
+  std::string text(method.name());
+  if (method.has_option("resolution")) text += ", resolution " + number_text(number_of(method, "resolution"));
+  if (method.has_option("cells")) text += ", " + number_text(number_of(method, "cells")) + " cells";
+  return text;
+}
+
 StateRange<double> states_of(const Scene<double>& scene) {
   std::vector<double> heights = scene.knots();
   heights.push_back(scene.top());
@@ -106,13 +130,14 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
                 double resolution) {
   const double t_end = end_time(fronts, timeline);
   Picture picture(path, "fronts");
-  set_scene(picture, scene);
+  set_scene(picture, scene, fmt::format("fronts tracked with resolution {}", number_text(resolution)));
   picture.set("t_end", t_end);
   picture.set("wall_low", !scene.spec().is_periodic && !scene.spec().outside_bottom);
   picture.set("wall_high", !scene.spec().is_periodic && !scene.spec().outside_top);
   picture.set("least_shock", least_shock(scene, fronts, resolution));
   picture.set("fan_width", scene.is_layered() ? 0.7 : 0.4);  // a staircase has many more fronts
-  picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, fronts); });
+  const auto shown = thinned(scene, fronts, least_shock(scene, fronts, resolution));
+  picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, shown); });
   picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
   return picture.draw();
 }
@@ -126,7 +151,7 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
     return [&](OutputFile& file) { write_samples_csv(file, times, request.heights, result.samples); };
   };
   Picture picture(path, "profiles");
-  set_scene(picture, scene);
+  set_scene(picture, scene, described(method));
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
   picture.add_file("profiles.csv", write(solve(scene, method, request)));
@@ -144,7 +169,7 @@ int draw_map(const std::string& path, const Scene<double>& scene, const Method& 
   const SolverResult result = solve(scene, method, request);
   if (!result.summary.usable()) return report_unusable(result.summary);
   Picture picture(path, "map");
-  set_scene(picture, scene);
+  set_scene(picture, scene, described(method));
   picture.set("t_end", t_end);
   picture.add_file("map.csv", [&](OutputFile& file) {
     std::string rows = "t,z,phi\n";
@@ -166,7 +191,7 @@ int draw_bed_course(const std::string& path, const Scene<double>& scene, const M
   if (!(t_end > 0)) t_end = 1;
   const BedCourse fine = bed_course(course.quantity, scene, method, equally_spaced(0, t_end, kCourseTimes));
   Picture picture(path, "bed");
-  set_scene(picture, scene);
+  set_scene(picture, scene, described(method));
   picture.set("quantity", course.table.columns.back());
   picture.set("t_end", t_end);
   picture.set("has_points", course.table.times.size() <= kMostPoints);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,12 @@ int draw_bed_course(const std::string& path, const Scene<double>& scene, const M
                     const BedCourse& course);
 
 /// The observations beside what the estimate predicts, s a(z) with its 95 % band, and the course of the
-/// search (fit.gp). Without a usable estimate no picture, one line on standard error and kNoResult.
-int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate);
+/// search (fit.gp); with a truth its s a(z) as well. Without a usable estimate no picture, one line on standard error and kNoResult.
+int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate,
+             const std::optional<Scene<double>>& truth = std::nullopt);
+
+/// "front-tracking, resolution 0.01", for the small line of a picture.
+[[nodiscard]] std::string described(const Method& method);
 
 /// All states allowed anywhere in the bed: what an axis or a colour bar of phi has to show.
 [[nodiscard]] StateRange<double> states_of(const Scene<double>& scene);

@@ -25,12 +25,18 @@ if (!exists("symbol")) symbol = ''
 
 set title title noenhanced offset 0,0.2
 set xlabel 'concentration '.symbol.'{/:Italic φ}' offset 0,0.3
-set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
+set ylabel label('height {/:Italic z}', unit_z) offset 0,0
 margin = 0.02 * (phi_high - phi_low)
 set xrange [phi_low-margin:phi_high+margin]
 set yrange [z_low:z_high]
 if (phi_low == 0 && phi_high == 1) set xtics 0.2
-set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1
+if (is_narrow) {
+  key_font = sprintf(',%.2f', 0.9 * letters)
+  set key below center horizontal Left reverse samplen 1.2 spacing 1.1 maxcols 3 font key_font
+} else {
+  set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1
+}
+set ytics steps_of(z_high - z_low)
 do for [z in interfaces] { set arrow from graph 0,first real(z) to graph 1,first real(z) nohead lw 0.8 dt (8,6) lc rgb grey back }
 
 n_times = words(times)
@@ -39,11 +45,16 @@ n = STATS_records / n_times
 t_of(i) = real(word(times, i))
 line_width = has_exact ? 2.4 : 2.0
 exact = has_exact ? 'exact.csv' : 'profiles.csv'
-if (n_times <= words(colours)) {
-  plot for [i=1:n_times] 'profiles.csv' using "phi":"z" every ::((i-1)*n)::(i*n-1) \
-      with lines lw line_width lc rgb word(colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)), \
+unit = unit_t eq '' ? '' : ' ' . unit_t
+dash(i) = t_of(i) == 0 ? 2 : 1  # the start is seen between lines on top of it
+if (n_times <= words(many_colours)) {
+  # The first on top, the legend in the order of the file.
+  plot for [k=1:n_times] 'profiles.csv' using "phi":"z" every ::((n_times-k)*n)::((n_times-k+1)*n-1) \
+      with lines lw line_width dt dash(n_times-k+1) lc rgb word(many_colours, n_times-k+1) notitle, \
     for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
-      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : ''
+      with lines lw 0.8 lc rgb 'black' notitle, \
+    for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)).unit, \
+    for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact'
 } else {  # too many to be named
   eval "set palette defined (" . phi_palette . ")"
   first = t_of(1)
@@ -53,10 +64,10 @@ if (n_times <= words(colours)) {
     last = max(last, real(t))
   }
   set cbrange [first:last > first ? last : first + 1]
-  set cblabel 'time {/:Italic t}' offset 1.2,0
+  set cblabel label('time {/:Italic t}', unit_t) offset 1.2,0
   set colorbox noborder
-  plot for [i=1:n_times] 'profiles.csv' using "phi":"z" every ::((i-1)*n)::(i*n-1) \
-      with lines lw line_width lc palette cb t_of(i) notitle, \
+  plot for [k=1:n_times] 'profiles.csv' using "phi":"z" every ::((n_times-k)*n)::((n_times-k+1)*n-1) \
+      with lines lw line_width dt dash(n_times-k+1) lc palette cb t_of(n_times-k+1) notitle, \
     for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
       with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : ''
 }

@@ -30,37 +30,11 @@ constexpr double kTail = 0.025;
 /// The same search if it is a local one.
 std::string local_algorithm(const std::string& algorithm) {
   constexpr std::string_view kNlopt = "nlopt:";
+  if (algorithm == "pattern") return algorithm;
   if (!algorithm.starts_with(kNlopt)) return "ceres";
   const NloptAlgorithm* of_nlopt = find_nlopt_algorithm(std::string_view(algorithm).substr(kNlopt.size()));
   if (!of_nlopt || !of_nlopt->is_global) return algorithm;
   return of_nlopt->uses_derivatives ? "ceres" : "nlopt:sbplx";
-}
-
-/// The specification of all replicates but for the values of their observations.
-FitSpec template_of(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate) {
-  FitSpec replicate = spec;
-  replicate.unknown = {};
-  replicate.unknown.shape = spec.unknown.shape;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Parameter& p = parameters[i];
-    replicate.unknown.parameters.push_back(p.name());
-    replicate.unknown.start.push_back(std::clamp(estimate.parameters[i].estimate, p.lower, p.upper));
-    replicate.unknown.lower.push_back(p.lower);
-    replicate.unknown.upper.push_back(p.upper);
-  }
-  replicate.search.algorithm = local_algorithm(spec.search.algorithm);
-  replicate.search.starts = 1;
-  replicate.uncertainty = {};
-  return replicate;
-}
-
-void draw(Observations& observations, const Estimate& estimate, std::uint64_t seed) {
-  boost::random::mt19937_64 engine(seed);
-  boost::random::normal_distribution<double> normal;
-  for (std::size_t k = 0; k < observations.rows.size(); ++k) {
-    Observation& o = observations.rows[k];
-    o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * normal(engine);
-  }
 }
 
 /// Fits of all replicates, in their order; nothing where a fit failed or was not made.
@@ -91,7 +65,7 @@ class Replicates {
   void work() {
     FitSpec mine = one_;
     for (std::size_t b = next_++; b < found_.size() && !stop_; b = next_++) {
-      draw(mine.observations, estimate_, stream_seed(spec_.uncertainty.seed, b));
+      draw_observations(mine.observations, estimate_, stream_seed(spec_.uncertainty.seed, b));
       try {
         found_[b] = refit_(mine);
       } catch (const std::exception&) {
@@ -117,7 +91,7 @@ class Replicates {
 void set_intervals(const Parameters& parameters, const Estimate& estimate, Bootstrap& result) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const ParameterEstimate& p = estimate.parameters[i];
-    if (!p.std_error && !p.at_bound) continue;
+    if (!p.std_error && !p.is_held()) continue;
     const auto column = result.estimates.col(static_cast<Index>(i));
     std::vector<double> sorted(column.begin(), column.end());
     std::sort(sorted.begin(), sorted.end());
@@ -127,6 +101,32 @@ void set_intervals(const Parameters& parameters, const Estimate& estimate, Boots
 }
 
 }  // namespace
+
+FitSpec replicate_of(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate) {
+  FitSpec replicate = spec;
+  replicate.unknown = {};
+  replicate.unknown.shape = spec.unknown.shape;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    replicate.unknown.parameters.push_back(p.name());
+    replicate.unknown.start.push_back(std::clamp(estimate.parameters[i].estimate, p.lower, p.upper));
+    replicate.unknown.lower.push_back(p.lower);
+    replicate.unknown.upper.push_back(p.upper);
+  }
+  replicate.search.algorithm = local_algorithm(spec.search.algorithm);
+  replicate.search.starts = 1;
+  replicate.uncertainty = {};
+  return replicate;
+}
+
+void draw_observations(Observations& observations, const Estimate& estimate, std::uint64_t seed) {
+  boost::random::mt19937_64 engine(seed);
+  boost::random::normal_distribution<double> normal;
+  for (std::size_t k = 0; k < observations.rows.size(); ++k) {
+    Observation& o = observations.rows[k];
+    o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * normal(engine);
+  }
+}
 
 Bootstrap bootstrap(const FitSpec& spec, const Parameters& parameters, const Estimate& estimate,
                     const Refit& refit, const Progress& progress) {
@@ -139,7 +139,7 @@ Bootstrap bootstrap(const FitSpec& spec, const Parameters& parameters, const Est
     result.warnings.emplace_back("no bootstrap: the noise of the data is not known");
     return result;
   }
-  const FitSpec one = template_of(spec, parameters, estimate);
+  const FitSpec one = replicate_of(spec, parameters, estimate);
   Replicates replicates(spec, one, estimate, refit, progress);
   const std::vector<std::optional<VectorXd>> found = replicates();
   std::vector<VectorXd> good;

@@ -43,4 +43,10 @@ using Refit = std::function<std::optional<Eigen::VectorXd>(const FitSpec& spec)>
 
 inline constexpr std::size_t kFewestReplicates = 40;
 
+/// The specification of all replicates but for the values of their observations: from the estimate, by a local search.
+[[nodiscard]] FitSpec replicate_of(const FitSpec& spec, const Parameters& parameters,
+                                   const Estimate& estimate);
+/// Predictions of the estimate with fresh noise in place of the values. Preconditions: they are finite, sigma > 0.
+void draw_observations(Observations& observations, const Estimate& estimate, std::uint64_t seed);
+
 }  // namespace shearfront::fit

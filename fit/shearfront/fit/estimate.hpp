@@ -50,6 +50,8 @@ struct ParameterEstimate {
   std::optional<Interval> bootstrap95;  ///< parametric bootstrap, on request
   std::optional<IntervalCheck> check;   ///< of ci95; empty where none was made
   bool at_bound = false;
+  bool held_by_shape = false;  ///< the shape binds it to its neighbours
+  [[nodiscard]] bool is_held() const { return at_bound || held_by_shape; }
 };
 
 /// How well the residuals look like independent noise (residual_structure.hpp); NaN where there are too few.

@@ -16,6 +16,7 @@ Json to_json(const ParameterEstimate& p) {
            {"std_error", json_or_null(p.std_error)},
            {"ci95", to_json(p.ci95)},
            {"at_bound", p.at_bound},
+           {"held_by_shape", p.held_by_shape},
            {"ci95_is_doubtful", p.check ? Json(p.check->is_doubtful()) : Json()}};
   if (p.profile95) all["profile95"] = to_json(p.profile95);
   if (p.bootstrap95) all["bootstrap95"] = to_json(p.bootstrap95);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/fit_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +18,7 @@
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/method_table.hpp"
 #include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/model_choice.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
@@ -23,6 +26,7 @@
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/model/depth/all.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -41,13 +45,10 @@ constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'0
 constexpr double kPaperTolerance = 1e-3;
 constexpr std::size_t kPaperEvaluations = 2000;
 
+constexpr unsigned kMostLayers = 1000;  // of a model in [compare]
+
 /// Only fit files have these at their top.
 constexpr std::array kFitKeys{"scene", "observations", "unknown"};
-
-template <class Names>
-std::vector<std::string> strings(const Names& names) {
-  return {names.begin(), names.end()};
-}
 
 template <class List>
 std::vector<std::string> names_in() {
@@ -83,8 +84,10 @@ class FitReader {
     if (!data_) data_path = file_name(root, "observations", "must be the name of a CSV file");
     if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
     if (!data_) how_written(root);
-    if (auto table = root.table("unknown", Need::required, "must be a table with parameters"))
-      unknown(*table);
+    if (auto table = root.table("compare", Need::optional, "must be a table with layers and models"))
+      compare(*table);
+    const Need need = choice_ ? Need::optional : Need::required;
+    if (auto table = root.table("unknown", need, "must be a table with parameters")) unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method"))
       read_method(*table, forward_.method, scene_ ? &*scene_ : nullptr);
     if (auto table = root.table("misfit", Need::optional, "must be a table with quantity and loss"))
@@ -106,7 +109,7 @@ class FitReader {
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
                     std::move(search_), uncertainty_},
-            scene_path.value_or(""), data_path.value_or(""), std::move(remarks_)};
+            scene_path.value_or(""), data_path.value_or(""), std::move(remarks_), std::move(choice_)};
   }
 
  private:
@@ -146,13 +149,9 @@ class FitReader {
     format_.decimal = is_one("decimal", {".", ","});
     if (table.node("missing"))
       format_.missing = table.texts("missing", Need::optional, "must be an array of words");
-    const auto chosen = [&](const char* key, const auto& names) -> std::optional<std::size_t> {
-      const auto name = table.choice(key, Need::optional, strings(names));
-      if (!name) return std::nullopt;
-      return static_cast<std::size_t>(std::find(names.begin(), names.end(), *name) - names.begin());
-    };
-    if (const auto i = chosen("layout", kTableLayoutNames)) format_.layout = static_cast<TableLayout>(*i);
-    if (const auto i = chosen("replicates", kReplicatesNames))
+    if (const auto i = table.place("layout", Need::optional, kTableLayoutNames))
+      format_.layout = static_cast<TableLayout>(*i);
+    if (const auto i = table.place("replicates", Need::optional, kReplicatesNames))
       format_.replicates = static_cast<Replicates>(*i);
     const auto positive = [&](std::string_view key, std::optional<double>& value) {
       if (!table.node(key)) return;
@@ -171,8 +170,63 @@ class FitReader {
     table.finish();
   }
 
+  /// Shear rates that are compared: layers = [1, 2, 3], models = ["exponential", "table:6"].
+  void compare(TableReader& table) {
+    ModelChoice& choice = choice_.emplace();
+    const auto refuse = [&](const std::string& key, std::size_t i, const std::string& value,
+                            std::string why) {
+      add({fmt::format("{}[{}]", table.path(key), i), value, std::move(why)});
+    };
+    if (table.node("layers")) {
+      std::vector<double> counts;
+      table.number("layers", Need::optional, counts);
+      for (std::size_t i = 0; table.is_good("layers") && i < counts.size(); ++i) {
+        if (!(counts[i] >= 1 && counts[i] <= kMostLayers && counts[i] == std::floor(counts[i])))
+          refuse("layers", i, "", fmt::format("must be a whole number from 1 to {}", kMostLayers));
+        else
+          choice.models.push_back({layered_name(), static_cast<std::size_t>(counts[i])});
+      }
+    }
+    if (table.node("models")) {
+      const auto names =
+          table.texts("models", Need::optional, "must be an array of names such as \"table:6\"");
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i].empty()) continue;  // refused
+        const std::size_t colon = names[i].find(':');
+        const auto n = colon == std::string::npos ? 0 : parse_count(names[i].substr(colon + 1));
+        const ModelChoice::Model model{names[i].substr(0, colon), static_cast<std::size_t>(n.value_or(0))};
+        if (!n || *n > kMostLayers)
+          refuse("models", i, quoted_text(names[i]),
+                 "must be a name, or a name and a number such as table:6");
+        else if (std::string why = refusal(model); !why.empty())
+          refuse("models", i, quoted_text(names[i]), std::move(why));
+        else
+          choice.models.push_back(model);
+      }
+    }
+    choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
+    if (choice.models.empty() && report_.is_empty())
+      report_.add(table.position(), {"compare", "", "must have layers or models"});
+    table.finish();
+  }
+  /// The depth function that consists of layers.
+  static std::string layered_name() {
+    std::string name;
+    DepthFunctionList<double>::for_each([&]<class Model>() {
+      if (name.empty() && Model::kIsLayered) name = Model::kName;
+    });
+    return name;
+  }
+
   void unknown(TableReader& table) {
-    unknown_.parameters = table.texts("parameters", Need::required, "must be an array of names of entries");
+    unknown_.parameters = table.texts("parameters", choice_ ? Need::optional : Need::required,
+                                      "must be an array of names of entries");
+    for (std::size_t i = 0; choice_ && i < unknown_.parameters.size(); ++i)
+      if (unknown_.parameters[i].starts_with("shear_rate.")) {
+        add({fmt::format("{}[{}]", table.path("parameters"), i), quoted_text(unknown_.parameters[i]),
+             "must be left out: [compare] says which entries of the shear rate are unknown"});
+        report_.spoil(table.path("parameters"));
+      }
     for (std::string& name : unknown_.parameters)
       if (name.starts_with("packing.")) {
         const std::string old = std::exchange(name, "solid_fraction" + name.substr(name.find('.')));
@@ -182,9 +236,8 @@ class FitReader {
     numbers(table, "start", unknown_.start, false);
     numbers(table, "lower", unknown_.lower, true);
     numbers(table, "upper", unknown_.upper, true);
-    const std::vector<std::string> shapes{"none", "decreasing", "convex"};
-    if (const auto name = table.choice("shape", Need::optional, shapes))
-      unknown_.shape = static_cast<Shape>(std::find(shapes.begin(), shapes.end(), *name) - shapes.begin());
+    constexpr std::array<std::string_view, 3> kShapes{"none", "decreasing", "convex"};
+    if (const auto i = table.place("shape", Need::optional, kShapes)) unknown_.shape = static_cast<Shape>(*i);
     table.finish();
   }
 
@@ -265,9 +318,11 @@ class FitReader {
 
   /// Unknowns against the scene. Numbers that could not be read are left out, and so is what follows from it.
   void check_unknown() {
+    if (choice_ && unknown_.parameters.empty()) return;
     if (!scene_ || report_.is_spoiled("unknown.parameters") || !source_.find("unknown.parameters").is_exact)
       return;
     UnknownSpec unknown = unknown_;
+    if (choice_) unknown.shape = Shape::none;  // of what is compared
     if (has_bad_numbers_) unknown.start = unknown.lower = unknown.upper = {};
     try {
       (void)Parameters(*scene_, unknown);
@@ -292,19 +347,8 @@ class FitReader {
   }
 
   void throw_if_any() {
-    Complaints complaints;
-    std::string text;
-    const auto take = [&](const FileError& error) {
-      complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
-      text += (text.empty() ? "" : "\n") + std::string(error.what());
-    };
-    try {
-      report_.throw_if_any();
-    } catch (const FileError& error) {
-      take(error);
-    }
-    for (const FileError& error : others_) take(error);
-    if (!complaints.empty()) throw FileError(std::move(complaints), std::move(text));
+    if (auto own = report_.error()) others_.insert(others_.begin(), std::move(*own));
+    detail::throw_joined(others_);
   }
 
   void add(Complaint complaint) { add_located(source_, report_, std::move(complaint)); }
@@ -321,6 +365,7 @@ class FitReader {
   SearchSpec search_;
   UncertaintySpec uncertainty_;
   std::vector<std::string> remarks_;
+  std::optional<ModelChoice> choice_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper
 };
 

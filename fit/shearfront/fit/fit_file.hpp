@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,11 +12,26 @@
 /// Fit files (TOML; the format is described in docs/reference/formats).
 namespace shearfront::fit {
 
+/// [compare]: shear rates that are fitted to the same observations in place of the scene's own. The entries of each are
+/// unknown, beside those of [unknown]; the scene's a(z) is where all of them start.
+struct ModelChoice {
+  struct Model {
+    std::string name;  ///< of a depth function
+    std::size_t n;     ///< pieces or points of one with arrays; 0: it has none
+  };
+  std::vector<Model> models;
+  bool has_free_breaks = false;  ///< of layers; else they are equally thick
+
+  /// "1 layer", "3 layers", "exponential", "table:6".
+  [[nodiscard]] static std::string text(const Model& model);
+};
+
 /// A fit file with the names of the files it refers to, as they are opened.
 struct FitFile {
   FitSpec spec;
   std::string scene, observations;
   std::vector<std::string> remarks;  ///< on old names in this file and in the scene
+  std::optional<ModelChoice> choice;
 };
 
 /// Reads a fit file, its scene and its observations; their names are relative to the fit file.

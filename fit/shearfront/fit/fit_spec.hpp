@@ -47,7 +47,7 @@ struct MisfitSpec {
 
 /// [search]: how the minimum is looked for.
 struct SearchSpec {
-  std::string algorithm = "ceres";  ///< ceres | global | nlopt:NAME
+  std::string algorithm = "ceres";  ///< ceres | global | pattern | nlopt:NAME
   std::size_t starts = 1;           ///< > 1: from so many points of a low-discrepancy set as well
   std::uint64_t seed = 1;
   std::size_t max_evaluations = 2000;

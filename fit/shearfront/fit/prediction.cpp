@@ -30,7 +30,7 @@ std::optional<Spread> spread_of(const Estimate& estimate, std::string& why_none)
   for (std::size_t i = 0; i < estimate.parameters.size(); ++i) {
     const ParameterEstimate& p = estimate.parameters[i];
     if (p.std_error && *p.std_error > 0) spread.unknowns.push_back(i);
-    if (p.std_error || p.at_bound) continue;
+    if (p.std_error || p.is_held()) continue;
     why_none = p.name + " has no error bar";
     return std::nullopt;
   }

@@ -106,6 +106,13 @@ std::optional<Interval> band_at(double z, double rate, const std::vector<RateDir
 
 }  // namespace
 
+std::vector<RateRow> rate_rows(const Scene<double>& scene) {
+  std::vector<RateRow> rows;
+  for (const RatePlace& p : places_of(scene))
+    rows.push_back({p.z, rate_at(scene.spec(), p.inside), std::nullopt});
+  return rows;
+}
+
 RateBand rate_band(const Parameters& parameters, const Estimate& estimate) {
   RateBand result;
   const Scene<double>& scene = *estimate.scene;
@@ -115,9 +122,7 @@ RateBand rate_band(const Parameters& parameters, const Estimate& estimate) {
     const double a = rate_at(scene.spec(), p.inside);
     result.rows.push_back({p.z, a, band_at(p.inside, a, directions, estimate, quantile)});
   }
-  const Scene<double> start(parameters.scene_with(parameters.start()));
-  for (const RatePlace& p : places_of(start))
-    result.start.push_back({p.z, rate_at(start.spec(), p.inside), std::nullopt});
+  result.start = rate_rows(parameters.start_scene());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Entry& entry = parameters[i].entry;
     result.is_unknown = result.is_unknown || entry.field.starts_with("shear_rate.");

@@ -34,6 +34,9 @@ struct RateBand {
   bool is_unknown = false;  ///< whether anything about a or s was
 };
 
+/// s a(z) of a scene, in the same rows, without bands.
+[[nodiscard]] std::vector<RateRow> rate_rows(const Scene<double>& scene);
+
 [[nodiscard]] RateBand rate_band(const Parameters& parameters, const Estimate& estimate);
 
 }  // namespace shearfront::fit

@@ -72,7 +72,7 @@ void set_error_bars(const Minimum& minimum, Estimate& estimate) {
   const double quantile = minimum.quantile;
   estimate.correlation = MatrixXd::Constant(n, n, kUnknown);
   const auto has_error = [&](Index a) {
-    return !estimate.parameters[static_cast<std::size_t>(a)].at_bound && cov(a, a) > 0 &&
+    return !estimate.parameters[static_cast<std::size_t>(a)].is_held() && cov(a, a) > 0 &&
            std::isfinite(cov(a, a));
   };
   for (Index a = 0; a < n; ++a) {
@@ -137,9 +137,13 @@ void mark_bounds(const Minimum& minimum, Estimate& estimate) {
     estimate.parameters[i].at_bound = value <= parameters[i].lower || value >= parameters[i].upper;
   }
   for (std::size_t j = 0; j < held.size(); ++j)
-    if (held[j])
-      for (const Index i : minimum.objective.coordinates().bound_together(static_cast<Index>(j)))
-        estimate.parameters[static_cast<std::size_t>(i)].at_bound = true;
+    if (held[j]) {
+      const auto together = minimum.objective.coordinates().bound_together(static_cast<Index>(j));
+      for (const Index i : together) {
+        ParameterEstimate& p = estimate.parameters[static_cast<std::size_t>(i)];
+        (together.size() > 1 ? p.held_by_shape : p.at_bound) = true;
+      }
+    }
 }
 
 }  // namespace

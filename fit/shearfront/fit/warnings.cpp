@@ -104,7 +104,7 @@ class Writer {
     }
     for (Index i = 0; i < values_.size(); ++i) {
       const Parameter& p = parameters_[static_cast<std::size_t>(i)];
-      if (!of(i).at_bound) continue;
+      if (!of(i).is_held()) continue;
       const bool is_lower = std::abs(values_[i] - p.lower) <= std::abs(values_[i] - p.upper);
       const double bound = is_lower ? p.lower : p.upper;
       if (shaped.contains(i) && !(std::abs(values_[i] - bound) <= 1e-8 * std::abs(bound))) continue;

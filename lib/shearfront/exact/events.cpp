@@ -115,9 +115,10 @@ Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, Fin
     return !(missing > rounding) ? Scalar(0) : path.H > 0 ? Scalar(missing / path.H) : infinity<Scalar>();
   };
   const Scalar close = Scalar(4) * u;
-  Scalar lo(0), hi = late, t = late - close * late;
-  while (hi - lo > close * hi) {
-    if (!(t > lo && t < hi)) t = lo + (hi - lo) / Scalar(2);
+  Scalar lo(0), hi = late, t = late - close * late, back = close;
+  for (int n = 0; hi - lo > close * hi; ++n) {
+    // Steps, however small they have become, may not take the place of halves for long.
+    if (n % 4 == 3 || !(t > lo && t < hi)) t = lo + (hi - lo) / Scalar(2);
     if (!(t > lo && t < hi)) break;
     const Scalar left = std::max(gain(medium.best_beside(near, z, t, false), t),
                                  gain(medium.best_beside(near, z, t, true), t));
@@ -125,9 +126,9 @@ Scalar final_time_of_contacts(const Medium<Scalar>& medium, const Scalar& z, Fin
       lo = t;
       t += left + close * t;
     } else {
-      const bool was_step = hi - t > close * hi;
       hi = t;
-      t = was_step ? Scalar(t - close * t) : lo;
+      back *= Scalar(16);
+      t -= back * t;
     }
   }
   return hi;

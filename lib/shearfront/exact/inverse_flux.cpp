@@ -34,11 +34,47 @@ InverseFlux<Scalar>::InverseFlux(Flux<Scalar> flux) : flux_(std::move(flux)) {
   for (auto& joints : joints_) std::sort(joints.begin(), joints.end());
   const Scalar near = width_ / Scalar(1 << 20);
   // A smooth flux has no slope at its extremum, up to rounding; a kink keeps those of its two sides.
-  if (size(flux_.derivative(extremum_)) * width_ <= depth_ / Scalar(1 << 16)) return;
-  for (const bool up : {true, false})
-    kink_[up] =
-        size(flux_.secant(extremum_, Scalar(up == is_concave_ ? extremum_ - near : extremum_ + near))) *
-        width_ / depth_;
+  if (!(size(flux_.derivative(extremum_)) * width_ <= depth_ / Scalar(1 << 16)))
+    for (const bool up : {true, false})
+      kink_[up] =
+          size(flux_.secant(extremum_, Scalar(up == is_concave_ ? extremum_ - near : extremum_ + near))) *
+          width_ / depth_;
+  with_model(flux_, [&]<class Model>(const Model& f) {
+    if constexpr (degree_between_joints<Model>() <= 3)
+      for (const bool up : {false, true}) branches_.push_back(branch_of(f, up));
+  });
+}
+
+/// From the slopes and bends inside the pieces: at joints a model says those of one side.
+template <Real Scalar>
+template <class Model>
+FluxBranch<Scalar> InverseFlux<Scalar>::branch_of(const Model& f, bool up) const {
+  const Scalar zero(0), two(2), four(4), six(6);
+  if constexpr (Model::kIsParabola) return {reach(up), {{zero, zero, four, -four, zero}}, zero, four, zero};
+  // As functions of m.
+  const auto slope = [&](const Scalar& m) { return Scalar(slope_of(f, Scalar(reach(up) - m), up)); };
+  const auto bend = [&](const Scalar& m) -> Scalar {  // G''
+    if constexpr (degree_between_joints<Model>() < 2)
+      return zero;
+    else
+      return -bend_of(f, Scalar(reach(up) - m), up);
+  };
+  std::vector<Scalar> ends{zero};
+  ends.insert(ends.end(), joints_[up].begin(), joints_[up].end());
+  ends.push_back(reach(up));
+  std::vector<typename FluxBranch<Scalar>::Piece> pieces;
+  Scalar at_peak(0), third(0);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const Scalar &lo = ends[i], width = ends[i + 1] - lo, middle = lo + width / two;
+    third = (bend(Scalar(lo + width * Scalar(0.75))) - bend(Scalar(lo + width / four))) / (width / two);
+    const Scalar in_middle = bend(middle), begin = in_middle - third * width / two;
+    at_peak = in_middle + third * width / two;
+    const Scalar first = i == 0 ? Scalar(size(f.derivative(pure_share(up))) * (width_ / depth_))
+                                : Scalar(slope(middle) - width / two * (in_middle - third * width / four));
+    pieces.push_back({lo, i == 0 ? zero : Scalar(Scalar(1) - lack_of(f, Scalar(reach(up) - lo), up)), first,
+                      begin / two, third / six});
+  }
+  return {reach(up), std::move(pieces), kink_[up], -at_peak / two, third / six};
 }
 
 template <Real Scalar>
@@ -114,16 +150,19 @@ Scalar InverseFlux<Scalar>::distance_of(const Model& f, const Scalar& G, bool up
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::flux_beside(const Scalar& distance, bool up) const {
+  if (const auto* of = branch(up)) return of->height_beside(distance);
   return size(flux_.secant(pure_share(up), place_beside(distance, up))) * (width_ * distance / depth_);
 }
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::distance_beside(const Scalar& G, bool up) const {
+  if (const auto* of = branch(up)) return G > 0 ? of->distance(G) : Scalar(0);
   return with_model(flux_, [&](const auto& f) { return distance_of(f, G, up); });
 }
 
 template <Real Scalar>
 auto InverseFlux<Scalar>::rise_beside(const Scalar& distance, bool up) const -> Rise {
+  if (const auto* of = branch(up)) return {of->chord(distance), of->slope_beside(distance)};
   const Scalar &pure = pure_share(up), x = place_beside(distance, up);
   return with_model(flux_, [&](const auto& f) -> Rise {
     // At a kink the slope is that of the side.
@@ -135,22 +174,26 @@ auto InverseFlux<Scalar>::rise_beside(const Scalar& distance, bool up) const -> 
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::chord_beside(const Scalar& distance1, const Scalar& distance2, bool up) const {
+  if (const auto* of = branch(up)) return of->chord(distance1, distance2);
   const Scalar x = place_beside(distance1, up), y = place_beside(distance2, up);
   return with_model(flux_, [&](const auto& f) { return size(f.secant(x, y)) * (width_ / depth_); });
 }
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::lack(const Scalar& d, bool up) const {
+  if (const auto* of = branch(up)) return of->lack(d);
   return with_model(flux_, [&](const auto& f) { return lack_of(f, d, up); });
 }
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::slope(const Scalar& d, bool up) const {
+  if (const auto* of = branch(up)) return of->slope(d);
   return with_model(flux_, [&](const auto& f) { return slope_of(f, d, up); });
 }
 
 template <Real Scalar>
 Scalar InverseFlux<Scalar>::bend(const Scalar& d, bool up) const {
+  if (const auto* of = branch(up)) return of->bend(d);
   return with_model(flux_, [&](const auto& f) { return bend_of(f, d, up); });
 }
 
@@ -158,6 +201,7 @@ template <Real Scalar>
 Scalar InverseFlux<Scalar>::inverse(const Scalar& e, bool up) const {
   if (!(e > 0)) return Scalar(0);
   if (!(e < 1)) return reach(up);
+  if (const auto* of = branch(up)) return of->inverse(e);
   return with_model(flux_, [&](const auto& f) { return inverse_of(f, e, up); });
 }
 

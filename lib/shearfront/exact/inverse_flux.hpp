@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "shearfront/exact/flux_branch.hpp"
 #include "shearfront/model/flux/flux.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
@@ -17,13 +19,18 @@ namespace shearfront::exact {
 /// step on straight pieces. Next to the pure states G and the distance from them have their own functions, for the same
 /// reason. Guarantees: e, d to a few u absolutely, relative accuracy for parabolas; G and the distance from a pure state
 /// with relative accuracy. Cost: up
-/// to 10 evaluations of f per inverse. Precondition: the flux passes refusal(). Source: none, elementary.
+/// to 10 evaluations of f per inverse, or of polynomials for models with a kDegree (exact/flux_branch.hpp). Precondition: the flux passes
+/// refusal(). Source: none, elementary.
 template <Real Scalar>
 class InverseFlux {
  public:
   explicit InverseFlux(Flux<Scalar> flux);
 
   [[nodiscard]] const Scalar& peak() const { return peak_; }
+  /// A side that is a cubic between joints; null for any other.
+  [[nodiscard]] const FluxBranch<Scalar>* branch(bool up) const {
+    return branches_.empty() ? nullptr : &branches_[up];
+  }
   /// Distance from the peak to the pure state of a side.
   [[nodiscard]] Scalar reach(bool up) const { return up ? Scalar(Scalar(1) - peak_) : peak_; }
   /// u of a state; exactly 1 or 0 at the end.
@@ -73,6 +80,8 @@ class InverseFlux {
     return up == is_concave_ ? lowest_ + width_ * distance : highest_ - width_ * distance;
   }
   template <class Model>
+  [[nodiscard]] FluxBranch<Scalar> branch_of(const Model& f, bool up) const;
+  template <class Model>
   [[nodiscard]] Scalar distance_of(const Model& f, const Scalar& G, bool up) const;
   template <class Model>
   [[nodiscard]] Scalar lack_of(const Model& f, const Scalar& d, bool up) const;
@@ -87,7 +96,8 @@ class InverseFlux {
   bool is_concave_ = false, is_smooth_ = false;
   Scalar lowest_{0}, highest_{1}, width_{1}, extremum_{0}, depth_{1}, peak_{0};
   std::vector<Scalar> joints_[2];
-  Scalar kink_[2] = {Scalar(0), Scalar(0)};  ///< e'(0) down and up
+  std::vector<FluxBranch<Scalar>> branches_;  ///< down and up, or none
+  Scalar kink_[2] = {Scalar(0), Scalar(0)};   ///< e'(0) down and up
 };
 
 }  // namespace shearfront::exact

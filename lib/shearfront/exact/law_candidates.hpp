@@ -134,27 +134,40 @@ class LawCandidates : protected SlopedStarts<Scalar> {
 
   /// Adds all runs and the turn of a route to a sample that has h and qm2.
   void add_law_route(const Route& route, Sample& s) const {
+    // Where two runs meet at one rate in one flux they share the state.
+    struct {
+      Scalar r{-1};
+      State state{Scalar(0), Scalar(0)};
+      const InverseFlux<Scalar>* flux = nullptr;
+    } last[2];
     for (const auto& run : route.runs) {
       const Scalar bend = run.is_upwards ? view_.bend[run.cell] : Scalar(-view_.bend[run.cell]);
+      const InverseFlux<Scalar>* flux = &view_.fluxes->flux(view_.piece[run.cell]);
       for (const bool is_up : {true, false}) {
         if (run.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
-        const LawRun<Scalar> law(view_.side(run.cell, is_up), run.form, bend, run.d, run.r1,
-                                 state_at(run.cell, is_up, run.r1, route.least, s.qm2, s.h), run.r2,
-                                 state_at(run.cell, is_up, run.r2, route.least, s.qm2, s.h), s.h);
-        s.T += law.T;
+        auto& [r, state, of] = last[is_up];
+        const State begin =
+            r == run.r1 && of == flux ? state : state_at(run.cell, is_up, run.r1, route.least, s.qm2, s.h);
+        r = run.r2;
+        state = state_at(run.cell, is_up, run.r2, route.least, s.qm2, s.h);
+        of = flux;
+        const LawRun<Scalar> law(view_.side(run.cell, is_up), run.form, bend, run.d, run.r1, begin, run.r2,
+                                 state, s.h);
+        s.T_rising += law.T;
         s.X += law.X;
       }
     }
-    if (!(route.turn_bend > 0)) return;
-    const std::size_t j = route.turn_cell;
-    const Scalar& r = route.turn_rate;
-    const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend, r,
-                               state_at(j, true, r, route.least, s.qm2, s.h),
-                               state_at(j, false, r, route.least, s.qm2, s.h), s.h);
-    s.T += turn.T;
-    s.T_falling += turn.T;
-    s.X += turn.X;
-    s.X_falling += turn.X;
+    if (route.turn_bend > 0) {
+      const std::size_t j = route.turn_cell;
+      const Scalar& r = route.turn_rate;
+      const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend,
+                                 r, state_at(j, true, r, route.least, s.qm2, s.h),
+                                 state_at(j, false, r, route.least, s.qm2, s.h), s.h);
+      s.T_falling += turn.T;
+      s.X += turn.X;
+      s.X_falling += turn.X;
+    }
+    s.T = s.T_rising + s.T_falling;
   }
 
   // Fans.
@@ -196,7 +209,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     zero.T = time;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
     roots(
-        1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); }, kSure);
+        1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); }, kSure,
+        never_dear);
   }
   void turned_fan(const Route& route, std::size_t node, std::size_t j, const Scalar& lo, const Scalar& hi,
                   const Scalar& top) {
@@ -205,10 +219,13 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
     const Sample a = at(w_of(lo, route.least));
     // No path along the route with a larger h costs less: H' t + int p dz at a smaller H'.
-    if (base + (a.X - a.X_falling) + a.h / Scalar(4) * (t_ - (a.T - a.T_falling)) > limit()) return;
+    const auto is_dear = [&](const Sample& s) {
+      return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising) > limit();
+    };
+    if (is_dear(a)) return;
     roots(
         -1, a, at(w_of(hi, route.least)), at,
-        [&](const Sample& s) { offer_fan(route, node, base, s, true, j); }, 0);
+        [&](const Sample& s) { offer_fan(route, node, base, s, true, j); }, 0, is_dear);
   }
 
   // States.
@@ -232,7 +249,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
                                state_at(k, true, exit, route.least, s.qm2, s.h), s.h);
       s.T += run.T;
       s.X += run.X;
-      if (!(view_.bend[k] < 0)) s.T_falling += run.T;
+      (view_.bend[k] < 0 ? s.T_rising : s.T_falling) += run.T;
       return s;
     }
     // It turns, comes back to its start and goes on to the end below: all of that falls.
@@ -258,7 +275,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
       offer(value, s.h, PathKind::constant, !turned, turned, k, s.y, turn, route.least, s.qm);
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
-    roots(sign, a, b, at, found, 0);
+    roots(sign, a, b, at, found, 0, never_dear);
   }
   /// Where r is constant in cell k: h is given and the time linear in the start.
   void flat_state(Route& route, std::size_t k, const Scalar& top, bool turned, std::size_t turn,
@@ -295,21 +312,24 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   static constexpr int kSure = 4;  ///< so many halvings make an interval narrow
 
   /// Calls found() next to every root of T = t between samples a and b, a.h < b.h, where T rises with h for `sign` 1 and falls for -1.
-  template <class At, class Found>
-  void roots(int sign, const Sample& a, const Sample& b, const At& at, const Found& found, int depth) {
+  /// An interval is left out where its lower end says that it `is_dear`.
+  template <class At, class Found, class IsDear>
+  void roots(int sign, const Sample& a, const Sample& b, const At& at, const Found& found, int depth,
+             const IsDear& is_dear) {
     int left = kMostSamples;
     const Scalar tolerance = Scalar(256) * unit_roundoff<Scalar>() * t_;
     for (const Sample* s : {&a, &b})
       if (is_close(s->T, tolerance)) found(*s);
-    halve(sign, a, b, at, found, tolerance, depth, left);
+    halve(sign, a, b, at, found, is_dear, tolerance, depth, left);
   }
-  template <class At, class Found>
+  template <class At, class Found, class IsDear>
   void halve(int sign, const Sample& a, const Sample& b, const At& at, const Found& found,
-             const Scalar& tolerance, int depth, int& left) {
-    if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance) return;
-    if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance) return;
+             const IsDear& is_dear, const Scalar& tolerance, int depth, int& left) {
+    if (a.T_rising + b.T_falling > t_ + tolerance) return;
+    if (b.T_rising + a.T_falling < t_ - tolerance) return;
     // In a flux with straight branches T may be the same for all of them.
     if (is_close(a.T, tolerance) && is_close(b.T, tolerance)) return;
+    if (is_dear(a)) return;
     const bool encloses = sign > 0 ? a.T < t_ && b.T > t_ : a.T > t_ && b.T < t_;
     if (depth >= kSure && encloses) return found(root(a, b, at));
     const Scalar middle = a.v + (b.v - a.v) / Scalar(2);
@@ -317,9 +337,10 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     --left;
     const Sample m = at(middle);
     if (is_close(m.T, tolerance)) found(m);
-    halve(sign, a, m, at, found, tolerance, depth + 1, left);
-    halve(sign, m, b, at, found, tolerance, depth + 1, left);
+    halve(sign, a, m, at, found, is_dear, tolerance, depth + 1, left);
+    halve(sign, m, b, at, found, is_dear, tolerance, depth + 1, left);
   }
+  [[nodiscard]] static bool never_dear(const Sample&) { return false; }
   [[nodiscard]] bool is_close(const Scalar& T, const Scalar& tolerance) const {
     return T - t_ <= tolerance && t_ - T <= tolerance;
   }

@@ -18,7 +18,8 @@ namespace shearfront::exact {
 ///   * Between flat pieces M(z_i, t) = M0 + H0 t until the edge of a fan comes, the characteristic of a state followed back to
 ///     the first point that is not at rest, or a shock, which makes M less than that.
 ///
-/// Empty if nothing ever comes. Error: a few u; of a shock u (top - bottom) over the change of H.
+/// Empty if nothing ever comes. Error: a few u; of a shock u (top - bottom) over the change of H, unless one comes, leaves and comes back
+/// within a 2^-7 part of the time.
 template <Real Scalar>
 class SlopedArrival {
  public:
@@ -75,26 +76,67 @@ class SlopedArrival {
   }
 
   [[nodiscard]] Scalar of_flat_pieces() const {
-    const Scalar H0 = h(at_ - 1) / Scalar(4), &M0 = cells_.M[at_];
+    const Scalar H0 = h(at_ - 1) / Scalar(4);
     // M is no more than either final amount.
-    Scalar first = (std::min(Scalar(z_ - medium_.bottom()), medium_.mass()) - M0) / H0;
+    Scalar first = (std::min(Scalar(z_ - medium_.bottom()), medium_.mass()) - cells_.M[at_]) / H0;
     for (const bool is_upward : {true, false}) first = std::min(first, edge(is_upward));
     const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (medium_.top() - medium_.bottom());
-    const auto is_changed = [&](const Scalar& t) {
-      return medium_.best_path(z_, t).value < M0 + H0 * t - tie;
+    const auto is_changed = [&](const Scalar& z, const Scalar& t) {
+      const Scalar change = medium_.best_path(z, t).value - (cells_.cumulative(z) + H0 * t);
+      return change > tie || change < -tie;  // more is where the states at rest do not come from any longer
     };
-    constexpr int kSamples = 200;  // what has come may leave again
-    for (int n = 1; n <= kSamples; ++n) {
-      Scalar hi = first * Scalar(n) / Scalar(kSamples), lo = first * Scalar(n - 1) / Scalar(kSamples);
-      if (!(hi > 0) || !is_changed(hi)) continue;
-      while (hi - lo > Scalar(4) * unit_roundoff<Scalar>() * hi) {
-        const Scalar t = lo + (hi - lo) / Scalar(2);
-        if (!(t > lo && t < hi)) break;
-        (is_changed(t) ? hi : lo) = t;
+    // What changes z comes from an end of the flat pieces at rest around it. Starts do not cross: between z and a place that has not changed at
+    // a time nothing has, and from beyond nothing is faster than a pure state. So z is known to stay for a while; how near such places
+    // are found decides how long.
+    const Scalar &lowest = cells_.x[end_of_rest(false)], &highest = cells_.x[end_of_rest(true)];
+    const Scalar half(0.5), one(1), narrow = first / Scalar(1 << 14);
+    Scalar t(0), part = one;
+    constexpr int kMost = 2000, kSamples = 200;
+    for (int n = 0; n < kMost && t < first; ++n) {
+      Scalar stays = infinity<Scalar>();
+      bool is_kept = true;
+      for (const Scalar* end : {&lowest, &highest}) {
+        const Scalar place = z_ + (*end - z_) * part;
+        is_kept = is_kept && !(t > 0 && is_changed(place, t));
+        stays = std::min(stays, medium_.pure_travel_time(place, z_));
       }
-      return hi;
+      if (is_kept) {
+        t += stays;
+        part = std::min(one, Scalar(part + part));
+        continue;
+      }
+      part *= half;
+      if (stays > narrow) continue;
+      // Nearly there.
+      Scalar lo = t, hi = t;
+      for (Scalar by = stays; by < first / Scalar(128); by += by) {
+        hi = std::min(first, Scalar(hi + by));
+        if (is_changed(z_, hi)) return crossing(lo, hi, is_changed);
+        lo = hi;
+      }
     }
+    // Next to a shock that hardly moves.
+    const Scalar rest = std::max(Scalar(0), Scalar(first - t)) / Scalar(kSamples);
+    for (int n = 0; n < kSamples && rest > 0; ++n, t += rest)
+      if (is_changed(z_, Scalar(t + rest))) return crossing(t, Scalar(t + rest), is_changed);
     return first;
+  }
+  /// The outermost point of the flat pieces at rest on one side.
+  [[nodiscard]] std::size_t end_of_rest(bool is_above) const {
+    std::size_t point = at_;
+    do {
+      is_above ? ++point : --point;
+    } while (point > 0 && point + 1 < cells_.x.size() && is_at_rest(point));
+    return point;
+  }
+  template <class IsChanged>
+  [[nodiscard]] Scalar crossing(Scalar lo, Scalar hi, const IsChanged& is_changed) const {
+    while (hi - lo > Scalar(4) * unit_roundoff<Scalar>() * hi) {
+      const Scalar t = lo + (hi - lo) / Scalar(2);
+      if (!(t > lo && t < hi)) break;
+      (is_changed(z_, t) ? hi : lo) = t;
+    }
+    return hi;
   }
   /// When the end of the state on one side comes; never if the state does not come from there.
   [[nodiscard]] Scalar edge(bool is_upward) const {

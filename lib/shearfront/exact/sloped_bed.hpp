@@ -124,9 +124,9 @@ struct SlopedView {
     for (std::size_t i = 1; i < n_cells(); ++i) emits[i] = may_emit(i);
   }
 
-  /// The same with a node at a height of a cell.
-  [[nodiscard]] SlopedView with_node(std::size_t cell, const Scalar& z, const Scalar& r) const {
-    SlopedView view = *this;
+  /// The same with a node at a height of a cell, which it makes of `view`: one and the same for many queries needs no memory.
+  void put_node(std::size_t cell, const Scalar& z, const Scalar& r, SlopedView& view) const {
+    view = *this;
     const auto insert = [&](auto& all, std::size_t at, const auto& value) {
       all.insert(all.begin() + static_cast<std::ptrdiff_t>(at), value);
     };
@@ -146,7 +146,6 @@ struct SlopedView {
     view.pure_back[cell] = pure_way(cell, below, low[cell], r, false);
     insert(view.pure_time, cell + 1, pure_way(cell, above, r, high[cell], true));
     insert(view.pure_back, cell + 1, pure_way(cell, above, r, high[cell], false));
-    return view;
   }
 
   /// At least int p dz of paths that rise by `rise` from a throat, or fall.

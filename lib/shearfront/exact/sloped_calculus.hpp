@@ -148,7 +148,7 @@ class ParabolaCalculus {
     const Turn<Scalar> turn(pieces_.form[j], bend, A, qA, h_);
     TurnParts<Scalar> by{};
     by.T = turn.T;
-    by.T_h = -turn.steep / qA;
+    by.T_h = -turn.steep / h_ / qA;
     const Scalar two(2), four(4);
     const Scalar cube = qA * qA * qA * artanh_rest(Scalar(qA * qA));  // artanh q - q
     if (pieces_.form[j] == RateForm::linear) {

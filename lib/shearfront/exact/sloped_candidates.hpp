@@ -45,10 +45,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     add_route(route, s);
     return s;
   }
-  [[nodiscard]] static Scalar fan_slope(const Route& route, const Sample& s) {
-    const Scalar more = Scalar(1) + s.v;
-    return s.F() * Scalar(4) * route.least / (more * more);
-  }
+  /// Newton's step for a change of T: of w, dT/dw being more than the largest number where w is very small.
+  [[nodiscard]] static Scalar fan_step(const Sample& s, const Scalar& gap) { return gap / s.F() * s.v; }
 
   void finish_fan(const Route& route, std::size_t node, const Scalar& base, const Sample& s,
                   const Scalar& step, bool turned, std::size_t turn) {
@@ -73,16 +71,16 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     zero.T = time;
     if (zero.T > late_) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
-    const auto slope = [&](const Sample& s) { return fan_slope(route, s); };
-    const auto found = [&](const Sample& s, const Scalar& step) {
-      finish_fan(route, node, base, s, step, false, 0);
+    const auto step = [](const Sample& s, const Scalar& gap) { return fan_step(s, gap); };
+    const auto found = [&](const Sample& s, const Scalar& by) {
+      finish_fan(route, node, base, s, by, false, 0);
     };
     if (zero.T >= t_) {
       if (moving_only_) return;
       zero = at(Scalar(0));
       return finish_fan(route, node, base, zero, Scalar(0), false, 0);
     }
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, 1, at, slope, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, 1, at, step, found)
         .solve(zero, top);
   }
 
@@ -94,16 +92,16 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Sample a = at(w_of(lo, route.least));
     if (bound(base, a) > limit()) return;
     const Sample b = at(w_of(hi, route.least));
-    const auto slope = [&](const Sample& s) { return fan_slope(route, s); };
-    const auto found = [&](const Sample& s, const Scalar& step) {
-      finish_fan(route, node, base, s, step, true, j);
+    const auto step = [](const Sample& s, const Scalar& gap) { return fan_step(s, gap); };
+    const auto found = [&](const Sample& s, const Scalar& by) {
+      finish_fan(route, node, base, s, by, true, j);
     };
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, -1, at, slope, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, -1, at, step, found)
         .run(a, b);
   }
   /// No path along the route with h above that of the sample costs less: H' t + int p dz at a smaller H'.
   [[nodiscard]] Scalar bound(const Scalar& base, const Sample& s) const {
-    return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - (s.T - s.T_falling));
+    return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising);
   }
 
   // Whether a time along a route may be t.
@@ -152,7 +150,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     s.X += c.X;
     const bool is_rising_h = up && view_.bend[k] < 0;
     add_start(route, k, q, is_rising_h, !up, s);
-    if (!is_rising_h) s.T_falling += c.T;
+    (is_rising_h ? s.T_rising : s.T_falling) += c.T;
     if (!up) {
       const Turn<Scalar> turn(view_.form[k], size_of_bend(k), s.rate, view_.q0[k], s.h);
       s.T += turn.T;
@@ -162,17 +160,17 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     return s;
   }
 
-  /// dT/dh at fixed q0 of the way from the start to the end of its cell where q is `q`. Linear: T = +-(2 / b) (artanh q -+ artanh
+  /// h dT/dh at fixed q0 of the way from the start to the end of its cell where q is `q`. Linear: T = +-(2 / b) (artanh q -+ artanh
   /// q0). Exponential: T = +-(2 / (k h)) (q -+ q0), in parts that are monotone.
   void add_start(const Route& route, std::size_t k, const Scalar& q, bool is_rising, bool turns,
                  Sample& s) const {
     const Scalar& exit = turns ? view_.low[k] : view_.high[k];
     const Scalar ratio = exit == route.least || !(q > 0) ? Scalar(1) : Scalar(s.qm / q);
     if (view_.form[k] == RateForm::linear) {
-      (is_rising ? s.up : s.down) += ratio / (size_of_bend(k) * s.h);
+      (is_rising ? s.up : s.down) += ratio / size_of_bend(k);
       return;
     }
-    const Scalar unit = Scalar(1) / (size_of_bend(k) * s.h * s.h);
+    const Scalar unit = Scalar(1) / s.h / size_of_bend(k);
     const Scalar of_end = ratio * (Scalar(1) + q * q) * unit,
                  of_start = Scalar(2) * view_.q0[k] * s.qm * unit;
     (is_rising ? s.up : s.down) += of_end;
@@ -185,11 +183,11 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     if (range.is_empty) return;
     const std::size_t k = range.cell;
     const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
-    const auto slope = [&](const Sample& s) {
-      return Scalar(-view_.G0[k] * s.F() * slope_of_start(range, s));
+    const auto step = [&](const Sample& s, const Scalar& gap) {
+      return Scalar(-gap / (s.F() * (slope_of_start(range, s) / s.rate)));
     };
-    const auto found = [&](const Sample& s, const Scalar& step) {
-      const Start start = start_at(range, std::clamp(Scalar(s.v + step), Scalar(0), Scalar(1)));
+    const auto found = [&](const Sample& s, const Scalar& by) {
+      const Start start = start_at(range, std::clamp(Scalar(s.v + by), Scalar(0), Scalar(1)));
       const Scalar height = range.leaves == Leaves::downwards ? s.y : top;
       const Scalar value = view_.amount(k, s.y) + gained(s.y, height) + s.X +
                            (s.h + (start.h - s.h) / Scalar(2)) / Scalar(4) * (t_ - s.T);
@@ -197,7 +195,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
             sqrt(Scalar(range.qa2 + range.kappa * start.lost)));
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, sign, at, step, found)
         .run(a, b);
   }
 

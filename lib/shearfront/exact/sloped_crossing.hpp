@@ -148,18 +148,18 @@ template <Real Scalar>
 struct Turn {
   Scalar T;
   Scalar X;      ///< H T + int p dz - the height gained
-  Scalar steep;  ///< -q dT/dh
+  Scalar steep;  ///< -q h dT/dh: where r is steep, 1 / h^2 is no number
 
   Turn(RateForm form, const Scalar& bend, const Scalar& r, const Scalar& q, const Scalar& h) {
     const Scalar two(2), four(4), arc = artanh_of(q, r, h);
     if (form == RateForm::linear) {
       T = four / bend * arc;
       X = r * q / bend;
-      steep = two / (bend * h);
+      steep = two / bend;
     } else {
       T = four * (q / h) / bend;
       X = (arc + (arc - q)) / bend;
-      steep = two * (Scalar(1) + q * q) / (bend * h * h);
+      steep = two * ((Scalar(1) + q * q) / h) / bend;
     }
   }
 };

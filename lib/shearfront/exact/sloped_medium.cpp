@@ -26,7 +26,9 @@ SlopedMedium<Scalar>::SlopedMedium(SlopedPieces<Scalar> pieces, Cells<Scalar> ce
       pieces_(std::move(pieces)),
       up_(pieces_, cells_, false, fluxes_),
       down_(pieces_, cells_, true, fluxes_),
-      throats_(up_, down_) {}
+      throats_(up_, down_) {
+  set_pure_times();
+}
 
 template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const {
@@ -83,8 +85,9 @@ Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& pla
     Search(up_, place, t, upper, moving_only, best).run();
     Search(down_, place.turned_over(up_), t, upper, moving_only, best).run();
   } else {
-    const SlopedView<Scalar> up = up_.with_node(cell, z, place.rate_above),
-                             down = down_.with_node(up_.n_cells() - 1 - cell, Scalar(-z), place.rate_above);
+    thread_local SlopedView<Scalar> up = up_, down = down_;
+    up_.put_node(cell, z, place.rate_above, up);
+    down_.put_node(up_.n_cells() - 1 - cell, Scalar(-z), place.rate_above, down);
     SlopedPlace<Scalar> node = place;
     node.above = cell + 1;
     Search(up, node, t, upper, moving_only, best).run();
@@ -138,30 +141,54 @@ Scalar SlopedMedium<Scalar>::speed(std::size_t cell, const Scalar& r) const {
 }
 
 template <Real Scalar>
+Scalar SlopedMedium<Scalar>::pure_time_inside(std::size_t k, const Scalar& a, const Scalar& b,
+                                              bool is_up) const {
+  const Scalar one(1), &bend = pieces_.bend[k];
+  if (!(b > a)) return Scalar(0);
+  Scalar time;
+  if (pieces_.form[k] == RateForm::linear)
+    time =
+        Crossing<Scalar>(RateForm::linear, b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one, Scalar(0))
+            .T;
+  else if (a == pieces_.boundaries[k])
+    time = exponential_time(bend, pieces_.low[k], Scalar(b - a));
+  else if (b == pieces_.boundaries[k + 1])
+    time = exponential_time(Scalar(-bend), pieces_.high[k], Scalar(b - a));
+  else
+    time = exponential_time(bend, pieces_.rate(k, a), Scalar(b - a));
+  if (!fluxes_) return time;
+  const LawSide<Scalar> side = fluxes_->side(k, is_up);
+  return time * (Scalar(4) / side.slope({side.reach(), Scalar(0)}));
+}
+
+template <Real Scalar>
+void SlopedMedium<Scalar>::set_pure_times() {
+  const std::size_t n = pieces_.size();
+  from_bottom_.assign(n + 1, Scalar(0));
+  from_top_.assign(n + 1, Scalar(0));
+  for (std::size_t k = 0; k < n; ++k)
+    from_bottom_[k + 1] =
+        from_bottom_[k] + pure_time_inside(k, pieces_.boundaries[k], pieces_.boundaries[k + 1], true);
+  for (std::size_t k = n; k-- > 0;)
+    from_top_[k] =
+        from_top_[k + 1] + pure_time_inside(k, pieces_.boundaries[k], pieces_.boundaries[k + 1], false);
+}
+
+template <Real Scalar>
 Scalar SlopedMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& to) const {
-  const Scalar &lo = std::min(from, to), &hi = std::max(from, to), one(1);
-  Scalar all(0);
-  for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
-    const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
-    if (!(b > a)) continue;
-    const Scalar& bend = pieces_.bend[k];
-    Scalar time;
-    if (pieces_.form[k] == RateForm::linear)
-      time = Crossing<Scalar>(RateForm::linear, b - a, pieces_.rate(k, a), one, pieces_.rate(k, b), one,
-                              Scalar(0))
-                 .T;
-    else if (a == pieces_.boundaries[k])
-      time = exponential_time(bend, pieces_.low[k], Scalar(b - a));
-    else if (b == pieces_.boundaries[k + 1])
-      time = exponential_time(Scalar(-bend), pieces_.high[k], Scalar(b - a));
-    else
-      time = exponential_time(bend, pieces_.rate(k, a), Scalar(b - a));
-    if (fluxes_) {
-      const LawSide<Scalar> side = fluxes_->side(k, from < to);
-      time *= Scalar(4) / side.slope({side.reach(), Scalar(0)});
-    }
-    all += time;
+  const Scalar &lo = std::min(from, to), &hi = std::max(from, to);
+  const auto& z = pieces_.boundaries;
+  const bool is_up = from < to;
+  std::size_t k = pieces_.piece_at(lo);
+  // From the walls, as every query asks.
+  if (is_up && lo == z.front()) {
+    const std::size_t last = pieces_.piece_at(hi);
+    return from_bottom_[last] + pure_time_inside(last, z[last], hi, true);
   }
+  if (!is_up && hi == z.back()) return from_top_[k + 1] + pure_time_inside(k, lo, z[k + 1], false);
+  Scalar all(0);
+  for (; k < pieces_.size() && z[k] < hi; ++k)
+    all += pure_time_inside(k, std::max(lo, z[k]), std::min(hi, z[k + 1]), is_up);
   return all;
 }
 

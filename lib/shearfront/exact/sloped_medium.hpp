@@ -65,6 +65,9 @@ class SlopedMedium final : public Medium<Scalar> {
   /// Of a path at the rate r of a piece.
   [[nodiscard]] LawState<Scalar> state_on(const Path<Scalar>& path, std::size_t piece, const Scalar& r,
                                           bool is_up) const;
+  /// Of a pure state between two heights of a piece.
+  [[nodiscard]] Scalar pure_time_inside(std::size_t k, const Scalar& a, const Scalar& b, bool is_up) const;
+  void set_pure_times();
   struct Costs {
     Scalar T{0}, X{0};
   };
@@ -76,6 +79,7 @@ class SlopedMedium final : public Medium<Scalar> {
   SlopedPieces<Scalar> pieces_;
   SlopedView<Scalar> up_, down_;
   SlopedThroats<Scalar> throats_;
+  std::vector<Scalar> from_bottom_, from_top_;  ///< times of pure states to the boundaries
 };
 
 }  // namespace shearfront::exact

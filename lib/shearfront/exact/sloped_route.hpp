@@ -50,17 +50,20 @@ struct SlopedRoute {
 };
 
 /// A route at one h. F = q_m dT/dh is held between bounds on an interval of h by parts that are monotone in h:
-/// F = rising + q_m steep + up - down, where rising and steep do not decrease and up, down and q_m do not increase.
+/// F = rising + q_m steep + up - down, where rising and steep do not decrease and up, down and q_m do not increase. All of them are
+/// kept times h, for rates may fall by more than the root of the largest number.
 template <Real Scalar>
 struct SlopedSample {
   Scalar v{0};  ///< the variable of the search
   Scalar h{0}, qm2{0}, qm{0};
   Scalar y{0}, rate{0};  ///< start of a state, and r there
   Scalar T{0}, X{0};     ///< X: with half of the E of a turn
-  Scalar T_falling{0};   ///< the part of T that does not increase with h
-  Scalar X_falling{0};   ///< X of the turn
+  /// The parts of T that do not decrease and do not increase with h: not T less the other, which may be far larger.
+  Scalar T_rising{0}, T_falling{0};
+  Scalar X_falling{0};  ///< X of the turn
   Scalar rising{0}, steep{0}, up{0}, down{0};
 
+  /// h F.
   [[nodiscard]] Scalar F() const { return rising + qm * steep + up - down; }
 };
 
@@ -84,10 +87,10 @@ void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
     q_last = q2;
     const Crossing<Scalar> c(run.form, run.d, run.r1, q1, run.r2, q2, s.h);
     const Scalar n(run.passes == Passes::both ? 2 : 1);
-    s.T += n * c.T;
+    s.T_rising += n * c.T;
     s.X += n * c.X;
     if (run.form == RateForm::linear) {
-      const Scalar by = n * run.d / (run.r1 * run.r2 * (q1 + q2));
+      const Scalar by = n * run.d * (s.h / run.r1) / run.r2 / (q1 + q2);
       if (run.r1 == least)
         s.rising += by / q2;
       else if (run.r2 == least)
@@ -98,43 +101,44 @@ void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
       // T = 2 sigma / (q1 + q2); with q_m at one end the product does not decrease either.
       const Scalar by = n * c.T / (Scalar(2) * (q1 + q2));
       if (run.r1 == least)
-        s.rising += by * (Scalar(1) / run.r1 + q1 / (run.r2 * q2));
+        s.rising += by * (s.h / run.r1 + s.h / run.r2 * (q1 / q2));
       else if (run.r2 == least)
-        s.rising += by * (Scalar(1) / run.r2 + q2 / (run.r1 * q1));
+        s.rising += by * (s.h / run.r2 + s.h / run.r1 * (q2 / q1));
       else
-        s.steep += by * (Scalar(1) / (run.r1 * q1) + Scalar(1) / (run.r2 * q2));
+        s.steep += by * (s.h / run.r1 / q1 + s.h / run.r2 / q2);
     }
   }
   if (route.turn_bend > 0) {
     const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.qm2);
     const Turn<Scalar> turn(route.turn_form, route.turn_bend, route.turn_rate, q, s.h);
-    s.T += turn.T;
     s.T_falling += turn.T;
     s.X_falling += turn.X;
     s.X += s.X_falling;
     const Scalar ratio = route.turn_rate == least ? Scalar(1) : Scalar(s.qm / q);
     s.down += ratio * turn.steep;
   }
+  s.T = s.T_rising + s.T_falling;
 }
 
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
-/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is dT/dv of a sample.
+/// sample next to the root and what is missing to it. `at` makes the sample of a v, `step` is Newton's step of v at a sample for a change of T.
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
 /// point before t, so the sign is known: + for straight fans, - for turned ones.
-template <Real Scalar, class At, class Slope, class Found>
+template <Real Scalar, class At, class Step, class Found>
 class SlopedRootSearch {
  public:
-  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
-      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {
+  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Step& step, const Found& found)
+      : t_(t), sign_(sign), at_(at), step_(step), found_(found) {
     tolerance_ = Scalar(256) * unit_roundoff<Scalar>() * t;
   }
 
   void run(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b, int depth = 0) {
     // T between the values of its rising and its falling part.
-    if (a.T + (b.T_falling - a.T_falling) > t_ + tolerance_) return;
-    if (b.T + (a.T_falling - b.T_falling) < t_ - tolerance_) return;
-    const Scalar low = a.rising + b.qm * a.steep + b.up - a.down;
-    const Scalar high = b.rising + a.qm * b.steep + a.up - b.down;
+    if (a.T_rising + b.T_falling > t_ + tolerance_) return;
+    if (b.T_rising + a.T_falling < t_ - tolerance_) return;
+    const Scalar ratio = a.h / b.h;  // both times the h of a
+    const Scalar low = a.rising + b.qm * a.steep + b.up * ratio - a.down;
+    const Scalar high = (b.rising + a.qm * b.steep - b.down) * ratio + a.up;
     if (sign_ > 0 ? high < 0 : low > 0) return;
     constexpr int kMost = 100;
     const bool is_sure = sign_ > 0 ? low >= 0 : high <= 0;
@@ -166,7 +170,7 @@ class SlopedRootSearch {
       const SlopedSample<Scalar> s = at_(v);
       const Scalar gap = t_ - s.T;
       (gap > 0 ? lo : hi) = v;
-      Scalar step = gap / slope_(s);
+      Scalar step = step_(s, gap);
       // Newton on 1 / T where that is the straighter line: T has a pole next to a flat piece of rate h.
       if (gap < 0) step *= s.T / t_;
       const Scalar size = step < 0 ? Scalar(-step) : step, scale = v < 0 ? Scalar(-v) : v;
@@ -200,7 +204,7 @@ class SlopedRootSearch {
   Scalar t_, tolerance_;
   int sign_;
   const At& at_;
-  const Slope& slope_;
+  const Step& step_;
   const Found& found_;
 };
 

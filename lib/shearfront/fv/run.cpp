@@ -163,8 +163,9 @@ class GridRun final : public Run {
       case Status::budget_reached:
         return "more than " + number_text(kMostUpdates) + " cell updates are needed; use fewer cells";
       case Status::not_converged:
-        return march_.has_steady_state() ? "the shear rates differ so much that rounding stops the slow cells"
-                                         : "the bed has not come to rest; ask for a finite time";
+        return march_.has_steady_state()
+                   ? "the rates or widths of the cells differ so much that rounding stops the slow ones"
+                   : "the bed has not come to rest; ask for a finite time";
       case Status::diverged:
         return "the scheme has diverged: its fluxes do not match between unequal cells";
       default:

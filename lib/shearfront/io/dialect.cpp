@@ -5,31 +5,13 @@
 #include <array>
 
 #include "shearfront/io/detail/observation_columns.hpp"
-#include "shearfront/io/detail/unit.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::detail {
 namespace {
 
-constexpr std::size_t kMostLines = 200;     // of text before the header, and of rows for the decimal mark
 constexpr std::size_t kMostFields = 20000;  // of a header that is looked at
-
-/// The first lines with content that are no comments, by their offsets.
-std::vector<std::size_t> lines_of_content(std::string_view text, std::size_t from = 0) {
-  std::vector<std::size_t> lines;
-  for (std::size_t begin = from; begin < text.size() && lines.size() < kMostLines;) {
-    const std::string_view line = line_at(text, begin), content = trimmed(line);
-    if (!content.empty() && content[0] != '#') lines.push_back(begin);
-    begin += line.size() + 1;
-  }
-  return lines;
-}
-
-std::vector<Heading> headings_of(const std::vector<CsvField>& fields) {
-  std::vector<Heading> headings;
-  for (const CsvField& field : fields) headings.push_back(heading_of(without_doubled_quotes(field.text)));
-  return headings;
-}
 
 /// What the corner of a wide table says its first column is.
 std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const ObservationFormat& format) {
@@ -46,67 +28,10 @@ std::optional<TableLayout> layout_of(const std::vector<Heading>& headings, const
   return std::nullopt;
 }
 
-/// Offset of the line that names the columns of averages over chunks.
-std::optional<std::size_t> header_of_chunks(std::string_view text) {
-  std::size_t begin = 0;
-  for (int i = 0; i < 3 && begin < text.size(); ++i) {
-    const std::string_view line = line_at(text, begin), content = trimmed(line);
-    if (!content.starts_with('#')) return std::nullopt;
-    if (i == 2) return trimmed(content.substr(1)).starts_with("Chunk ") ? std::optional(begin) : std::nullopt;
-    begin += line.size() + 1;
-  }
-  return std::nullopt;
-}
-
-bool is_units_row(const std::vector<CsvField>& fields) {
-  bool has_unit = false;
-  for (const CsvField& field : fields) {
-    if (field.text.empty()) continue;
-    if (shearfront::parse_number(field.text)) return false;
-    const bool is_bracketed = (field.text.starts_with('[') && field.text.ends_with(']')) ||
-                              (field.text.starts_with('(') && field.text.ends_with(')'));
-    if (!is_bracketed && !unit_of(field.text)) return false;
-    has_unit = true;
-  }
-  return has_unit;
-}
-
-char decimal_below(std::string_view text, std::size_t from, char separator) {
-  std::vector<CsvField> fields;
-  bool has_comma = false;
-  for (const std::size_t line : lines_of_content(text, from)) {
-    if (split_csv(line_at(text, line), fields, separator)) continue;
-    for (const CsvField& field : fields) {
-      if (field.text.find('.') != std::string_view::npos && shearfront::parse_number(field.text)) return '.';
-      has_comma =
-          has_comma || (field.text.find(',') != std::string_view::npos && number_with_mark(field.text, ','));
-    }
-  }
-  return has_comma ? ',' : '.';
-}
-
 }  // namespace
 
-std::string_view line_at(std::string_view text, std::size_t offset) {
-  return text.substr(offset, std::min(text.find('\n', offset), text.size()) - offset);
-}
-
-std::optional<double> number_with_mark(std::string_view text, char decimal) {
-  if (decimal == '.') return shearfront::parse_number(text);
-  if (text.find('.') != std::string_view::npos) return std::nullopt;
-  std::string with_point(text);
-  std::replace(with_point.begin(), with_point.end(), ',', '.');
-  return shearfront::parse_number(with_point);
-}
-
-ObservationFormat format_of_chunks(ObservationFormat format) {
-  if (format[Column::t].name.empty()) format[Column::t].name = "Timestep";
-  if (format[Column::z].name.empty()) format[Column::z].name = "Coord1";
-  return format;
-}
-
 std::string Dialect::text() const {
-  if (are_chunks) return "averages over chunks";
+  if (is_simulated()) return std::string(text_of(code));
   std::string text = separator == ';'    ? "separated by semicolons"
                      : separator == '\t' ? "separated by tabs"
                                          : "";
@@ -149,9 +74,9 @@ Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {
   };
   const bool is_asked_wide = format.layout && *format.layout != TableLayout::rows;
   const bool is_asked_rows = format.layout && !is_asked_wide;
-  if (const auto chunks = header_of_chunks(text)) {
-    found.are_chunks = true;
-    found.header = *chunks;
+  if (const SimulationHeader header = simulation_header(text); header.code != SimulationCode::none) {
+    found.code = header.code;
+    found.header = header.offset;
     found.separator = ' ';
     return found;
   }

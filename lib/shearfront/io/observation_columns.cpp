@@ -61,12 +61,6 @@ std::vector<std::string_view> usual_names(Column column) {
   }
 }
 
-std::string_view without_brackets(std::string_view text) {
-  const bool is_square = text.starts_with('[') && text.ends_with(']');
-  const bool is_round = text.starts_with('(') && text.ends_with(')');
-  return is_square || is_round ? trimmed(text.substr(1, text.size() - 2)) : text;
-}
-
 /// The one number in a name, and what stands behind it.
 std::optional<std::pair<double, std::string>> number_in(const Heading& heading) {
   constexpr std::string_view kDigits = "0123456789";
@@ -93,18 +87,6 @@ std::optional<std::pair<double, std::string>> number_in(const Heading& heading) 
 }
 
 }  // namespace
-
-Heading heading_of(std::string_view field) {
-  const std::size_t open = field.find_first_of("[(");
-  if (open == std::string_view::npos || field.back() != (field[open] == '[' ? ']' : ')'))
-    return {std::string(trimmed(field)), "", std::string(field)};
-  return {std::string(trimmed(field.substr(0, open))),
-          std::string(trimmed(field.substr(open + 1, field.size() - open - 2))), std::string(field)};
-}
-
-std::string heading_text(std::string_view name, std::string_view unit) {
-  return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
-}
 
 bool HeaderMatch::is_complete() const {
   const bool has_phi = has(Column::phi) || has(Column::phi_large) || has(Column::M);

@@ -14,6 +14,7 @@
 
 #include "shearfront/io/detail/dialect.hpp"
 #include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/state_range.hpp"
@@ -27,6 +28,7 @@ using detail::Dialect;
 using detail::name_of;
 using detail::ObservationColumns;
 using detail::Position;
+using detail::SimulationCode;
 using detail::TextSource;
 
 constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent
@@ -54,7 +56,8 @@ class ObservationsReader {
   ObservationsReader(const TextSource& source, double bottom, double top, const ObservationFormat& format)
       : source_(source),
         dialect_(dialect_of(source, format)),
-        format_(dialect_.are_chunks ? detail::format_of_chunks(format) : format),
+        format_(detail::format_of(dialect_.code, format)),
+        simulation_(dialect_.code),
         report_(source.name(), kMostComplaints),
         bottom_(bottom),
         top_(top) {}
@@ -98,16 +101,16 @@ class ObservationsReader {
   void read_line(std::size_t offset, std::string_view line) {
     const std::string_view content = detail::trimmed(line);
     if (content.empty() || offset == dialect_.units) return;
-    const bool is_header_of_chunks = dialect_.are_chunks && offset == dialect_.header,
-               is_comment = content[0] == '#' && !is_header_of_chunks;
+    const bool is_header = dialect_.is_simulated() && offset == dialect_.header,
+               is_comment = content[0] == '#' && !is_header;
     if (is_comment || offset < dialect_.header) {
       const std::size_t mark = !is_comment ? 0 : content.starts_with("# ") ? 2 : 1;
       result_.comments.emplace_back(content.substr(mark));
       if (!is_comment) ++n_preamble_;
       return;
     }
-    const auto bad_quotes = take_apart(line, fields_);
-    if (dialect_.are_chunks && !is_header_of_chunks && is_start_of_block(offset, line)) return;
+    if (dialect_.is_simulated() && !is_header && !is_row(offset, line)) return;
+    const auto bad_quotes = take_apart(offset, line, fields_);
     if (bad_quotes)
       report_.add(source_.position(offset + *bad_quotes),
                   {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
@@ -125,7 +128,7 @@ class ObservationsReader {
       if (dialect_.units)
         (void)detail::split_csv(detail::line_at(source_.text(), *dialect_.units), units, dialect_.separator);
       columns_.emplace(source_, offset, fields_, units, format_, dialect_.layout, target_, report_);
-      if (dialect_.are_chunks && !format_.time_step)
+      if (dialect_.code == SimulationCode::lammps && !format_.time_step)
         report_.add(source_.position(offset),
                     {"Timestep", "", "needs time_step in [format] or --time-step, the time of one step"});
     }
@@ -140,37 +143,25 @@ class ObservationsReader {
       width_ = *format_.width * columns_->factor(Column::z);
     }
     result_.units = columns_->units();
-    result_.notes = columns_->notes();
+    // MercuryDPM writes up to 80 columns.
+    const bool has_many = dialect_.is_simulated() && dialect_.code != SimulationCode::lammps;
+    if (!has_many) result_.notes = columns_->notes();
   }
 
-  /// The fields of a line; those of chunks begin with the step, which stands above them.
-  std::optional<std::size_t> take_apart(std::string_view line, std::vector<CsvField>& fields) const {
+  /// The fields of a line, with the time that stands above it.
+  std::optional<std::size_t> take_apart(std::size_t offset, std::string_view line,
+                                        std::vector<CsvField>& fields) const {
     const auto bad_quotes = detail::split_csv(line, fields, dialect_.separator);
-    if (!dialect_.are_chunks) return bad_quotes;
-    const bool is_header = !fields.empty() && fields[0].text.starts_with('#');
-    if (is_header && fields[0].text == "#")
-      fields[0].text = "Timestep";
-    else
-      fields.insert(fields.begin(), {is_header ? std::string_view("Timestep") : step_, 0});
+    simulation_.complete(fields, offset == dialect_.header);
     return bad_quotes;
   }
-  /// A line that begins the chunks of a time; then what they are is remembered.
-  bool is_start_of_block(std::size_t offset, std::string_view line) {
-    if (n_chunks_left_ > 0) {
-      --n_chunks_left_;
-      return false;
-    }
-    std::vector<CsvField> fields;
-    (void)detail::split_csv(line, fields, ' ');
-    const auto n = fields.size() >= 2 ? parse_count(fields[1].text) : std::nullopt;
-    if (!n || fields.size() > 3) {
+  /// Of what a particle code wrote.
+  bool is_row(std::size_t offset, std::string_view line) {
+    const auto kind = simulation_.take(line);
+    if (kind == detail::SimulationRows::Line::bad)
       report_.add(source_.position(offset),
-                  {"block", quoted_text(line), "must be a step, a number of chunks and their count"});
-      return true;
-    }
-    step_ = fields[0].text;
-    n_chunks_left_ = *n;
-    return true;
+                  {"block", quoted_text(line), std::string(simulation_.constraint())});
+    return kind == detail::SimulationRows::Line::row;
   }
 
   void read_row(std::size_t offset) {
@@ -204,7 +195,7 @@ class ObservationsReader {
 
   bool read_time(std::size_t offset, Observation& o) {
     if (!read_number(offset, Column::t, o.t, "")) return false;
-    if (dialect_.are_chunks) o.t *= format_.time_step.value_or(1);
+    if (dialect_.code == SimulationCode::lammps) o.t *= format_.time_step.value_or(1);
     return o.t >= 0 || refuse(offset, Column::t, "must be >= 0");
   }
 
@@ -323,7 +314,7 @@ class ObservationsReader {
   }
   [[nodiscard]] Position position_in(std::size_t line, std::size_t field) const {
     std::vector<CsvField> fields;
-    (void)take_apart(detail::line_at(source_.text(), line), fields);
+    (void)take_apart(line, detail::line_at(source_.text(), line), fields);
     return source_.position(line + fields[field].offset);
   }
 
@@ -381,21 +372,28 @@ class ObservationsReader {
   void average(const std::vector<std::size_t>& order) {
     std::vector<Observation>& rows = result_.rows;
     std::vector<std::size_t> counts(rows.size(), 0);  // of the values a kept row stands for
-    double sum_of_squares = 0;
+    double spread = 0;  // the root of a sum of squares, of numbers as large as doubles are
     std::size_t n_free = 0;
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       for (end = first; end < order.size() && place_of(rows[order[end]]) == place_of(rows[order[first]]);)
         ++end;
       const auto n = static_cast<double>(end - first);
-      double mean = 0;
-      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n;
-      for (std::size_t i = first; i < end; ++i)
-        sum_of_squares += (rows[order[i]].value - mean) * (rows[order[i]].value - mean);
+      const double one = rows[order[first]].value;
+      double mean = one;  // to the bit, where all are the same
+      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n - one / n;
+      for (std::size_t i = first; i < end; ++i) spread = std::hypot(spread, rows[order[i]].value - mean);
       n_free += end - first - 1;
       rows[order[first]].value = mean;
       counts[order[first]] = end - first;
     }
-    const double spread = n_free > 0 ? std::sqrt(sum_of_squares / static_cast<double>(n_free)) : 0;
+    if (n_free > 0) spread /= std::sqrt(static_cast<double>(n_free));
+    if (!std::isfinite(spread)) {
+      const Observation& row = rows[order[0]];
+      report_.add(position_of(origins_[order[0]], columns_->value()),
+                  {std::string(name_of(columns_->value())), number_text(row.value),
+                   "must be among values that differ by less than 1e308, to be averaged"});
+      return;
+    }
     const std::size_t n_values = rows.size();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < n_values; ++i) {
@@ -511,6 +509,7 @@ class ObservationsReader {
   const TextSource& source_;
   Dialect dialect_;
   ObservationFormat format_;
+  detail::SimulationRows simulation_;
   ComplaintReport report_;
   double bottom_, top_;
   ObservationColumns::Target target_;
@@ -519,10 +518,8 @@ class ObservationsReader {
   std::vector<CsvField> fields_;  ///< of the line that is being read
   std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
   double width_ = 0;              ///< of every bin, from the format; 0: from a column or none
-  std::string_view step_;         ///< of the chunks that are being read
-  unsigned long long n_chunks_left_ = 0;
-  std::size_t n_preamble_ = 0;  ///< lines before the header that are no comments
-  std::string averaged_;        ///< what was averaged, in words
+  std::size_t n_preamble_ = 0;    ///< lines before the header that are no comments
+  std::string averaged_;          ///< what was averaged, in words
   Observations result_;
   std::vector<Origin> origins_;  ///< of result_.rows
 };

@@ -70,6 +70,7 @@ struct ObservationFormat {
 ///   * missing values are empty, NA, N/A, n/a, NaN, nan, #N/A, NULL, - or a word of the format;
 ///   * columns "time", "height", and for sigma "std", "sd", "stderr" are found; other names the format gives;
 ///   * averages over chunks of the particle code LAMMPS (fix ave/chunk): t from the step, z from Coord1;
+///   * coarse-grained .stat files of the particle code MercuryDPM, of both kinds: phi is the volume fraction;
 ///   * percent become parts of 1, lengths and times those of the scene, if both units are known.
 /// z and the bins must lie in [bottom, top], which may be infinite.
 ///

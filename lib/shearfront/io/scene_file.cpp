@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "shearfront/io/detail/scene_columns.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/model/flux/all.hpp"
@@ -19,7 +20,7 @@ namespace shearfront {
 namespace {
 
 using detail::ComplaintReport;
-using detail::Position;
+using detail::SceneColumns;
 using detail::TableReader;
 using detail::TomlSource;
 using Need = TableReader::Need;
@@ -40,6 +41,8 @@ class SceneReader {
     TableReader root(source_, report_, "", source_.root());
     const auto name = root.text("name", Need::optional, "must be text");
     spec_.name = name.value_or(std::filesystem::path(source_.name()).stem().string());
+    domain_and_units();
+    columns_.emplace(spec_.units);
     fluxes(root.tables("flux", Need::optional, "must be a table with model, or an array of such tables"));
     if (auto table = root.table("shear_rate", Need::required, "must be a table with model and its entries"))
       shear_rate(*table);
@@ -49,26 +52,44 @@ class SceneReader {
     if (auto table = root.table("diffusion", Need::optional, "must be a table with D")) diffusion(*table);
     if (auto table = root.table("initial", Need::required, "must be a table with breaks and values"))
       initial(*table);
-    if (auto table = root.table("domain", Need::optional, "must be a table with bottom and top")) {
-      table->number("bottom", Need::optional, spec_.bottom);
-      table->number("top", Need::optional, spec_.top);
-      table->finish();
-    }
+    (void)root.table("domain", Need::optional, kDomain);
     if (auto table = root.table("boundary", Need::optional, "must be a table")) boundary(*table);
-    if (auto table = root.table("units", Need::optional, "must be a table with z and t")) {
-      spec_.units.z = table->text("z", Need::optional, "must be the name of a unit of length").value_or("");
-      spec_.units.t = table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
-      table->finish();
-    }
+    (void)root.table("units", Need::optional, kUnits);
+    if (root.node("uncertain")) (void)root.table("uncertain", Need::optional, "must be a table of entries");
     root.finish();
     for (const SceneChange& change : changes_) apply(change);
+    spec_.remarks.insert(spec_.remarks.end(), columns_->remarks().begin(), columns_->remarks().end());
     std::variant<Scene<S>, Complaints> scene = Scene<S>::make(std::move(spec_));
     if (auto* complaints = std::get_if<Complaints>(&scene)) add(std::move(*complaints));
-    report_.throw_if_any();
+    throw_if_any();
     return std::get<Scene<S>>(std::move(scene));
   }
 
  private:
+  struct ArrayEntry {
+    std::string_view key;
+    Need need;
+    SceneColumns::Meaning meaning;
+    std::vector<S>* numbers;
+  };
+
+  static constexpr std::string_view kDomain = "must be a table with bottom and top",
+                                    kUnits = "must be a table with z and t";
+  /// Before the arrays that may stand in other files, wherever they are in this one.
+  void domain_and_units() {
+    TableReader root(source_, report_, "", source_.root());
+    if (auto table = root.table("domain", Need::optional, kDomain)) {
+      table->number("bottom", Need::optional, spec_.bottom);
+      table->number("top", Need::optional, spec_.top);
+      table->finish();
+    }
+    if (auto table = root.table("units", Need::optional, kUnits)) {
+      spec_.units.z = table->text("z", Need::optional, "must be the name of a unit of length").value_or("");
+      spec_.units.t = table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
+      table->finish();
+    }
+  }
+
   void fluxes(std::vector<TableReader> tables) {
     if (tables.empty()) return;
     using List = FluxList<S>;
@@ -159,8 +180,8 @@ class SceneReader {
 
   void initial(TableReader& table) {
     if (!table.node("model")) {
-      table.number("breaks", Need::required, spec_.initial_breaks);
-      table.number("values", Need::required, spec_.initial_values);
+      arrays(table, {{"breaks", Need::required, SceneColumns::Meaning::height, &spec_.initial_breaks},
+                     {"values", Need::required, SceneColumns::Meaning::state, &spec_.initial_values}});
       return table.finish();
     }
     using List = InitialStateList<S>;
@@ -179,8 +200,8 @@ class SceneReader {
       auto side = table.table(key, Need::optional, "must be a table with values, and breaks in time");
       if (!side) return;
       state.emplace();
-      side->number("breaks", Need::optional, state->breaks);
-      side->number("values", Need::required, state->values);
+      arrays(*side, {{"breaks", Need::optional, SceneColumns::Meaning::time, &state->breaks},
+                     {"values", Need::required, SceneColumns::Meaning::state, &state->values}});
       side->finish();
     };
     outside("bottom", spec_.outside_bottom);
@@ -196,9 +217,15 @@ class SceneReader {
       if (name != Model::kName) return;
       is_known = true;
       Model entries;
+      std::vector<ArrayEntry> vectors;
       Model::fields(entries, [&](const FieldInfo& info, auto& member) {
-        table.number(info.key, info.is_optional ? Need::optional : Need::required, member);
+        const Need need = info.is_optional ? Need::optional : Need::required;
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, S>)
+          table.number(info.key, need, member);
+        else
+          vectors.push_back({info.key, need, meaning_of(table.path(info.key), info.measure), &member});
       });
+      arrays(table, vectors);
       visit_choices(entries, [&](const ChoiceInfo& info, auto& member) {
         const std::vector<std::string> names(info.names.begin(), info.names.end());
         if (const auto chosen = table.choice(info.key, Need::optional, names))
@@ -209,6 +236,65 @@ class SceneReader {
     });
     if (!is_known) table.add(*table.node("model"), table.path("model"), what);
     return is_known;
+  }
+
+  [[nodiscard]] SceneColumns::Meaning meaning_of(const std::string& key, Measure measure) const {
+    using Meaning = SceneColumns::Meaning;
+    if (measure == Measure::height) return Meaning::height;
+    if (key == "shear_rate.values") return Meaning::rate;
+    const bool is_fraction = measure == Measure::state || table_of(key) == solid_fraction_table_;
+    return is_fraction ? Meaning::state : Meaning::number;
+  }
+
+  /// Arrays of a table: as they stand there, or columns of its `file`, which the entries then name.
+  void arrays(TableReader& table, const std::vector<ArrayEntry>& entries) {
+    std::optional<std::string> file;
+    if (!entries.empty() && table.node("file"))
+      file = table.text("file", Need::optional, "must be the name of a file with columns of numbers");
+    std::vector<SceneColumns::Wanted> wanted;
+    std::vector<std::vector<S>*> places;
+    double lowest = to_double(spec_.bottom);
+    for (const ArrayEntry& entry : entries) {
+      const toml::node* node = table.node(entry.key);
+      if (!table.node("file") || (node && !node->is_string())) {
+        table.number(entry.key, entry.need, *entry.numbers);
+        continue;
+      }
+      const auto column = table.text(entry.key, Need::optional, "must be the name of a column");
+      const std::string key = table.path(entry.key);
+      const bool are_breaks = entry.key == "breaks";
+      if (are_breaks && entry.meaning == SceneColumns::Meaning::time) lowest = 0;
+      wanted.push_back({key, column.value_or(std::string(entry.key)), entry.meaning, are_breaks});
+      places.push_back(entry.numbers);
+    }
+    if (wanted.empty()) return;
+    const auto path = std::filesystem::path(source_.name()).parent_path() / file.value_or("");
+    std::optional<std::vector<SceneColumns::Numbers>> numbers;
+    try {
+      if (file) numbers = columns_->read(path.string(), wanted, lowest);
+    } catch (const FileError& error) {
+      const Complaint& first = error.complaints().front();
+      if (first.kind == Complaint::Kind::unreadable)
+        table.add(*table.node("file"), table.path("file"), first.constraint);
+      else
+        others_.push_back(error);
+    }
+    for (std::size_t c = 0; c < wanted.size(); ++c) {
+      if (!numbers) {
+        report_.spoil(wanted[c].key);
+        report_.spoil(TableReader::lengths(table_of(wanted[c].key)));
+        continue;
+      }
+      places[c]->clear();
+      for (const std::string& cell : (*numbers)[c].cells)
+        places[c]->push_back(detail::number_of_cell<S>(cell, (*numbers)[c]));
+    }
+  }
+
+  void throw_if_any() {
+    if (auto own = report_.error()) others_.insert(others_.begin(), std::move(*own));
+    for (FileError& error : columns_->errors()) others_.push_back(std::move(error));
+    detail::throw_joined(others_);
   }
 
   /// Puts a number in its place. Errors: InputError if there is none, or no number.
@@ -267,6 +353,7 @@ class SceneReader {
         throw InputError("--set " + complaint.key, complaint.value, complaint.constraint);
       const bool is_unknown = std::find(unknown_.begin(), unknown_.end(), table) != unknown_.end();
       if (is_unknown && complaint.key != "shear_rate.scale") continue;
+      if (columns_->take(complaint)) continue;
       const TomlSource::Found found = source_.find(complaint.key);
       if (found.is_exact && (found.node->is_number() || found.node->is_string()))
         complaint.value = source_.shown(*found.node);
@@ -278,6 +365,8 @@ class SceneReader {
   const TomlSource& source_;
   const SceneChanges& changes_;
   ComplaintReport report_;
+  std::optional<SceneColumns> columns_;  ///< once the units are known
+  std::vector<FileError> others_;        ///< of files with columns that are no text
   SceneSpec<S> spec_;
   std::string solid_fraction_table_ = "solid_fraction";  ///< as the file calls it
   std::vector<std::string> unknown_;                     ///< tables whose model is missing or unknown

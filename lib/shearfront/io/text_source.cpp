@@ -127,7 +127,11 @@ bool ComplaintReport::is_spoiled(std::string_view key) const {
 }
 
 void ComplaintReport::throw_if_any() const {
-  if (located_.empty()) return;
+  if (auto all = error()) throw FileError(std::move(*all));
+}
+
+std::optional<FileError> ComplaintReport::error() const {
+  if (located_.empty()) return std::nullopt;
   std::vector<Located> order = located_;
   sort(order);
   const std::string name = printable(file_);
@@ -146,7 +150,18 @@ void ComplaintReport::throw_if_any() const {
     last = std::move(line);
   }
   if (n_more > 0) report += fmt::format("\n{}: and {} more problem{}", name, n_more, n_more == 1 ? "" : "s");
-  throw FileError(std::move(complaints), std::move(report));
+  return FileError(std::move(complaints), std::move(report));
+}
+
+void throw_joined(const std::vector<FileError>& errors) {
+  if (errors.empty()) return;
+  Complaints complaints;
+  std::string text;
+  for (const FileError& error : errors) {
+    complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
+    text += (text.empty() ? "" : "\n") + std::string(error.what());
+  }
+  throw FileError(std::move(complaints), std::move(text));
 }
 
 }  // namespace shearfront::detail

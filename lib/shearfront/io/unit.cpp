@@ -46,11 +46,17 @@ std::optional<Unit> unit_of(std::string_view name) {
   return Unit{unit->kind, unit->numerator / unit->denominator};
 }
 
-std::optional<double> unit_factor(std::string_view from, std::string_view to) {
-  if (from == to) return 1;
+std::optional<std::pair<double, double>> unit_ratio(std::string_view from, std::string_view to) {
+  if (from == to) return std::pair(1.0, 1.0);
   const NamedUnit *a = find(from), *b = find(to);
   if (!a || !b || a->kind != b->kind) return std::nullopt;
-  return (a->numerator * b->denominator) / (a->denominator * b->numerator);
+  return std::pair(a->numerator * b->denominator, a->denominator * b->numerator);
+}
+
+std::optional<double> unit_factor(std::string_view from, std::string_view to) {
+  const auto ratio = unit_ratio(from, to);
+  if (!ratio) return std::nullopt;
+  return ratio->first / ratio->second;
 }
 
 }  // namespace shearfront::detail

@@ -41,15 +41,24 @@ struct Stretch {
   double bottom;
   Interval starting;  ///< fluxes of its initial states
   Interval room;      ///< fluxes that its states have at every height
+  bool narrows;       ///< what begins in it may come to heights that have less room
 };
 
-Stretch stretch_of(const Scene<double>& scene, double lo, double hi) {
+/// Whether f, monotone on the stretch, falls on the way.
+template <class Function>
+bool falls(const Function& f, double lo, double hi, bool is_upward) {
+  const double below = f(lo), above = f(std::nextafter(hi, lo));
+  return is_upward ? above < below : below < above;
+}
+
+Stretch stretch_of(const Scene<double>& scene, double lo, double hi, bool is_upward) {
   const Flux<double>& flux = scene.flux_at(lo);
-  const Interval rate = between([&](double z) { return scene.rate_at(z); }, lo, hi);
-  const Interval solid = between([&](double z) { return scene.solid_fraction_at(z); }, lo, hi);
+  const auto rate_at = [&](double z) { return scene.rate_at(z); };
+  const auto solid_at = [&](double z) { return scene.solid_fraction_at(z); };
+  const Interval rate = between(rate_at, lo, hi), solid = between(solid_at, lo, hi);
   const double least = scene.scale() * rate.least * solid.least,
                most = scene.scale() * rate.most * solid.most;
-  Stretch stretch{lo, {}, {}};
+  Stretch stretch{lo, {}, {}, falls(rate_at, lo, hi, is_upward) || falls(solid_at, lo, hi, is_upward)};
   const auto start = [&](double share) {
     stretch.starting.take(least * flux.value(share));
     stretch.starting.take(most * flux.value(share));
@@ -61,6 +70,7 @@ Stretch stretch_of(const Scene<double>& scene, double lo, double hi) {
   const double at_lowest = flux.value(flux.range().lowest), at_highest = flux.value(flux.range().highest);
   const double low = std::min(at_lowest, at_highest), high = std::max(at_lowest, at_highest);
   stretch.room = {std::max(least * low, most * low), std::min(least * high, most * high)};
+  if ((low > 0 || high < 0) && least < most) stretch.narrows = true;
   return stretch;
 }
 
@@ -70,10 +80,10 @@ std::string overload(const Scene<double>& scene) {
   std::vector<double> edges = scene.knots();
   edges.insert(edges.begin(), scene.bottom());
   edges.push_back(scene.top());
+  const bool is_upward = course_of(scene.fluxes().front()) == FluxCourse::rising;
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-    stretches.push_back(stretch_of(scene, edges[i], edges[i + 1]));
-  const bool is_upward = course_of(scene.fluxes().front()) == FluxCourse::rising;
+    stretches.push_back(stretch_of(scene, edges[i], edges[i + 1], is_upward));
   if (!is_upward) std::reverse(stretches.begin(), stretches.end());
   Interval coming;
   if (scene.spec().is_periodic)
@@ -88,6 +98,7 @@ std::string overload(const Scene<double>& scene) {
     constexpr double kRoundings = 8;  // in the products of rates, solid fractions and fluxes
     const double slack = kRoundings * std::numeric_limits<double>::epsilon() *
                          std::max(std::abs(stretch.room.least), std::abs(stretch.room.most));
+    if (stretch.narrows) coming.take(stretch.starting);
     if (coming.least < stretch.room.least - slack || coming.most > stretch.room.most + slack) {
       const bool is_much = coming.most > stretch.room.most + slack;
       return "the layer above z = " + number_text(stretch.bottom) + " has no state for the flux " +

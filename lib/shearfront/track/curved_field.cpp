@@ -9,14 +9,15 @@
 
 namespace shearfront {
 
-Sample CurvedField::at(double z) const {
+Sample CurvedField::at(double height) const {
+  const double z = bed_->scene.heights.y_of(height);
   const auto& heights = snapshot_.z;
   const auto it = std::upper_bound(heights.begin() + 1, heights.end() - 1, z);
   const auto i = static_cast<std::size_t>(it - heights.begin()) - 1;
   const LevelCurves& grid = bed_->grid;
   const std::size_t piece = snapshot_.piece[i];
   const double amount = snapshot_.below[i] + grid.amount(piece, snapshot_.state[i], heights[i], z);
-  return {bed_->scene.phi_of(grid.phi(piece, snapshot_.state[i], z)), bed_->scene.amount_of(z, amount)};
+  return {bed_->scene.phi_of(z, grid.phi(piece, snapshot_.state[i], z)), bed_->scene.amount_of(z, amount)};
 }
 
 double CurvedField::integral(const ShareFunction& g) const {
@@ -29,7 +30,7 @@ double CurvedField::integral(const ShareFunction& g) const {
     const std::size_t piece = snapshot_.piece[i], level = grid.level(snapshot_.state[i]);
     const RatePiece& rate = grid.piece(piece);
     const auto value = [&](double z) {
-      return g.value(bed_->scene.phi_of(grid.phi(piece, snapshot_.state[i], z)));
+      return g.value(bed_->scene.share_of(grid.phi(piece, snapshot_.state[i], z)));
     };
     if (level == 0 || rate.is_constant()) {
       sum += value(lo) * (hi - lo);
@@ -43,7 +44,7 @@ double CurvedField::integral(const ShareFunction& g) const {
     cut(turn);
     for (const double kink : g.kinks) {
       const double u = (kink - bed_->scene.offset) / bed_->scene.slope;
-      if (u > 0 && u < 1) cut(rate.height_of(grid.capacity(level) / (4 * u * (1 - u))));
+      if (u > 0 && u < 1) cut(rate.height_of(grid.capacity(level) / relative_flux(grid.flux(), u)));
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
@@ -71,7 +72,8 @@ std::optional<Profile<double>> CurvedField::profile() const {
   for (std::size_t i = 0; i < snapshot_.state.size(); ++i)
     lines.add_level(bed_->grid, snapshot_.piece[i], snapshot_.state[i], snapshot_.z[i + 1],
                     kShare * bed_->resolution);
-  return lines.profile(snapshot_.z.back(), bed_->scene.offset, bed_->scene.slope);
+  lines.close(snapshot_.z.back());
+  return bed_->scene.profile_of(lines);
 }
 
 }  // namespace shearfront

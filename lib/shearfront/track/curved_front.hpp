@@ -49,11 +49,39 @@ struct Passage {
   double t, slope;
 };
 
+namespace curved_front_detail {
+
+/// Levels whose capacities differ by less than this part are taken for one where a difference would be rounding.
+inline constexpr double kNearLevels = 1e-7;
+
+/// front_slope() for fluxes that are no parabola.
+[[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
+                                         double q_below, double q_above) {
+  const FluxBranches& flux = *grid.flux();
+  const double h_below = grid.capacity(grid.level(f.below)), h_above = grid.capacity(grid.level(f.above));
+  const bool is_below_high = grid.is_high(f.below), is_above_high = grid.is_high(f.above);
+  const auto lack = [&](bool is_high, double h, double q) {
+    return q > 0 ? flux.lack(is_high, q, h / rate) : flux.spread(is_high);
+  };
+  const double s_j = is_above_high ? 1 : -1;
+  if (is_below_high != is_above_high)
+    return 2 * s_j * (2 - lack(is_below_high, h_below, q_below) - lack(is_above_high, h_above, q_above)) /
+           (h_below - h_above);
+  if (std::abs(h_below - h_above) < kNearLevels * h_below && q_below > 0 && q_above > 0)
+    return 2 * s_j *
+           flux.lack_slope(is_above_high, (q_below + q_above) / 2, (h_below + h_above) / (2 * rate)) / rate;
+  return 2 * s_j * (lack(is_below_high, h_below, q_below) - lack(is_above_high, h_above, q_above)) /
+         (h_below - h_above);
+}
+
+}  // namespace curved_front_detail
+
 /// dt/dz of a front where the rate is `rate` and its levels have these q. The difference of two that are near to each other comes
 /// from what they are.
 [[nodiscard]] inline double front_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
                                         double q_below, double q_above) {
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
+  if (grid.flux()) return curved_front_detail::branch_slope(grid, f, rate, q_below, q_above);
   if (s_i == s_j && q_below > 0 && q_above > 0) return 2 * s_j / (rate * (q_below + q_above));
   return 2 * (s_j * q_above - s_i * q_below) /
          (grid.capacity(grid.level(f.below)) - grid.capacity(grid.level(f.above)));
@@ -72,18 +100,54 @@ namespace curved_front_detail {
   if (level == 0) return {1, 0, 0, 0};
   constexpr double kSmallRoot = 0.1;  // below it terms cancel: LevelCurves::area knows how
   const std::size_t p = f.layer;
-  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
+  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend, x = h / rate;
+  constexpr double kFarFromTurn = 0.75;
   if (!(q_origin > 0)) {  // from its turning height on
-    const double turn = grid.turning_height(p, level), q = grid.q(p, level, z, rate);
+    const double turn = grid.turning_height(p, level);
+    const double q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
     if (q < kSmallRoot) return {q, (z - f.z) - grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
     return {q, (turn - f.z) + factor * q, factor, q};
   }
-  constexpr double kFarFromTurn = 0.75;
-  const double x = h / rate, q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
+  const double lost = (h / f.rate) * shrink;  // q^2 is less by so much
+  double q;
+  if (x < kFarFromTurn) {
+    q = std::sqrt(1 - x);
+  } else {
+    constexpr double kCancelling = 0.1;
+    const double origin_square = q_origin * q_origin, square = origin_square - lost;
+    q = square > kCancelling * origin_square ? std::sqrt(square) : grid.q(p, level, z, rate);
+  }
   if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
     return {q, (z - f.z) - grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
-  const double delta = -(h / f.rate) * shrink / (q_origin + q);
+  const double delta = -lost / (q_origin + q);
   return {q, factor * delta, factor, delta / (1 + q_origin)};
+}
+
+/// Whether the levels of a front in an exponential piece live at its origin and where r is less by `shrink`, by so much that no
+/// term cancels.
+[[nodiscard]] inline bool is_far_from_turns(const CurvedNode& f, double h_below, double h_above,
+                                            double shrink) {
+  constexpr double kFarRoot = 0.316, kFarShare = 0.9;  // q^2 >= 1 / 10
+  return f.q_below > kFarRoot && f.q_above > kFarRoot &&
+         std::max(h_below, h_above) * (1 + shrink) < kFarShare * f.rate;
+}
+/// passage() there: as by exponential_way(), with as few divisions as it takes.
+[[nodiscard]] inline Passage far_passage(const CurvedNode& f, double h_below, double h_above, double s_below,
+                                         double s_above, double bend, double d, double shrink) {
+  const double at_origin = 1 / f.rate, here = at_origin * (1 + shrink);  // 1 / r
+  const double q_below = std::sqrt(1 - h_below * here), q_above = std::sqrt(1 - h_above * here);
+  const double delta_below = -h_below * at_origin * shrink / (f.q_below + q_below),
+               delta_above = -h_above * at_origin * shrink / (f.q_above + q_above);
+  const double a = 1 + f.q_below, b = 1 + f.q_above, scale = 2 / bend, over = 2 / (h_below - h_above);
+  if (s_below == s_above) {
+    const double logarithm = std::log1p((delta_above * a - delta_below * b) / (b * (a + delta_below)));
+    const double way = scale * ((delta_below - delta_above) + logarithm);
+    return {f.t + over * s_above * way, 2 * s_above * here / (q_below + q_above)};
+  }
+  const double logarithm =
+      std::log1p((delta_below * b + delta_above * a + delta_below * delta_above) / (a * b));
+  const double way = 2 * d + scale * (logarithm - delta_below - delta_above);
+  return {f.t + over * s_above * way, over * s_above * (q_below + q_above)};
 }
 
 /// int dz / (r q) from the origin to z for the mean of two levels of one side that are so near to each other that the difference
@@ -92,13 +156,22 @@ namespace curved_front_detail {
 [[nodiscard]] inline std::optional<double> mean_characteristic(const LevelCurves& grid, const CurvedNode& f,
                                                                double h_below, double h_above, double z,
                                                                double rate, double q_below, double q_above) {
-  constexpr double kNear = 1e-7, kFarFromTurn = 1e3;
+  constexpr double kFarFromTurn = 1e3;
   const double h = (h_below + h_above) / 2, spread = std::abs(h_below - h_above) / h;
-  if (!(spread < kNear)) return std::nullopt;
   const double q = (q_below + q_above) / 2, q_origin = (f.q_below + f.q_above) / 2;
   const double least = std::min(f.q_below, f.q_above);
   if (!(q * q > kFarFromTurn * spread)) return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
+  if (grid.flux()) {
+    const LevelCurves::Place origin{q_origin == 0 ? piece.height_of(h) : f.z, q_origin == 0 ? h : f.rate,
+                                    q_origin},
+        here{z, rate, q};
+    if (q_origin > 0 && !(least * least > kFarFromTurn * spread)) return std::nullopt;
+    const bool rises = z > origin.z;
+    const double time = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
+                                                 rises ? here : origin);
+    return rises ? time : -time;
+  }
   if (q_origin == 0)
     return (piece.curve == RateCurve::exponential ? q / h : std::atanh(q)) * (2 / piece.bend);
   if (!(least * least > kFarFromTurn * spread)) return std::nullopt;
@@ -119,17 +192,19 @@ namespace curved_front_detail {
     return {f.t + slope * d, slope};
   }
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
-  const double factor = 2 / (grid.capacity(i) - grid.capacity(j));
+  const double h_i = grid.capacity(i), h_j = grid.capacity(j), factor = 2 / (h_i - h_j);
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
-  if (piece.curve == RateCurve::exponential) {
+  const bool is_near_pair = s_i == s_j && std::abs(h_i - h_j) < curved_front_detail::kNearLevels * h_i;
+  if (piece.curve == RateCurve::exponential && !grid.flux()) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
+    if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink) && !is_near_pair)
+      return curved_front_detail::far_passage(f, h_i, h_j, s_i, s_j, piece.bend, d, shrink);
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
     const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
                    b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
-    if (s_i == s_j && i > 0 && j > 0)
-      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, grid.capacity(i),
-                                                                     grid.capacity(j), z, rate, a.q, b.q))
+    if (is_near_pair)
+      if (const auto mean = curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, a.q, b.q))
         return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
     const bool is_same_side = s_i == s_j;
@@ -143,12 +218,12 @@ namespace curved_front_detail {
   }
   const double rate = piece.rate(z);
   const LevelCurves::Place below{z, rate, grid.q(p, i, z, rate)}, above{z, rate, grid.q(p, j, z, rate)};
-  if (s_i == s_j && i > 0 && j > 0)
-    if (const auto mean = curved_front_detail::mean_characteristic(
-            grid, f, grid.capacity(i), grid.capacity(j), z, rate, below.q, above.q))
+  if (is_near_pair)
+    if (const auto mean =
+            curved_front_detail::mean_characteristic(grid, f, h_i, h_j, z, rate, below.q, above.q))
       return {f.t + s_j * *mean, front_slope(grid, f, rate, below.q, above.q)};
-  const double E_i = grid.deficit(p, i, {f.z, f.rate, f.q_below}, below),
-               E_j = grid.deficit(p, j, {f.z, f.rate, f.q_above}, above);
+  const double E_i = grid.deficit(p, f.below, {f.z, f.rate, f.q_below}, below),
+               E_j = grid.deficit(p, f.above, {f.z, f.rate, f.q_above}, above);
   const double way = s_i == s_j ? E_i - E_j : 2 * d - E_i - E_j;
   return {f.t + factor * s_j * way, front_slope(grid, f, rate, below.q, above.q)};
 }
@@ -159,14 +234,16 @@ namespace curved_front_detail {
                      grid.q(p, grid.level(f.above), z, rate));
 }
 
-/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there.
-inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t) {
+/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there. Its lower state may be
+/// the upper one of another front that begins there.
+inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t,
+                       const CurvedNode* neighbour = nullptr) {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const RatePiece& piece = grid.piece(p);
   f.z = z;
   f.t = t;
-  f.rate = piece.rate(z);
-  f.q_below = grid.q(p, i, z, f.rate);
+  f.rate = neighbour ? neighbour->rate : piece.rate(z);
+  f.q_below = neighbour ? neighbour->q_above : grid.q(p, i, z, f.rate);
   f.q_above = grid.q(p, j, z, f.rate);
   f.turns = false;
   f.end = z;
@@ -209,18 +286,47 @@ template <class Evaluate>
   return z;
 }
 
+/// Where the characteristic of the mean flux of a front is at a time, which is next to it if its levels are; a height outside of
+/// its way, or not a number, where that is not known.
+[[nodiscard]] inline double mean_position(const LevelCurves& grid, const CurvedNode& f, double t) {
+  const RatePiece& piece = grid.piece(f.layer);
+  const double h = (grid.capacity(grid.level(f.below)) + grid.capacity(grid.level(f.above))) / 2;
+  const double q = (f.q_below + f.q_above) / 2, turn = f.direction * piece.bend * (t - f.t) / 2;
+  double lack = q > 0 ? h / f.rate / (1 + q) : 1;  // 1 - q, which changes by h turn or as artanh q by turn
+  if (piece.curve == RateCurve::exponential) {
+    lack -= h * turn;
+  } else {
+    const double change = std::tanh(turn);
+    lack *= (1 - change) / (1 + q * change);
+  }
+  return piece.height_of(h / (lack * (2 - lack)));
+}
+
 /// Where a front is at a time. Precondition: it has begun; after its end it is there.
 [[nodiscard]] inline double position_of(const LevelCurves& grid, const CurvedNode& f, double t) {
   if (f.direction == 0 || !(t > f.t)) return f.z;
-  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
-  if (!(t < t_end)) return f.end;
-  const double share = (t - f.t) / (t_end - f.t);
-  const double start = f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99);
-  return bracketed_root(f.z, f.end, start, [&](double z) {
+  const auto late = [&](double z) {
     Passage at = passage(grid, f, z);
     at.t -= t;
     return at;
-  });
+  };
+  const bool is_curved = !grid.piece(f.layer).is_constant();
+  if (is_curved && !grid.flux() && grid.is_high(f.below) == grid.is_high(f.above)) {
+    constexpr int kFewSteps = 4;
+    constexpr double kLastStep = 1e-10;
+    const double lo = std::min(f.z, f.end), hi = std::max(f.z, f.end);
+    double z = mean_position(grid, f, t);
+    for (int n = 0; n < kFewSteps && z > lo && z < hi; ++n) {
+      const Passage at = late(z);
+      const double step = at.t / at.slope, next = z - step;
+      if (std::abs(step) < kLastStep * (hi - lo) && next >= lo && next <= hi) return next;
+      z = next;
+    }
+  }
+  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
+  if (!(t < t_end)) return f.end;
+  const double share = (t - f.t) / (t_end - f.t);
+  return bracketed_root(f.z, f.end, f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99), late);
 }
 
 }  // namespace shearfront

@@ -41,31 +41,83 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
-  /// At z, at the time of the front that knows it better: its own time is uncertain by rounding of heights, which slow fronts
-  /// magnify, and of areas, which weak ones do.
-  [[nodiscard]] CurvedMeeting at(double z) const {
-    const Passage a = passage(grid_, f_, z), b = passage(grid_, g_, z);
-    return {uncertainty(f_, a, z) < uncertainty(g_, b, z) ? a.t : b.t, z};
+  /// The same without the slope; when a front turns is known.
+  [[nodiscard]] double lag(const CurvedNode& later, const CurvedNode& sooner, double z) const {
+    const auto time = [&](const CurvedNode& f) {
+      return f.turns && z == f.end ? f.end_t : passage(grid_, f, z).t;
+    };
+    return time(later) - time(sooner);
   }
-  /// Of the time, in units of rounding.
+  /// Both fronts at a height.
+  struct Pair {
+    double z;
+    Passage f, g;
+  };
+  [[nodiscard]] Pair pair_at(double z) const { return {z, passage(grid_, f_, z), passage(grid_, g_, z)}; }
+  /// At z, next to where they have been looked at, at the time of the front that knows it better: its own time is uncertain by
+  /// rounding of heights, which slow fronts magnify, and of areas, which weak ones do.
+  [[nodiscard]] CurvedMeeting meeting(const Pair& near, double z) const {
+    const Passage& of = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? near.f : near.g;
+    return {z == near.z ? of.t : of.t + of.slope * (z - near.z), z};
+  }
+  [[nodiscard]] CurvedMeeting at(double z) const { return meeting(pair_at(z), z); }
+  /// Of the time, in units of rounding: of heights, which are found to a part of their piece, and of areas.
   [[nodiscard]] double uncertainty(const CurvedNode& f, const Passage& at, double z) const {
     const double h_below = grid_.capacity(grid_.level(f.below)),
                  h_above = grid_.capacity(grid_.level(f.above));
+    const RatePiece& piece = grid_.piece(f.layer);
     const double area = std::abs(z - f.z) * std::min(1.0, std::max(h_below, h_above) / f.rate);
-    return std::abs(at.slope * z) + 2 * area / std::abs(h_below - h_above);
-  }
-  /// Where the difference of the times of a and b is 0, being negative at `negative` and positive at `positive`.
-  [[nodiscard]] CurvedMeeting root(const CurvedNode& a, const CurvedNode& b, double negative, double positive,
-                                   double start) const {
-    const double z = bracketed_root(negative, positive, start, [&](double x) { return difference(a, b, x); });
-    return at(z);
+    return std::abs(at.slope) * (std::abs(z) + (piece.z_high - piece.z_low)) +
+           2 * area / std::abs(h_below - h_above);
   }
 
-  /// A first guess of a root between lo and hi: Newton's from lo, or along the secant.
-  [[nodiscard]] static double first_guess(double lo, double hi, const Passage& at_lo, double at_hi) {
-    const double next = lo - at_lo.t / at_lo.slope, share = at_lo.t / (at_lo.t - at_hi);
-    const bool is_inside = lo < hi ? next > lo && next < hi : next < lo && next > hi;
-    return is_inside ? next : lo + (hi - lo) * std::clamp(share, 0.01, 0.99);
+  /// A height with the difference of times there.
+  struct Point {
+    double z;
+    Passage d;
+  };
+  /// Where the height as a cubic function of the difference, by its values and slopes in two points, has the difference 0.
+  [[nodiscard]] static double interpolated(const Point& a, const Point& b) {
+    const double h = b.d.t - a.d.t, x = -a.d.t / h, y = 1 - x;
+    return b.z + (a.z - b.z) * ((1 + 2 * x) * y * y) + h * x * y * (y / a.d.slope - x / b.d.slope);
+  }
+  /// The first place from `from`, where the difference times `sign` of the times of f and g is positive, on the way to `to` at
+  /// which it is 0; none if it is positive there. Precondition: it changes its sign once at most. Newton's method, then cubic
+  /// interpolation, in a bracket; `to` is looked at only if they lead there.
+  [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, double from, const Passage& at_from,
+                                                        double to) const {
+    constexpr int kMostSteps = 200, kPatience = 8;
+    constexpr double kLastStep = 1e-9;  // the next one would be its square at least
+    constexpr double kRounding = 2e-16;
+    const double length = std::abs(to - from);
+    double positive = from, beyond = to;
+    bool has_bracket = false;
+    const auto is_inside = [&](double z) {
+      return positive < beyond ? z > positive && z < beyond : z < positive && z > beyond;
+    };
+    Point last{from, at_from};
+    double z = from - at_from.t / at_from.slope;
+    if (!is_inside(z)) z = to;
+    for (int n = 0;; ++n) {
+      const Pair both = pair_at(z);
+      const Point now{z, {sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)}};
+      if (z == to && !has_bracket && now.d.t > 0) return std::nullopt;
+      if (n == kMostSteps) return meeting(both, z);
+      has_bracket = has_bracket || now.d.t < 0;
+      (now.d.t < 0 ? beyond : positive) = z;
+      if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
+      double next = interpolated(last, now);
+      if (!is_inside(next)) next = z - now.d.t / now.d.slope;
+      bool is_guess = is_inside(next);
+      if (is_guess && has_bracket && n > kPatience && n % 3 == 0) is_guess = false;
+      if (!is_guess) next = has_bracket ? positive + (beyond - positive) / 2 : to;
+      const double step = std::abs(next - z);
+      if (has_bracket && (next == positive || next == beyond)) return meeting(both, next);
+      if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
+      if (is_guess && step < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
+      last = now;
+      z = next;
+    }
   }
 
   /// f rises, g sinks.
@@ -75,18 +127,15 @@ class CurvedMeetings {
       if (f_.z < g_.z) return std::nullopt;  // they turn before
       return CurvedMeeting{std::max(f_.t, g_.t), f_.z};
     }
-    const Passage at_lo = difference(f_, g_, lo);
-    if (at_lo.t > 0) {
+    const Passage at_lo = difference(g_, f_, lo);
+    if (at_lo.t < 0) {
       if (lo == f_.z) return at(lo);
       return std::nullopt;
     }
-    const double at_hi = difference(f_, g_, hi).t;
-    if (at_hi < 0) {
-      if (hi == g_.z) return at(hi);
-      return std::nullopt;
-    }
-    if (at_hi == at_lo.t) return at(lo);
-    return root(f_, g_, lo, hi, first_guess(lo, hi, at_lo, at_hi));
+    if (at_lo.t == 0) return at(lo);
+    if (const auto met = first_zero(-1, lo, at_lo, hi)) return met;
+    if (hi == g_.z) return at(hi);
+    return std::nullopt;
   }
 
   /// `rear` follows `lead` in the direction s.
@@ -104,20 +153,21 @@ class CurvedMeetings {
     // Beyond it the polygon is not convex.
     const double dead = most > 0 && gets_smaller ? grid_.turning_height(p, most) : hi;
     const bool is_fan = f_.below < g_.below && g_.below < g_.above;
-    if (is_fan && !ahead(hi, dead)) return std::nullopt;
-    const double at_hi = difference(rear, lead, hi).t;
     if (is_fan) {
-      if (at_hi >= 0) return std::nullopt;
+      if (!ahead(hi, dead)) return std::nullopt;
+      if (lag(rear, lead, hi) >= 0) return std::nullopt;
       const double from = ahead(dead, lo) ? (ahead(dead, hi) ? hi : dead) : lo;
-      if (!(difference(rear, lead, from).t > 0)) return at(from);
-      return root(rear, lead, hi, from, from + (hi - from) / 2);
+      const Passage at_from = difference(rear, lead, from);
+      if (!(at_from.t > 0)) return at(from);
+      return first_zero(s, from, at_from, hi);
     }
     const Passage at_lo = difference(rear, lead, lo);
     const bool touches = at_lo.t <= 0 && leaves(rear, lead, at_lo, s);
     if (at_lo.t <= 0 && !touches) return at(lo);
-    if (at_hi <= 0)
-      return root(rear, lead, hi, lo, touches ? lo + (hi - lo) / 2 : first_guess(lo, hi, at_lo, at_hi));
-    if (!gets_smaller || !ahead(hi, dead)) return std::nullopt;
+    const bool may_part = gets_smaller && ahead(hi, dead);
+    if (!touches && !may_part) return first_zero(s, lo, at_lo, hi);
+    if (lag(rear, lead, hi) <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
+    if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
   }
   /// Whether they touch where one of them begins and then separate: a front that has just turned is faster than any other.
@@ -130,7 +180,9 @@ class CurvedMeetings {
   [[nodiscard]] std::optional<CurvedMeeting> touching(const CurvedNode& rear, const CurvedNode& lead,
                                                       double lo, double from, double hi, int s) const {
     const auto growth = [&](double z) { return s * (slope_of(grid_, rear, z) - slope_of(grid_, lead, z)); };
-    if (difference(rear, lead, from).t <= 0) return root(rear, lead, from, lo, lo + (from - lo) / 2);
+    // Where one of them touches the other at lo, the place to begin with is not that.
+    const auto zero_before = [&](double z) { return first_zero(s, lo, Passage{1, 0}, z); };
+    if (difference(rear, lead, from).t <= 0) return zero_before(from);
     if (!(growth(from) < 0) || !(growth(hi) > 0)) return std::nullopt;
     double falling = from, rising = hi;
     constexpr int kMostHalvings = 60;
@@ -138,7 +190,7 @@ class CurvedMeetings {
       const double z = falling + (rising - falling) / 2;
       if (z == falling || z == rising) break;
       const Passage d = difference(rear, lead, z);
-      if (d.t <= 0) return root(rear, lead, z, lo, lo + (z - lo) / 2);
+      if (d.t <= 0) return zero_before(z);
       (s * d.slope < 0 ? falling : rising) = z;
     }
     return std::nullopt;

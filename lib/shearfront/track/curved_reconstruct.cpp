@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shearfront/track/curved_front.hpp"
+
 namespace shearfront {
 namespace {
 
@@ -16,7 +18,32 @@ double line_tolerance(const CurvedBed& bed) {
 struct Turned {
   double z, u;
 };
-Turned characteristic_after_turn(const RatePiece& piece, double h, double t) {
+Turned characteristic_after_turn(const LevelCurves& grid, std::size_t p, double h, double t) {
+  const RatePiece& piece = grid.piece(p);
+  if (const FluxBranches* flux = grid.flux()) {
+    const bool is_high = (t > 0) != piece.falls();  // before the turn it comes from the other side
+    t = std::abs(t);
+    const double bend = std::abs(piece.bend), spread = flux->spread(is_high);
+    const auto u_of = [&](double root) {  // |u - top| is half of it
+      return is_high ? flux->top() + root / 2 : flux->top() - root / 2;
+    };
+    if (piece.curve == RateCurve::exponential) {
+      const double u = u_of(std::min(h * bend * t / 2, spread * (1 - 1e-15)));
+      return {piece.height_of(h / flux->value(u)), u};
+    }
+    // As characteristic_time() from the turning height on, where q = 0.
+    const auto late = [&](double q) -> Passage {
+      const double x = (1 - q) * (1 + q);
+      const double ways = flux->rest_integral(is_high, 0, q, q * q) -
+                          flux->pure_shape(is_high) * std::log(x) + flux->shape(is_high, 0) -
+                          flux->shape(is_high, q);
+      return {2 * ways / bend - t, 4 * q * flux->lack_slope(is_high, q, x) / x / bend};
+    };
+    constexpr double kMost = 1 - 1e-12;
+    const double q = !(t > 0) ? 0 : late(kMost).t < 0 ? kMost : bracketed_root(0.0, kMost, 0.5, late);
+    const double x = (1 - q) * (1 + q);
+    return {piece.height_of(h / x), u_of(spread - flux->lack(is_high, q, x))};
+  }
   // u' = r' u (1 - u): with r'/r or r' constant it is elementary.
   const double w =
       piece.curve == RateCurve::exponential ? -h * piece.bend * t / 2 : -std::tanh(piece.bend * t / 2);
@@ -30,6 +57,7 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   const LevelCurves& grid = bed_.grid;
   const std::size_t i = grid.level(front.below), j = grid.level(front.above), p = front.layer;
   if (i + 1 != j && j + 1 != i) return {};
+  if (bed_.is_plateau[i] && bed_.is_plateau[j]) return {};  // a jump from one initial state to another
   const double rate = grid.piece(p).rate(z);
   const bool is_dead = !(grid.q(p, std::max(i, j), z, rate) > 0);
   if (!is_dead && grid.is_high(front.below) != grid.is_high(front.above)) return {};
@@ -39,14 +67,12 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   double turned = front.turned;
   if (front.turns) turned = front.end_t;
   if (std::isfinite(turned)) {
-    const Turned middle = characteristic_after_turn(grid.piece(p), h, snapshot_.t - turned);
+    const Turned middle = characteristic_after_turn(grid, p, h, snapshot_.t - turned);
     node.z = middle.z;
     node.u = middle.u;
   } else {
     const State lower = i < j ? front.below : front.above;
-    const double root = std::sqrt(std::max(0.0, (rate - h) / rate));
-    node.u = grid.is_high(lower) ? (1 + root) / 2 : h / rate / (2 * (1 + root));
-    if (!(root > 0)) node.u = 0.5;
+    node.u = grid.u_of(grid.is_high(lower), h, rate, std::sqrt(std::max(0.0, (rate - h) / rate)));
   }
   node.room = std::abs(above - below) / 2;
   return node;
@@ -77,8 +103,8 @@ std::vector<CurvedReconstruction::Node> CurvedReconstruction::end_of(std::size_t
     const double z = i == kLines ? end : end + (first.z - end) * x * x;  // at throats u is a square root
     const double h =
         std::clamp(first.h + slope * (z - first.z), std::max(0.0, at_level - reach), at_level + reach);
-    const double rate = grid.piece(p).rate(z), root = std::sqrt(std::max(0.0, (rate - h) / rate));
-    const double u = grid.is_high(state) ? (1 + root) / 2 : h < rate ? h / rate / (2 * (1 + root)) : 0.5;
+    const double rate = grid.piece(p).rate(z);
+    const double u = grid.u_of(grid.is_high(state), h, rate, std::sqrt(std::max(0.0, (rate - h) / rate)));
     nodes.push_back({true, z, u, x * x * first.room, h});
   }
   return nodes;

@@ -32,10 +32,9 @@ class CurvedReconstruction {
       add_stretch(low, high);
       low = high;
     }
+    lines_.close(snapshot.z.back());
   }
-  [[nodiscard]] Profile<double> profile() const {
-    return lines_.profile(snapshot_.z.back(), bed_.scene.offset, bed_.scene.slope);
-  }
+  [[nodiscard]] Profile<double> profile() const { return bed_.scene.profile_of(lines_); }
 
  private:
   struct Node {

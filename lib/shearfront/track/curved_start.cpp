@@ -12,12 +12,12 @@ namespace {
 /// Capacities so near to each other are one level.
 constexpr double kSameLevel = 64 * 0x1p-53;
 
-double capacity_of(double rate, double u) { return rate * (4 * u * (1 - u)); }
+double capacity_of(const FluxBranches* flux, double rate, double u) { return rate * relative_flux(flux, u); }
 
 /// The flux, times 4, that the Riemann problem of l | r sends through a place of this rate.
-double sent(double rate, double l, double r) {
-  const double demand = l >= 0.5 ? capacity_of(rate, l) : rate,
-               supply = r <= 0.5 ? capacity_of(rate, r) : rate;
+double sent(const FluxBranches* flux, double rate, double l, double r) {
+  const double top = top_of(flux), demand = l >= top ? capacity_of(flux, rate, l) : rate,
+               supply = r <= top ? capacity_of(flux, rate, r) : rate;
   return std::min(demand, supply);
 }
 
@@ -25,6 +25,7 @@ double sent(double rate, double l, double r) {
 double largest_capacity(const CurvedProblem& problem) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
+  const FluxBranches* flux = problem.flux.get();
   double most = 0;
   const double low = pieces.front().low, high = pieces.back().high;
   if (!problem.ends.states[0].empty()) most = low;
@@ -33,27 +34,47 @@ double largest_capacity(const CurvedProblem& problem) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    most = std::max({most, capacity_of(piece.rate(s.z_low), s.u), capacity_of(piece.rate(s.z_high), s.u)});
+    const double share = relative_flux(flux, s.u);
+    most = std::max({most, piece.rate(s.z_low) * share, piece.rate(s.z_high) * share});
     if (i + 1 == start.size()) break;
     const double rate =
         std::min(pieces[s.piece].rate(s.z_high), pieces[start[i + 1].piece].rate(start[i + 1].z_low));
-    most = std::max(most, sent(rate, s.u, start[i + 1].u));
+    most = std::max(most, sent(flux, rate, s.u, start[i + 1].u));
   }
   return most;
 }
 
 struct Spacing {
   double offset, ratio;  ///< dh = ratio (h + offset)
+  double root_step;      ///< of q, where u is near to the top of the flux
 };
 
-Spacing spacing_of(const std::vector<RatePiece>& pieces, double most, double resolution) {
+/// How much larger steps of u are than those of the parabola: where q >= 1/2, there they are largest at q = 1/2, and next to q = 0.
+struct Stretch {
+  double far, near;
+};
+Stretch stretch_of(const FluxBranches* flux) {
+  if (!flux) return {1, 1};
+  constexpr double kFar = 0.5, kNear = 0.02;
+  Stretch stretch{0, 0};
+  for (const bool is_high : {false, true}) {
+    stretch.far = std::max(stretch.far, flux->lack_slope(is_high, kFar, 1 - kFar * kFar));
+    stretch.near = std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
+  }
+  return stretch;
+}
+
+Spacing spacing_of(const CurvedProblem& problem, double most, double resolution) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const Stretch stretch = stretch_of(problem.flux.get());
   double least_rate = INFINITY;
   for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
   const double offset = std::min(0.1 * most, least_rate);
   // u changes by dh / (4 r q), q >= 1/2 where |u - 1/2| >= 1/4: there h <= 3 r / 4.
   const double at_least_rate = 2 * least_rate / (0.75 * least_rate + offset),
                at_others = 8.0 / 3 / (1 + offset / most);
-  return {offset, resolution * std::min(at_least_rate, at_others)};
+  return {offset, resolution / stretch.far * std::min(at_least_rate, at_others),
+          2 * resolution / std::max(stretch.near, stretch.far)};
 }
 
 double count(const Spacing& spacing, double most) {
@@ -70,6 +91,8 @@ struct Special {
 std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
+  const FluxBranches* flux = problem.flux.get();
+  const double top = top_of(flux);
   std::vector<Special> all;
   const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
     if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
@@ -81,24 +104,28 @@ std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    if (piece.is_constant()) add(capacity_of(piece.low, s.u), s.piece, std::abs(2 * s.u - 1), true);
+    if (piece.is_constant())
+      add(capacity_of(flux, piece.low, s.u), s.piece, flux ? flux->root_of(s.u) : std::abs(2 * s.u - 1),
+          true);
     if (!piece.is_constant())
-      for (const double z : {s.z_low, s.z_high}) add(capacity_of(piece.rate(z), s.u), s.piece, z, s.u == 0.5);
-    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= 0.5 && start[i + 1].u >= 0.5)
+      for (const double z : {s.z_low, s.z_high})
+        add(capacity_of(flux, piece.rate(z), s.u), s.piece, z, s.u == top);
+    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= top && start[i + 1].u >= top)
       add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
   }
   for (std::size_t end = 0; end < 2; ++end)
     for (const double u : problem.ends.states[end])
-      add(capacity_of(end == 0 ? pieces.front().low : pieces.back().high, u), 0, 0, false);
+      add(capacity_of(flux, end == 0 ? pieces.front().low : pieces.back().high, u), 0, 0, false);
   std::stable_sort(all.begin(), all.end(),
                    [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
   return all;
 }
 
-/// Capacities below which levels are spaced in u instead of H: where u stays near 1/2, or begins there.
-std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
-                                       const std::vector<StartSegment>& start, const Spacing& spacing,
-                                       double most) {
+/// Capacities below which levels are spaced in u instead of H: where u stays near the top of the flux, or begins there.
+std::vector<double> refined_capacities(const CurvedProblem& problem, const Spacing& spacing, double most) {
+  const std::vector<RatePiece>& pieces = problem.pieces;
+  const std::vector<StartSegment>& start = problem.start;
+  const double top = top_of(problem.flux.get());
   std::vector<double> all;
   const auto add = [&](double capacity) {
     if (capacity <= most * (1 + kSameLevel)) all.push_back(capacity);
@@ -115,7 +142,7 @@ std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
     if (is_throat) add(std::min(piece.high, next.low));
   }
   for (std::size_t i = 0; i + 1 < start.size(); ++i)
-    if (start[i].u < 0.5 && start[i + 1].u > 0.5)
+    if (start[i].u < top && start[i + 1].u > top)
       add(std::min(pieces[start[i].piece].rate(start[i].z_high),
                    pieces[start[i + 1].piece].rate(start[i + 1].z_low)));
   std::sort(all.begin(), all.end());
@@ -124,11 +151,10 @@ std::vector<double> refined_capacities(const std::vector<RatePiece>& pieces,
   return all;
 }
 
-/// u = (1 - q) / 2 in steps of `resolution` below a capacity, as far as that is finer.
+/// u = (1 - q) / 2 in steps of the resolution below a capacity, as far as that is finer.
 constexpr double kRefinedRoot = 0.4;
 
-std::vector<double> ordinary_levels(const Spacing& spacing, double most, const std::vector<double>& refined,
-                                    double resolution) {
+std::vector<double> ordinary_levels(const Spacing& spacing, double most, const std::vector<double>& refined) {
   const double n = count(spacing, most);
   std::vector<double> all;
   for (double i = 1; i <= n; ++i)
@@ -136,7 +162,7 @@ std::vector<double> ordinary_levels(const Spacing& spacing, double most, const s
   all.back() = most;
   if (refined.empty()) return all;
   for (const double capacity : refined)
-    for (double q = 2 * resolution; q < kRefinedRoot; q += 2 * resolution)
+    for (double q = spacing.root_step; q < kRefinedRoot; q += spacing.root_step)
       all.push_back(capacity * (1 - q * q));
   std::sort(all.begin(), all.end());
   // None much nearer to the next than the finest spacing there.
@@ -148,7 +174,7 @@ std::vector<double> ordinary_levels(const Spacing& spacing, double most, const s
     for (std::size_t k = first; k < refined.size(); ++k) {
       const double root = std::sqrt(std::max(0.0, 1 - h / refined[k]));
       if (root > kRefinedRoot) break;
-      room = std::min(room, 4 * resolution * refined[k] * std::max(root, resolution));
+      room = std::min(room, 2 * spacing.root_step * refined[k] * std::max(root, spacing.root_step / 2));
     }
     constexpr double kLeastShare = 0.6;
     if (levels.empty() || h - levels.back() > kLeastShare * room) levels.push_back(h);
@@ -156,21 +182,24 @@ std::vector<double> ordinary_levels(const Spacing& spacing, double most, const s
   return levels;
 }
 
-/// Height at which int (1 - q_first) dz from `a` to it and int (1 - q_second) dz from it to `b` is `wanted`.
-double step_height(const LevelCurves& grid, std::size_t p, std::size_t first, std::size_t second, double a,
-                   double b, double wanted) {
+/// Height at which the deficits of `below` from `a` to it and of `above` from it to `b` make `wanted`.
+double step_height(const LevelCurves& grid, std::size_t p, State below, State above, double a, double b,
+                   double wanted) {
+  const std::size_t first = grid.level(below), second = grid.level(above);
   const LevelCurves::Place at_a = grid.place(p, first, a), at_b = grid.place(p, second, b);
   const auto excess = [&](double z) -> Passage {
     const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
-    return {grid.deficit(p, first, at_a, one) + grid.deficit(p, second, other, at_b) - wanted,
-            other.q - one.q};
+    const double slope =
+        grid.flux() ? 2 * std::abs(grid.phi(p, below, z) - grid.phi(p, above, z)) * (first < second ? -1 : 1)
+                    : other.q - one.q;
+    return {grid.deficit(p, below, at_a, one) + grid.deficit(p, above, other, at_b) - wanted, slope};
   };
   const bool falls = first < second;  // then q_first > q_second
   if (!(b > a)) return a;
   return std::clamp(bracketed_root(falls ? b : a, falls ? a : b, a + (b - a) / 2, excess), a, b);
 }
 
-/// A state of a constant piece. Where rounding of its capacity makes it one of u = 1/2, a little of the next level at its top
+/// A state of a constant piece. Where rounding of its capacity makes it the top of the flux, a little of the next level at its top
 /// keeps the amount.
 StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& segment, State state) {
   constexpr double kLeast = 1e-13;
@@ -186,13 +215,13 @@ StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& s
 
 double count_levels(const CurvedProblem& problem, double resolution) {
   const double most = largest_capacity(problem);
-  return most > 0 ? count(spacing_of(problem.pieces, most, resolution), most) : 0;
+  return most > 0 ? count(spacing_of(problem, most, resolution), most) : 0;
 }
 
 State outside_state(const LevelCurves& grid, std::size_t end, double u) {
   const double rate = end == 0 ? grid.piece(0).low : grid.piece(grid.n_layers() - 1).high;
-  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(capacity_of(rate, u));
-  return u > 0.5 ? grid.high(level) : grid.low(level);
+  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(capacity_of(grid.flux(), rate, u));
+  return u > grid.top() ? grid.high(level) : grid.low(level);
 }
 
 LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
@@ -200,9 +229,9 @@ LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
   const double most = largest_capacity(problem);
   if (!(most > 0)) return plan;
   const std::vector<Special> specials = specials_of(problem, most);
-  const Spacing spacing = spacing_of(problem.pieces, most, resolution);
-  const std::vector<double> ordinary = ordinary_levels(
-      spacing, most, refined_capacities(problem.pieces, problem.start, spacing, most), resolution);
+  const Spacing spacing = spacing_of(problem, most, resolution);
+  const std::vector<double> ordinary =
+      ordinary_levels(spacing, most, refined_capacities(problem, spacing, most));
   constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
   // Of the nearest levels: where they are refined it is less.
   const auto room_at = [&](double h) {
@@ -241,32 +270,37 @@ LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
 StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment) {
   const std::size_t p = segment.piece;
   const RatePiece& piece = grid.piece(p);
-  const bool is_high = segment.u > 0.5 || (segment.u == 0.5 && !piece.is_constant() && !piece.falls());
+  const bool is_top = segment.u == grid.top();
+  const bool is_high = segment.u > grid.top() || (is_top && !piece.is_constant() && !piece.falls());
   const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
   if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
-  const auto level_at = [&](double z) { return grid.cap(capacity_of(piece.rate(z), segment.u)); };
+  const auto level_at = [&](double z) {
+    return grid.cap(capacity_of(grid.flux(), piece.rate(z), segment.u));
+  };
   const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
   if (from == to && piece.is_constant()) return constant_state(grid, segment, state(from));
   if (from == to) return {state(from), state(to), {}};
   StartSegmentLevels levels{state(from), state(to), {}};
   const int s = from < to ? 1 : -1;
   const auto next = [s](std::size_t k) { return s > 0 ? k + 1 : k - 1; };
-  if (segment.u == 0.5) {
-    // Between the turning heights of two levels the higher one, beyond its own: u = 1/2 there.
+  if (is_top) {
+    // Between the turning heights of two levels the higher one, beyond its own: it is the top there.
     if (s > 0) levels.at_low = state(from + 1);
     if (s < 0) levels.at_high = state(to + 1);
     for (std::size_t k = next(from); k != to; k = next(k))
       levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
     return levels;
   }
-  const double spread = 4 * segment.u * (1 - segment.u), lack = 2 * std::min(segment.u, 1 - segment.u);
+  const double spread = relative_flux(grid.flux(), segment.u),
+               lack = 2 * (is_high ? 1 - segment.u : segment.u);
   double low_end = segment.z_low;
   for (std::size_t k = from; k != to; k = next(k)) {
     const std::size_t above = next(k);
     double high_end = above == to ? segment.z_high : piece.height_of(grid.capacity(above) / spread);
     high_end = std::clamp(high_end, low_end, segment.z_high);
-    levels.steps.push_back({step_height(grid, p, k, above, low_end, high_end, lack * (high_end - low_end)),
-                            state(k), state(above)});
+    const double z =
+        step_height(grid, p, state(k), state(above), low_end, high_end, lack * (high_end - low_end));
+    levels.steps.push_back({z, state(k), state(above)});
     low_end = high_end;
   }
   return levels;

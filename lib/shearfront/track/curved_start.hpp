@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "shearfront/track/level_curves.hpp"
@@ -28,6 +29,7 @@ struct CurvedProblem {
   std::vector<RatePiece> pieces;
   std::vector<StartSegment> start;  ///< bottom to top
   CurvedEnds ends{};
+  std::shared_ptr<const FluxBranches> flux{};  ///< g; none for 4 u (1 - u)
 };
 
 /// The initial state in levels: from one segment to the next a jump to be solved, inside a segment steps.
@@ -47,8 +49,8 @@ struct LevelPlan {
   std::vector<KnownTurn> known;
 };
 
-/// Levels of which the steps of u are at most `resolution` where |u - 1/2| > 1/4; everything that can be excited by the start is
-/// a level to the bit: capacities at the ends of pieces and at initial jumps up across 1/2, fluxes at the ends of segments.
+/// Levels of which the steps of u are at most `resolution` where q >= 1/2 (of a parabola: |u - 1/2| >= 1/4); everything that can be excited by the start is
+/// a level to the bit: capacities at the ends of pieces and at initial jumps up across the top of the flux, fluxes at the ends of segments.
 /// Between them levels lie geometrically with an offset. Cost: O(levels + segments).
 [[nodiscard]] LevelPlan plan_levels(const CurvedProblem& problem, double resolution);
 /// How many levels these would be, about.
@@ -57,8 +59,8 @@ struct LevelPlan {
 /// The state u beyond an end, where the rate is that of the piece there: a level to the bit if it is one of the problem.
 [[nodiscard]] State outside_state(const LevelCurves& grid, std::size_t end, double u);
 
-/// A segment of constant u in levels. Where the rate varies it is no steady state: between the heights at which r u (1 - u) is
-/// a level there is one step, where it keeps the amount; u = 1/2 is a level beyond its turning height. Cost: O(levels crossed).
+/// A segment of constant u in levels. Where the rate varies it is no steady state: between the heights at which r g(u) is
+/// a level there is one step, where it keeps the amount; the top of the flux is a level beyond its turning height. Cost: O(levels crossed).
 [[nodiscard]] StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment);
 
 }  // namespace shearfront

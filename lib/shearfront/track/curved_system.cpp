@@ -89,7 +89,9 @@ FrontIndex CurvedSystem<Observer>::emit(FrontIndex under, std::size_t piece, Sta
   n.meets = infinity<double>();
   n.turned = Node::kNever;
   n.is_edge = false;
-  set_course(*grid_, n, z, now_);
+  const Node& other = fronts_[under];
+  const bool is_next_in_fan = !is_boundary(under) && other.z == z && other.layer == piece && other.above == l;
+  set_course(*grid_, n, z, now_, is_next_in_fan ? &other : nullptr);
   const std::size_t j = grid_->level(l), k = grid_->level(r);
   const bool are_neighbours = j + 1 == k || k + 1 == j;
   if (are_neighbours && !((j < k ? n.q_below : n.q_above) > 0)) n.turned = now_;
@@ -115,8 +117,7 @@ void CurvedSystem<Observer>::set_edge(FrontIndex i, double t) {
 /// When the characteristic of the state ahead of an edge reaches z.
 template <class Observer>
 double CurvedSystem<Observer>::arrival_of_edge(const Node& f, double z) const {
-  return f.edge_t +
-         grid_->characteristic_time(f.layer, grid_->level(f.direction > 0 ? f.above : f.below), f.z, z);
+  return f.edge_t + grid_->characteristic_time(f.layer, f.direction > 0 ? f.above : f.below, f.z, z);
 }
 
 /// The waves that go down from z where the flux has become that of `level`; `at` is the state left there.

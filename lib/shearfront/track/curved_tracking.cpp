@@ -54,8 +54,10 @@ class CurvedTracking final : public AnyTracking {
     if constexpr (Observer::kActive) {
       const double tolerance = kPicture * (scene_->top() - scene_->bottom());
       const auto add = [&](FrontSegment<double> segment) {
-        segment.phi_below = bed_->scene.phi_of(segment.phi_below);
-        segment.phi_above = bed_->scene.phi_of(segment.phi_above);
+        const double middle = segment.z_begin + (segment.z_end - segment.z_begin) / 2;
+        segment.phi_below = bed_->scene.phi_of(middle, segment.phi_below);
+        segment.phi_above = bed_->scene.phi_of(middle, segment.phi_above);
+        for (double* z : {&segment.z_begin, &segment.z_end}) *z = bed_->scene.heights.z_of(*z);
         segments.push_back(segment);
       };
       for (const CurvedTrace& trace : tracker_.observer().traces())
@@ -71,7 +73,11 @@ class CurvedTracking final : public AnyTracking {
     return segments;
   }
   [[nodiscard]] std::vector<Collision> collisions() const override {
-    if constexpr (Observer::kActive) return tracker_.observer().events();
+    if constexpr (Observer::kActive) {
+      std::vector<Collision> events = tracker_.observer().events();
+      for (Collision& event : events) event.z = bed_->scene.heights.z_of(event.z);
+      return events;
+    }
     SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its history");
     return {};
   }
@@ -94,8 +100,9 @@ class CurvedTracking final : public AnyTracking {
     timeline.t0 = first(0);
     timeline.t1 = first(n);
     if (tracker_.is_steady()) timeline.t_star = tracker_.last_collision();
+    const std::vector<double> knots = scene_->knots();  // between the pieces
     for (std::size_t k = 1; k < n; ++k)
-      timeline.interfaces.push_back({bed_->grid.boundary(k), first(k), tracker_.last_wave(k)});
+      timeline.interfaces.push_back({knots[k - 1], first(k), tracker_.last_wave(k)});
     return timeline;
   }
   [[nodiscard]] Summary summary() const override {
@@ -110,7 +117,7 @@ class CurvedTracking final : public AnyTracking {
   }
 
  private:
-  /// Largest distance in height of the segments of a picture from the curves, as a part of the bed.
+  /// Largest distance in y of the segments of a picture from the curves, as a part of the bed.
   static constexpr double kPicture = 1e-4;
 
   [[nodiscard]] static std::shared_ptr<const CurvedBed> make_bed(CurvedScene curved,
@@ -164,24 +171,22 @@ class CurvedTracking final : public AnyTracking {
 }  // namespace
 
 bool wants_curves(const Scene<double>& scene, const TrackOptions& options) {
-  return options.grid == GridKind::levels && options.layers == 0 && curved_scene(scene).has_value();
+  return options.grid == GridKind::levels && options.layers == 0 && has_curved_fronts(scene);
 }
 
 std::string refusal_of_curves(const Scene<double>& scene, const TrackOptions& options) {
-  const std::optional<CurvedScene> curved = curved_scene(scene);
-  const double n = count_levels(curved->problem, options.resolution);
-  if (n * static_cast<double>(curved->problem.pieces.size()) > kMostLevelEntries)
+  const double n = count_curved_levels(scene, options.resolution);
+  if (n * static_cast<double>(scene.knots().size() + 1) > kMostLevelEntries)
     return "the grid would need " + number_text(n) + " levels; use a coarser resolution";
   return {};
 }
 
 std::unique_ptr<AnyTracking> track_curves(const Scene<double>& scene, const TrackOptions& options,
                                           Progress progress) {
-  std::optional<CurvedScene> curved = curved_scene(scene);
   if (options.fronts || options.history)
-    return std::make_unique<CurvedTracking<CurvedRecord>>(scene, std::move(*curved), options,
+    return std::make_unique<CurvedTracking<CurvedRecord>>(scene, curved_scene(scene), options,
                                                           std::move(progress));
-  return std::make_unique<CurvedTracking<NoObserver>>(scene, std::move(*curved), options,
+  return std::make_unique<CurvedTracking<NoObserver>>(scene, curved_scene(scene), options,
                                                       std::move(progress));
 }
 

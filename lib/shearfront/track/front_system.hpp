@@ -31,6 +31,7 @@ class FrontSystem {
   /// Times of the first and last wave at a boundary.
   struct Waves {
     std::optional<Scalar> first, last;
+    std::optional<Scalar> first_edge;  ///< the first, or if that is the edge of a fan its characteristic
   };
 
   /// With more than `max_fronts` in the initial state there are none: has_too_many_fronts(), and nothing else may be asked. No
@@ -131,7 +132,7 @@ class FrontSystem {
       const auto boundary = static_cast<FrontIndex>(k);
       begin_view(fronts_[boundary].z, k);
       emit_at_boundary(boundary, l, r);
-      if (n_fronts() > before) waves_[k] = {now_, now_};
+      if (n_fronts() > before) waves_[k] = {now_, now_, now_};
       end_view();
     };
     if (is_periodic_)
@@ -265,16 +266,45 @@ class FrontSystem {
   }
   void collide_at_boundary(FrontIndex a, FrontIndex b, FrontIndex boundary, State l, State r) {
     const FrontIndex under = fronts_[a].prev;
+    Waves& waves = waves_[boundary];
+    if (!waves.first) waves.first_edge = first_edge(boundary);
     begin_view(fronts_[boundary].z, boundary);
     remove_all(a, b, boundary);
     const FrontIndex top = emit_at_boundary(boundary, l, r);
     end_view();
-    Waves& waves = waves_[boundary];
     waves.first = waves.first ? std::min(*waves.first, now_) : now_;
     waves.last = waves.last ? std::max(*waves.last, now_) : now_;
     // Fronts that leave one point separate: only the outermost pairs are new.
     if (under != kNoFront) schedule(under);
     schedule(top);
+  }
+
+  /// When the first wave reaches a boundary, which is now in the polygon. The first front of a fan is slower than the
+  /// characteristic of the state ahead of it, which was there before: while all that it has passed were boundaries that nothing
+  /// had reached before, that is known.
+  [[nodiscard]] Scalar first_edge(FrontIndex boundary) const {
+    Scalar first = now_;
+    if (is_periodic_) return first;
+    const auto meet = [&](FrontIndex i, bool is_below) {
+      if (i == kNoFront || fronts_.is_boundary(i)) return;
+      const Node& f = fronts_[i];
+      if (!grid_->is_fan_step(f.layer, f.below, f.above)) return;
+      Scalar begun(0);
+      if (f.t > 0) {
+        const std::size_t from = is_below ? f.layer : f.layer + 1;
+        const Node& origin = fronts_[static_cast<FrontIndex>(from)];
+        const Waves& before = waves_[from];
+        if (!before.first || !(f.t == *before.first && f.z == origin.z && f.z_low == 0)) return;
+        begun = *before.first_edge;
+      }
+      const Scalar speed = grid_->edge_speed(f.layer, is_below ? f.above : f.below);
+      const Scalar way = (fronts_[boundary].z - f.z) - f.z_low;
+      if (is_below ? speed > 0 : speed < 0) first = std::min(first, Scalar(begun + way / speed));
+    };
+    const FrontIndex below = fronts_[boundary].prev;
+    if (below != kNoFront && !(fronts_[below].meets > now_)) meet(below, true);
+    if (!(fronts_[boundary].meets > now_)) meet(fronts_[boundary].next, false);
+    return first;
   }
 
   void remove(FrontIndex i) {

@@ -26,11 +26,19 @@ double linear_series(double q) {
           x * (1.0 / 15 + x * (1.0 / 35 + x * (1.0 / 63 + x * (1.0 / 99 + x * (1.0 / 143 + x / 195))))));
 }
 
+/// log(r(b) / r(a)) in a linear piece.
+double log_of_rates(const LevelCurves::Place& a, const LevelCurves::Place& b, double rise) {
+  return b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate);
+}
+
 }  // namespace
 
 LevelCurves::LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capacities,
-                         const std::vector<KnownTurn>& known)
-    : pieces_(std::move(pieces)), h_(std::move(capacities)) {
+                         const std::vector<KnownTurn>& known, std::shared_ptr<const FluxBranches> flux)
+    : pieces_(std::move(pieces)),
+      h_(std::move(capacities)),
+      flux_(std::move(flux)),
+      top_(top_of(flux_.get())) {
   SHEARFRONT_EXPECTS(!pieces_.empty() && !h_.empty() && h_.front() == 0, "pieces, and levels from 0 on");
   for (const RatePiece& piece : pieces_) {
     std::vector<double>& turning = turning_.emplace_back(h_.size(), 0.0);
@@ -58,8 +66,7 @@ double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a
   const double rise = piece.bend * (b.z - a.z);
   const double delta = h * rise / (a.rate * b.rate * (a.q + b.q));
   return (rise * (a.rate + b.rate - h) / (a.q * a.rate + b.q * b.rate) -
-          h * (std::log1p(delta / (1 + a.q)) +
-               0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate)))) /
+          h * (std::log1p(delta / (1 + a.q)) + 0.5 * log_of_rates(a, b, rise))) /
          piece.bend;
 }
 
@@ -82,7 +89,7 @@ double LevelCurves::area(std::size_t p, std::size_t level, Place a, Place b) con
   return piece.curve == RateCurve::linear ? linear_area(piece, h, a, b) : exponential_area(piece, h, a, b);
 }
 
-double LevelCurves::deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const {
+double LevelCurves::parabola_deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const {
   if (level == 0) return 0;
   const RatePiece& piece = pieces_[p];
   const double d = b.z - a.z, h = h_[level];
@@ -94,25 +101,76 @@ double LevelCurves::deficit(std::size_t p, std::size_t level, const Place& a, co
     return (delta - std::log1p(delta / (1 + a.q))) * (2 / piece.bend);
   }
   const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
-  const double half_log = 0.5 * (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate));
+  const double half_log = 0.5 * log_of_rates(a, b, rise);
   return h / piece.bend *
          (rise * (1 - 1 / (1 + a.q) - 1 / (1 + b.q)) / (a.q * a.rate + b.q * b.rate) +
           std::log1p(delta / (1 + a.q)) + half_log);
 }
 
-double LevelCurves::characteristic_time(std::size_t p, std::size_t level, double from, double to) const {
+double LevelCurves::branch_deficit(std::size_t p, State s, Place a, Place b) const {
+  const std::size_t k = level(s);
+  if (k == 0) return 0;
   const RatePiece& piece = pieces_[p];
-  const Place a = place(p, level, std::min(from, to)), b = place(p, level, std::max(from, to));
+  const bool is_upper = is_high(s);
+  const double h = h_[k], spread = flux_->spread(is_upper);
+  if (piece.is_constant()) return (b.z - a.z) * (a.q > 0 ? flux_->lack(is_upper, a.q, h / a.rate) : spread);
+  if (!(a.q + b.q > 0)) return spread * (b.z - a.z);
+  double dead = 0;  // the part beyond the turning height
+  if (!(a.q > 0)) {
+    dead = turning_[p][k] - a.z;
+    a = {turning_[p][k], h, 0};
+  }
+  if (!(b.q > 0)) {
+    dead = b.z - turning_[p][k];
+    b = {turning_[p][k], h, 0};
+  }
+  const double d = b.z - a.z;
+  double live;
+  // dz = -dx / (bend x) with x = h / r, or -h dx / (bend x^2).
+  if (piece.curve == RateCurve::exponential) {
+    const double dx = -(h / a.rate) * std::expm1(-piece.bend * d);
+    live = flux_->shape_integral(is_upper, a.q, b.q, dx) / piece.bend;
+  } else {
+    const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
+    live = (flux_->pure_shape(is_upper) * log_of_rates(a, b, rise) +
+            flux_->rest_integral(is_upper, a.q, b.q, dx)) *
+           (h / piece.bend);
+  }
+  return live + spread * dead;
+}
+
+double LevelCurves::characteristic_time(std::size_t p, State s, double from, double to) const {
+  const std::size_t k = level(s);
+  return characteristic_time(p, is_high(s), h_[k], place(p, k, std::min(from, to)),
+                             place(p, k, std::max(from, to)));
+}
+
+double LevelCurves::characteristic_time(std::size_t p, bool is_high, double h, const Place& a,
+                                        const Place& b) const {
+  const RatePiece& piece = pieces_[p];
   const double d = b.z - a.z;
   if (!(d > 0)) return 0;
-  if (piece.is_constant()) return d / (a.rate * a.q);
+  const double x_a = h / a.rate, x_b = h / b.rate;
+  if (flux_ && h > 0) {
+    // 2 int dlack/dx / r dz, the lack being x shape(q).
+    if (piece.is_constant()) return 2 * d / a.rate * flux_->lack_slope(is_high, a.q, x_a);
+    if (piece.curve == RateCurve::exponential)
+      return 2 * (flux_->lack(is_high, a.q, x_a) - flux_->lack(is_high, b.q, x_b)) / (piece.bend * h);
+    const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
+    return 2 *
+           (flux_->pure_shape(is_high) * log_of_rates(a, b, rise) +
+            flux_->rest_integral(is_high, a.q, b.q, dx) + flux_->shape(is_high, a.q) -
+            flux_->shape(is_high, b.q)) /
+           piece.bend;
+  }
+  const double share =
+      flux_ ? 2 * flux_->pure_shape(is_high) : 1;  // of pure states, whose speed is that of g'
+  if (piece.is_constant()) return share * d / (a.rate * a.q);
   // q' = h r' / (2 q r^2): int dz / (r q) is 2 q / (h bend), and 2 artanh q / bend in a linear piece.
   if (piece.curve == RateCurve::exponential)
-    return -2 * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
-  const double rise = piece.bend * d, delta = h_[level] * rise / (a.rate * b.rate * (a.q + b.q));
-  return (2 * std::log1p(delta / (1 + a.q)) +
-          (b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate))) /
-         piece.bend;
+    return -2 * share * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
+  const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
+  return share * (2 * std::log1p(delta / (1 + a.q)) + log_of_rates(a, b, rise)) / piece.bend;
 }
 
 }  // namespace shearfront

@@ -3,26 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "shearfront/riemann/state.hpp"
+#include "shearfront/track/flux_branches.hpp"
 #include "shearfront/track/rate_piece.hpp"
 
 namespace shearfront {
 
 /// What is known of a level in a piece without rounding of its capacity: the height at which it turns, or where the rate is
-/// constant its q.
+/// constant its q there.
 struct KnownTurn {
   std::size_t piece;
   std::size_t level;
   double value;
 };
 
-/// Levels of the flux H = r(z) u (1 - u) of u_t - H_z = 0 in a bed of pieces, and the states at rest that belong to them.
+/// Levels of the flux H = r(z) g(u) / 4 of u_t - H_z = 0 in a bed of pieces, and the states at rest that belong to them;
+/// g(u) = 4 u (1 - u), or another flux with one maximum 1 (FluxBranches).
 ///
 /// Level k has the flux H_k; h_k = 4 H_k is the rate that can just carry it, 0 = h_0 < h_1 < ... < h_N. Its two states are
 /// steady profiles: u = (1 -+ q_k) / 2, q_k(z) = sqrt(1 - h_k / r(z)) where r > h_k, on the live side of its turning height
-/// r(z_k) = h_k, and q_k = 0 beyond: there it carries more than the bed can, u = 1/2. A level may be used beyond its turning
+/// r(z_k) = h_k, and q_k = 0 beyond: there it carries more than the bed can, u = 1/2. (For other fluxes u is a function of q_k,
+/// one for each side, and top() where q_k = 0.) A level may be used beyond its turning
 /// height up to that of the next lower one, so that capacities are rounded up; fronts between neighbouring levels are then means
 /// of characteristics also where these turn.
 ///
@@ -33,7 +37,12 @@ class LevelCurves {
   using Scalar = double;
 
   LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capacities,
-              const std::vector<KnownTurn>& known);
+              const std::vector<KnownTurn>& known, std::shared_ptr<const FluxBranches> flux = nullptr);
+
+  /// None for the parabola.
+  [[nodiscard]] const FluxBranches* flux() const { return flux_.get(); }
+  /// u of the largest flux.
+  [[nodiscard]] double top() const { return top_; }
 
   [[nodiscard]] std::size_t n_layers() const { return pieces_.size(); }
   [[nodiscard]] double boundary(std::size_t k) const {
@@ -82,9 +91,14 @@ class LevelCurves {
   [[nodiscard]] double phi(std::size_t p, State s, double z) const {
     const std::size_t k = level(s);
     if (k == 0) return is_high(s) ? 1 : 0;
-    const double rate = pieces_[p].rate(z), root = q(p, k, z, rate);
-    if (is_high(s)) return (1 + root) / 2;
-    return root > 0 ? h_[k] / rate / (2 * (1 + root)) : 0.5;
+    const double rate = pieces_[p].rate(z);
+    return u_of(is_high(s), h_[k], rate, q(p, k, z, rate));
+  }
+  /// u on one side where the rate r carries h / 4 and q = sqrt(1 - h / r).
+  [[nodiscard]] double u_of(bool is_high, double h, double rate, double root) const {
+    if (!(root > 0)) return top_;
+    const double x = h / rate, lack = flux_ ? flux_->lack(is_high, root, x) : x / (1 + root);
+    return is_high ? 1 - lack / 2 : lack / 2;
   }
 
   /// A height with what is needed there of one level.
@@ -95,33 +109,44 @@ class LevelCurves {
     const double rate = pieces_[p].rate(z);
     return {z, rate, q(p, level, z, rate)};
   }
-  /// int q_k dz from a to b, without cancellation.
+  /// int q_k dz from a to b, without cancellation. Precondition: a parabola.
   [[nodiscard]] double area(std::size_t p, std::size_t level, Place a, Place b) const;
   [[nodiscard]] double area(std::size_t p, std::size_t level, double from, double to) const {
     return area(p, level, place(p, level, from), place(p, level, to));
   }
-  /// int (1 - q_k) dz from a to b: small ones, of levels far below the capacity, to all their digits.
-  [[nodiscard]] double deficit(std::size_t p, std::size_t level, const Place& a, const Place& b) const;
+  /// Twice int |u - pure state of its side| dz of a state, from a to b: small ones, of levels far below the capacity, to all their
+  /// digits.
+  [[nodiscard]] double deficit(std::size_t p, State s, const Place& a, const Place& b) const {
+    return flux_ ? branch_deficit(p, s, a, b) : parabola_deficit(p, level(s), a, b);
+  }
   /// int u dz of a state.
   [[nodiscard]] double amount(std::size_t p, State s, double from, double to) const {
     const std::size_t k = level(s);
     if (k == 0) return is_high(s) ? to - from : 0;
-    const double half = deficit(p, k, place(p, k, from), place(p, k, to)) / 2;
+    const double half = deficit(p, s, place(p, k, from), place(p, k, to)) / 2;
     return is_high(s) ? (to - from) - half : half;
   }
-  /// |int dz / (r q_k)| from a to b: the time in which a characteristic of the level goes there. Precondition: it lives all the
-  /// way, ends excepted where the rate is not constant.
-  [[nodiscard]] double characteristic_time(std::size_t p, std::size_t level, double from, double to) const;
+  /// The time in which a characteristic of a state goes from one height to another, up or down. Precondition: its level lives
+  /// all the way, ends excepted where the rate is not constant.
+  [[nodiscard]] double characteristic_time(std::size_t p, State s, double from, double to) const;
+  /// The same for any flux h / 4, a below b.
+  [[nodiscard]] double characteristic_time(std::size_t p, bool is_high, double h, const Place& a,
+                                           const Place& b) const;
 
  private:
   [[nodiscard]] static double linear_area(const RatePiece& piece, double h, const Place& a, const Place& b);
   [[nodiscard]] static double exponential_area(const RatePiece& piece, double h, const Place& a,
                                                const Place& b);
+  [[nodiscard]] double parabola_deficit(std::size_t p, std::size_t level, const Place& a,
+                                        const Place& b) const;
+  [[nodiscard]] double branch_deficit(std::size_t p, State s, Place a, Place b) const;
 
   std::vector<RatePiece> pieces_;
   std::vector<double> h_;
   std::vector<std::vector<double>> turning_;  ///< per piece and level: z_k, in constant pieces q_k
   std::vector<std::size_t> cap_low_, cap_high_;
+  std::shared_ptr<const FluxBranches> flux_;
+  double top_;
 };
 
 }  // namespace shearfront

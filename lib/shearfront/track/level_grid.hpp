@@ -109,6 +109,9 @@ class LevelGrid {
     return scaled(layer, unit_speed(layer, l, r));
   }
 
+  /// Of the characteristic of a state; not a number for one inside a chord.
+  [[nodiscard]] S edge_speed(std::size_t layer, State i) const { return speed(layer, i, i); }
+
   /// speed(l, m) - speed(m, r), given its rounded value: between vertices it is rate (phi_l - phi_r), without
   /// the cancellation of nearly equal speeds.
   [[nodiscard]] S speed_drop(std::size_t layer, State l, State m, State r, const S& rounded) const {

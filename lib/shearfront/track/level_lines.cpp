@@ -19,7 +19,7 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
   // From the turning height on it is a square root: cut there, the rest by halving.
   std::vector<Point> ends{at(top)};
   const double turn = grid.turning_height(piece, k);
-  if (turn > bottom && turn < top) ends.push_back({turn, 0.5});
+  if (turn > bottom && turn < top) ends.push_back({turn, grid.top()});
   Point low = at(bottom);
   constexpr double kThinnest = 1e-12;
   while (!ends.empty()) {
@@ -44,14 +44,6 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
       add(high.z, mean, mean);
     low = high;
   }
-}
-
-Profile<double> Lines::profile(double top, double offset, double slope) const {
-  std::vector<double> z = z_, below = below_, above = above_;
-  z.back() = top;
-  for (auto* side : {&below, &above})
-    for (double& u : *side) u = offset + slope * u;
-  return {std::move(z), std::move(below), std::move(above)};
 }
 
 }  // namespace shearfront

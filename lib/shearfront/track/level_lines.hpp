@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "shearfront/riemann/state.hpp"
-#include "shearfront/solution/profile.hpp"
 #include "shearfront/track/level_curves.hpp"
 
 namespace shearfront {
@@ -26,8 +25,11 @@ class Lines {
   /// does.
   void add_level(const LevelCurves& grid, std::size_t piece, State state, double z, double tolerance);
 
-  /// phi = offset + slope u as a profile up to `top`.
-  [[nodiscard]] Profile<double> profile(double top, double offset, double slope) const;
+  /// The last line goes on to `top`, which rounding may have missed.
+  void close(double top) { z_.back() = top; }
+  [[nodiscard]] const std::vector<double>& ends() const { return z_; }
+  [[nodiscard]] const std::vector<double>& below() const { return below_; }
+  [[nodiscard]] const std::vector<double>& above() const { return above_; }
 
  private:
   std::vector<double> z_, below_, above_;

@@ -55,6 +55,9 @@ class OneLayerGrid {
     if (S(kLongChord) * run > width) return (flux(0, hi) - flux(0, lo)) / run;
     return rate_ * flux_.secant(polygon_.share(lo), polygon_.share(hi));
   }
+  [[nodiscard]] S edge_speed(std::size_t, State i) const {
+    return rate_ * flux_.derivative(polygon_.share(i));
+  }
   [[nodiscard]] const S& fastest() const { return fastest_; }
   [[nodiscard]] bool is_fan_step(std::size_t, State l, State r) const {
     return polygon_.is_fan_step(flux_, l, r);

@@ -45,8 +45,8 @@ struct RatePiece {
   [[nodiscard]] double height_of(double r) const {
     if (curve == RateCurve::linear)
       return std::abs(r - low) < std::abs(r - high) ? z_low + (r - low) / bend : z_high + (r - high) / bend;
-    const double from_low = std::log(r / low) / bend, from_high = std::log(r / high) / bend;
-    return std::abs(from_low) < std::abs(from_high) ? z_low + from_low : z_high + from_high;
+    const bool is_low_nearer = (r / low < high / r) == (low < high);  // in log r
+    return is_low_nearer ? z_low + std::log(r / low) / bend : z_high + std::log(r / high) / bend;
   }
   /// log(b / a), without cancellation where they are near to each other.
   [[nodiscard]] static double log_ratio(double a, double b) {

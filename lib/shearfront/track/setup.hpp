@@ -155,7 +155,8 @@ struct TrackingSetup {
 template <class AnyTracker, Real Scalar>
 [[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
                                                 const LayerStack<Scalar>& stack,
-                                                const InitialPieces<Scalar>& initial);
+                                                const InitialPieces<Scalar>& initial,
+                                                FanEdges edges = FanEdges::characteristic);
 
 /// The same for data that are constant in pieces.
 template <class AnyTracker, Real Scalar>
@@ -169,12 +170,15 @@ template <class AnyTracker, Real Scalar>
 template <class AnyTracker, Real Scalar>
 [[nodiscard]] Timeline<Scalar> tracked_timeline(const AnyTracker& tracker, const Scene<Scalar>& scene,
                                                 const LayerStack<Scalar>& stack,
-                                                const InitialPieces<Scalar>& initial) {
+                                                const InitialPieces<Scalar>& initial, FanEdges edges) {
   Timeline<Scalar> timeline;
   timeline.mass = scene.mass();
   timeline.steady_height = scene.steady_height();
-  timeline.t0 = tracker.first_wave(0);
-  timeline.t1 = tracker.first_wave(stack.n_layers());
+  const auto first = [&](std::size_t k) {
+    return edges == FanEdges::characteristic ? tracker.first_edge(k) : tracker.first_wave(k);
+  };
+  timeline.t0 = first(0);
+  timeline.t1 = first(stack.n_layers());
   const SlowestArrival<Scalar> slowest(stack, initial.states, initial.tops);
   const auto later = [](std::optional<Scalar> tracked, const Scalar& least) {
     if (tracked) *tracked = std::max(*tracked, least);
@@ -187,7 +191,7 @@ template <class AnyTracker, Real Scalar>
   for (std::size_t k = 1; k < stack.n_layers(); ++k)
     if (stack.is_break(k))
       timeline.interfaces.push_back(
-          {stack.boundary(k), tracker.first_wave(k),
+          {stack.boundary(k), first(k),
            later(tracker.last_wave(k), slowest.at_interface(k, timeline.steady_height))});
   return timeline;
 }

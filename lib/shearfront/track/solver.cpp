@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "shearfront/track/curved_scene.hpp"
+
 namespace shearfront {
 namespace {
 
@@ -31,6 +33,10 @@ class TrackRun final : public Run {
 };
 
 }  // namespace
+
+double FrontTrackingSolver::order_M(const Scene<double>& scene) {
+  return scene.is_layered() || has_curved_fronts(scene) ? guarantees().order_M : guarantees().least_order_M;
+}
 
 void FrontTrackingSolver::prefer_smooth(const Scene<double>& scene, Options& options) {
   Options smooth = options;

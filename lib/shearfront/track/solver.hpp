@@ -7,7 +7,8 @@ namespace shearfront {
 
 /// Event-driven front tracking (see track/tracker.hpp).
 ///
-/// phi is constant between fronts, or linear where they are the states of a fan (reconstruct). Event times:
+/// Between fronts phi is constant, or where the rate varies a steady profile; or linear where they are the states of a fan
+/// (reconstruct). Event times:
 /// scenes between walls; +infinity asks for the steady state, which a periodic bed does not have.
 struct FrontTrackingSolver {
   static constexpr std::string_view kName = "front-tracking";
@@ -24,14 +25,12 @@ struct FrontTrackingSolver {
     g.order_phi = 1;
     g.order_M = 2;
     g.least_order_M = 1;
-    g.where_least = "where a, c or T varies inside a layer";
+    g.where_least = "where a staircase stands for a, c or T";
     return g;
   }
-  /// A staircase stands for what varies inside a layer, with steps as large as those of phi: where paths turn, in the
-  /// throat of a bed above all, M is wrong by the height of a step.
-  static double order_M(const Scene<double>& scene) {
-    return scene.is_layered() ? guarantees().order_M : guarantees().least_order_M;
-  }
+  /// Where fronts cannot be curved (curved_scene.hpp) a staircase stands for what varies inside a layer, with steps as large as
+  /// those of phi: where paths turn, in the throat of a bed above all, M is wrong by the height of a step.
+  static double order_M(const Scene<double>& scene);
   /// States constant between fronts have no derivative in the numbers of the scene; the lines through them
   /// do, and are closer to the solution.
   static void prefer_smooth(const Scene<double>& scene, Options& options);

@@ -177,7 +177,7 @@ class TrackingOn final : public AnyTracking {
     status_ = tracker_.run_to_steady(limits_);
     if (status_ != Status::ok && status_ != Status::steady) return std::nullopt;
     const Timeline<double> timeline =
-        tracked_timeline(tracker_, bed_->scene, bed_->setup.stack, bed_->setup.initial);
+        tracked_timeline(tracker_, bed_->scene, bed_->setup.stack, bed_->setup.initial, bed_->edges);
     rests_never_ = tracker_.is_steady() && !timeline.t_star;
     return timeline;
   }
@@ -217,10 +217,12 @@ class TrackingOn final : public AnyTracking {
     Bed(const Scene<double>& of, const TrackOptions& options, LayerStack<double> stack)
         : scene(of),
           setup(of, std::move(stack), options.resolution, options.grid),
-          reconstruct(options.reconstruct) {}
+          reconstruct(options.reconstruct),
+          edges(options.edges) {}
     Scene<double> scene;
     TrackingSetup<double, Grid> setup;
     Reconstruction reconstruct;
+    FanEdges edges;
   };
 
   std::shared_ptr<const Bed> bed_;

@@ -49,10 +49,7 @@ struct TrackOptions {
         self.resolution);
     visit(OptionInfo{"grid", "grid of states", {}, kGridNames}, self.grid);
     visit(OptionInfo{"reconstruct", "phi between fronts", {}, kReconstructionNames}, self.reconstruct);
-    visit(
-        OptionInfo{
-            "edges", "first arrivals of fans where the rate varies smoothly", {}, kFanEdgeNames, {}, true},
-        self.edges);
+    visit(OptionInfo{"edges", "first arrivals of fans", {}, kFanEdgeNames, {}, true}, self.edges);
     visit(OptionInfo{"layers",
                      "smooth shear rates: number of layers of the staircase",
                      {1, 1e6},

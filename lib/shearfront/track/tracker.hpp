@@ -125,6 +125,10 @@ class Tracker {
   [[nodiscard]] const std::optional<Scalar>& first_wave(std::size_t k) const {
     return system_.waves(k).first;
   }
+  /// The first one, where it is the edge of a fan the characteristic there, which is faster than any front.
+  [[nodiscard]] const std::optional<Scalar>& first_edge(std::size_t k) const {
+    return system_.waves(k).first_edge;
+  }
   [[nodiscard]] const std::optional<Scalar>& last_wave(std::size_t k) const { return system_.waves(k).last; }
 
   /// Fronts and boundaries at the current time from bottom to top: visit(is_boundary, view, z).

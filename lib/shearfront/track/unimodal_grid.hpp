@@ -86,6 +86,11 @@ class UnimodalGrid {
     if (S(kLongChord) * (run < 0 ? S(-run) : run) > (width < 0 ? S(-width) : width)) return rise / run;
     return layers_[layer].rate * fluxes_[c.flux].secant(c.polygon.share(lo), c.polygon.share(hi));
   }
+  /// Of the characteristic of a state.
+  [[nodiscard]] S edge_speed(std::size_t layer, State i) const {
+    const Class& c = class_of(layer);
+    return layers_[layer].rate * fluxes_[c.flux].derivative(c.polygon.share(i));
+  }
   /// Bound for |speed| in all layers.
   [[nodiscard]] const S& fastest() const { return fastest_; }
   /// Whether l | r is one step of a fan: neighbouring vertices between which the flux is curved, in the order in

@@ -23,6 +23,7 @@ std::string_view nlopt_name(std::string_view algorithm) {
 SearchResult search_once(Objective& objective, const VectorXd& start, const SearchSpec& spec) {
   if (spec.algorithm == "ceres") return search_ceres(objective, start, spec);
   if (spec.algorithm == "global") return search_global(objective, start, spec);
+  if (spec.algorithm == "pattern") return search_pattern(objective, start, spec);
   return search_nlopt(objective, start, spec, nlopt_name(spec.algorithm));
 }
 
@@ -55,7 +56,7 @@ SearchResult search_many(Objective& objective, const VectorXd& start, const Sear
 }  // namespace
 
 std::vector<std::string> algorithm_names() {
-  std::vector<std::string> names{"ceres", "global"};
+  std::vector<std::string> names{"ceres", "global", "pattern"};
   for (const NloptAlgorithm& algorithm : kNloptAlgorithms)
     names.push_back(std::string(kNlopt) + std::string(algorithm.name));
   return names;

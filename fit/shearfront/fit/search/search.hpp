@@ -21,7 +21,7 @@ struct SearchResult {
   std::string message;
 };
 
-/// The search named by `spec.algorithm` ("ceres", "global", "nlopt:NAME"), from `start` inside the box of the
+/// The search named by `spec.algorithm` ("ceres", "global", "pattern", "nlopt:NAME"), from `start` inside the box of the
 /// coordinates; with spec.starts > 1 also from so many more points of the box less one, each with an equal
 /// share of the evaluations left. It ends early when the misfit is at rounding level. The outcome is a
 /// Status, never an exception; bad names throw InputError (search.algorithm).
@@ -43,6 +43,15 @@ struct SearchResult {
 [[nodiscard]] SearchResult search_nlopt(Objective& objective, const Eigen::VectorXd& start,
                                         const SearchSpec& spec, std::string_view name);
 
+/// Compass search with the defaults of MATLAB's patternsearch, for comparison with papers that used it: from a mesh of 1 it
+/// tries +e_1 ... +e_N, -e_1 ... -e_N times the mesh, goes to the first point that is better and doubles the mesh, and
+/// halves it where there is none; points beyond the bounds or without the shape are skipped. It ends when the mesh is
+/// below the tolerance. It moves the parameters themselves, unscaled, so its answers depend on their units and are the
+/// start plus multiples of powers of two. Cost: up to 2 N evaluations for each halving. Source: Torczon (1997), SIAM J.
+/// Optim. 7, 1-25.
+[[nodiscard]] SearchResult search_pattern(Objective& objective, const Eigen::VectorXd& start,
+                                          const SearchSpec& spec);
+
 /// The smallest of many minima: short Ceres searches, continued where they promise more than the best so far.
 ///
 /// They start from `start` times the common factor of a(z) that the data like best (a unit of time, scanned
@@ -57,7 +66,7 @@ struct SearchResult {
 /// The complaint about a name that is not one of algorithm_names().
 [[nodiscard]] InputError unknown_algorithm(std::string_view algorithm);
 
-/// "ceres", "global", "nlopt:sbplx", ...: what search.algorithm may be.
+/// "ceres", "global", "pattern", "nlopt:sbplx", ...: what search.algorithm may be.
 [[nodiscard]] std::vector<std::string> algorithm_names();
 
 /// Whether the algorithm follows derivatives (and so needs a misfit without jumps).

@@ -132,6 +132,7 @@ std::vector<std::vector<double>> study_points(const StudySpec& spec) {
       unit = mixtures(spec.runs, d, uniform);
       break;
     case DesignKind::fit:
+    case DesignKind::replicates:
       break;
   }
   for (auto& point : unit)

@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "shearfront/fit/method_table.hpp"
+#include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/study/study_spec.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/scene_file.hpp"
+#include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/entries.hpp"
@@ -25,11 +27,6 @@ using Kind = StudyOutput::Kind;
 
 constexpr unsigned long long kMostRuns = 100'000'000;
 constexpr std::size_t kMostGridRuns = 100'000'000;
-
-template <class Names>
-std::vector<std::string> texts_of(const Names& names) {
-  return {names.begin(), names.end()};
-}
 
 class StudyReader {
  public:
@@ -66,8 +63,8 @@ class StudyReader {
     const std::string path =
         (std::filesystem::path(source_.name()).parent_path() / (scene ? *scene : *fit)).string();
     if (scene) {
-      spec_.scene_text = detail::TextSource::read(path).text();
-      spec_.scene = parse_scene<double>(spec_.scene_text, path);
+      spec_.scene = read_scene<double>(path);
+      spec_.scene_text = scene_text(spec_.scene->spec());
     } else {
       spec_.scene_text = detail::TextSource::read(path).text();
       spec_.fit_file = read_fit_file(path);
@@ -80,7 +77,6 @@ class StudyReader {
   void variation(TableReader& table) {
     Variation v;
     v.entry = table.text("entry", Need::required, "must be the name of an entry of the scene").value_or("");
-    const std::vector<std::string> kinds(kVariationNames.begin() + 1, kVariationNames.end());
     std::size_t n_kinds = table.node("list") ? 1 : 0;
     if (n_kinds == 1) {
       table.number("list", Need::optional, v.values);
@@ -149,10 +145,8 @@ class StudyReader {
   }
 
   void design(TableReader& table) {
-    const auto kind = table.choice("kind", Need::optional, texts_of(kDesignNames));
-    if (kind)
-      spec_.design = static_cast<DesignKind>(std::find(kDesignNames.begin(), kDesignNames.end(), *kind) -
-                                             kDesignNames.begin());
+    if (const auto i = table.place("kind", Need::optional, kDesignNames))
+      spec_.design = static_cast<DesignKind>(*i);
     if (const auto n = table.count("runs", Need::optional, 1, kMostRuns))
       spec_.runs = static_cast<std::size_t>(*n);
     if (const auto n = table.count("seed", Need::optional, 0, 9'007'199'254'740'991)) spec_.seed = *n;
@@ -208,9 +202,23 @@ class StudyReader {
                                    fmt::format("{}({};{})", name, number_text(t), number_text(z))});
       }
     }
+    if (table.boolean("estimates", Need::optional).value_or(false)) estimates(table);
     if (spec_.outputs.empty() && report_.is_empty())
-      report_.add(table.position(), {"outputs", "", "must ask for events or quantities"});
+      report_.add(table.position(), {"outputs", "", "must ask for events, quantities or estimates"});
     table.finish();
+  }
+
+  void estimates(TableReader& table) {
+    if (spec_.design != DesignKind::replicates || !spec_.fit_file)
+      return table.add(*table.node("estimates"), table.path("estimates"),
+                       "must be of a fit file with design.kind = \"replicates\"");
+    const FitSpec& fit = spec_.fit_file->spec;
+    std::size_t i = 0;
+    for (const Parameter& p : Parameters(fit.scene, fit.unknown)) {
+      spec_.outputs.push_back({Kind::estimate, i, 0, 0, p.name()});
+      spec_.outputs.push_back({Kind::std_error, i++, 0, 0, "std_error(" + p.name() + ")"});
+    }
+    spec_.outputs.push_back({Kind::misfit, 0, 0, 0, "misfit"});
   }
 
   /// "t_0", "t_1", "t*", "t_c(1)", "t^_c(1)", as `events` calls them.
@@ -245,9 +253,11 @@ class StudyReader {
     const auto refuse = [&](const std::string& key, const std::string& constraint) {
       report_.add(design ? TomlSource::position(*design) : detail::Position{1, 1}, {key, "", constraint});
     };
-    const bool is_fit = spec_.design == DesignKind::fit;
+    const bool is_fit = spec_.design == DesignKind::fit || spec_.design == DesignKind::replicates;
     if (is_fit != spec_.fit_file.has_value())
-      return refuse("design.kind", "must be fit for a fit file, and only for one");
+      return refuse("design.kind", "must be fit or replicates for a fit file, and only for one");
+    if (spec_.fit_file && spec_.fit_file->choice)
+      return refuse("fit", "must be a file of one model, without [compare]");
     if (!is_fit && spec_.variations.empty())
       return refuse("vary", "missing; must be [[vary]] tables, what is to vary");
     if (is_fit && !spec_.variations.empty()) return refuse("vary", "must not stand beside fit");

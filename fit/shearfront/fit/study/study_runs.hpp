@@ -2,9 +2,11 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/study/study_spec.hpp"
 #include "shearfront/solver/solve.hpp"
 
@@ -28,15 +30,25 @@ class StudyRuns {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   /// Names of the entries that vary, in the order of StudyRow::values.
   [[nodiscard]] const std::vector<std::string>& entries() const { return entries_; }
-  [[nodiscard]] StudyRow run(std::size_t i) const;
+  /// `goes_on` is asked now and then; once it returns false the row means nothing.
+  [[nodiscard]] StudyRow run(std::size_t i, const std::function<bool()>& goes_on = {}) const;
 
-  /// Runs these, on `threads` threads (0: all cores), and hands the rows on in their order, whatever the threads. take()
-  /// returns false to end. Cost: the runs.
+  /// Runs these, on `threads` threads (0: all cores), and hands the rows on in their order, one at a time, whatever the
+  /// threads, as soon as those before them are done. It ends when goes_on(), asked in each run, returns false. Errors: those
+  /// of take(). Cost: the runs; rows that wait for one before them, at most 4096.
   void run_all(const std::vector<std::size_t>& which, std::size_t threads,
-               const std::function<bool(const StudyRow&)>& take) const;
+               const std::function<void(const StudyRow&)>& take,
+               const std::function<bool()>& goes_on = {}) const;
 
  private:
+  void prepare_replicates();
+  [[nodiscard]] StudyRow run_replicate(std::size_t i, const std::function<bool()>& goes_on) const;
+  /// Fills the outputs that are numbers of the scene.
+  void solve_outputs(const Scene<double>& scene, const std::function<bool()>& goes_on, StudyRow& row) const;
+
   StudySpec spec_;
+  std::optional<FitSpec> replicate_;  ///< of design replicates, and the fit whose predictions get noise
+  std::optional<Estimate> estimate_;
   std::vector<std::vector<double>> points_;
   std::vector<std::string> entries_;
   std::vector<std::size_t> places_;  ///< of the entries among entry_places()

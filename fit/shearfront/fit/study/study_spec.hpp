@@ -44,16 +44,17 @@ enum class DesignKind {
   sobol,            ///< a low-discrepancy sequence
   random,           ///< independent
   indices,          ///< what Sobol indices need: two random designs and their mixtures, n (d + 2) runs
-  fit               ///< draws from the estimates of a fit with their covariance
+  fit,              ///< draws from the estimates of a fit with their covariance
+  replicates        ///< fits of synthetic data: what the estimate predicts, with fresh noise
 };
-inline constexpr std::array<std::string_view, 6> kDesignNames{"grid",   "latin-hypercube", "sobol",
-                                                              "random", "sobol-indices",   "fit"};
+inline constexpr std::array<std::string_view, 7> kDesignNames{
+    "grid", "latin-hypercube", "sobol", "random", "sobol-indices", "fit", "replicates"};
 
 /// A number of the scene's solution.
 struct StudyOutput {
-  enum class Kind { t0, t1, t_star, first, last, phi, M, height, mixing };
+  enum class Kind { t0, t1, t_star, first, last, phi, M, height, mixing, estimate, std_error, misfit };
   Kind kind = Kind::t_star;
-  std::size_t interface = 0;  ///< of first and last
+  std::size_t interface = 0;  ///< of first and last; the number of the unknown of estimate and std_error
   double t = 0, z = 0;
   std::string name;  ///< of its column: "t_star", "t_c(1)", "phi(0.5;0.3)"
 };
@@ -68,7 +69,7 @@ struct StudySpec {
   std::size_t runs = 0;  ///< n; of a grid the product of its steps
   std::uint64_t seed = 1;
   std::vector<StudyOutput> outputs;
-  std::optional<FitFile> fit_file;  ///< of design fit
+  std::optional<FitFile> fit_file;  ///< of design fit and replicates
 };
 
 /// Reads a study file (docs/reference/formats). Errors: FileError with every complaint.

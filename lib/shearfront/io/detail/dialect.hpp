@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/simulation_table.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
 
@@ -18,9 +19,8 @@ struct Dialect {
   TableLayout layout = TableLayout::rows;
   std::size_t header = 0;  ///< offset of the header line; of the first line of content if none is found
   std::optional<std::size_t> units;  ///< offset of the row of units below it
-  /// Averages over chunks as the particle code LAMMPS writes them: comments, of which the third names the columns; then
-  /// for each time a line "step number-of-chunks count" and as many rows. The step is a column of its own, "Timestep".
-  bool are_chunks = false;
+  SimulationCode code = SimulationCode::none;
+  [[nodiscard]] bool is_simulated() const { return code != SimulationCode::none; }
 
   /// "separated by semicolons, decimal commas"; empty for commas and points.
   [[nodiscard]] std::string text() const;
@@ -31,14 +31,5 @@ struct Dialect {
 /// each (a wide table). The decimal mark is a comma if numbers below have commas and none a point.
 /// Cost: O(length of the first 200 lines).
 [[nodiscard]] Dialect dialect_of(const TextSource& source, const ObservationFormat& format);
-
-/// What a format says of a file of averages over chunks: t is Timestep, z is Coord1 unless it says otherwise.
-[[nodiscard]] ObservationFormat format_of_chunks(ObservationFormat format);
-
-/// The line that begins at `offset`, without its end.
-[[nodiscard]] std::string_view line_at(std::string_view text, std::size_t offset);
-
-/// A number with this decimal mark; nothing for anything else.
-[[nodiscard]] std::optional<double> number_with_mark(std::string_view text, char decimal);
 
 }  // namespace shearfront::detail

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/observations_csv.hpp"
 
@@ -16,15 +17,6 @@ namespace shearfront::detail {
 [[nodiscard]] constexpr std::string_view name_of(Column column) {
   return kColumnNames[static_cast<std::size_t>(column)];
 }
-
-/// A field of a header: "z [mm]" and "z (mm)" are z in mm.
-struct Heading {
-  std::string name, unit;
-  std::string text;  ///< as it stands in the file
-};
-[[nodiscard]] Heading heading_of(std::string_view field);
-/// The other way round: "z [mm]", "z" without a unit.
-[[nodiscard]] std::string heading_text(std::string_view name, std::string_view unit);
 
 /// Which columns a header has, by the names of the format and the usual ones; quietly, for the search for it.
 struct HeaderMatch {

@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -66,7 +67,9 @@ class ComplaintReport {
   /// Whether this entry or a table or array around it could not be read.
   [[nodiscard]] bool is_spoiled(std::string_view key) const;
   [[nodiscard]] bool is_empty() const { return located_.empty(); }
-  /// Errors: FileError with the complaints, sorted by place, each line once; nothing if there are none.
+  /// The complaints, sorted by place, each line once; nothing if there are none.
+  [[nodiscard]] std::optional<FileError> error() const;
+  /// Errors: that.
   void throw_if_any() const;
 
  private:
@@ -82,6 +85,9 @@ class ComplaintReport {
   std::vector<Located> located_;
   std::set<std::string, std::less<>> spoiled_;
 };
+
+/// Errors: FileError with all that these say, in their order; nothing if there are none.
+void throw_joined(const std::vector<FileError>& errors);
 
 /// FileError for a complaint about a file as a whole: "scene.toml: cannot be read: Is a directory".
 [[noreturn]] void throw_file_error(const std::string& file, const std::string& what);

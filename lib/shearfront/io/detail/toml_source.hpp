@@ -2,6 +2,7 @@
 #pragma once
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,6 +60,14 @@ class TableReader {
   /// One of these names; nothing if it is missing or wrong.
   [[nodiscard]] std::optional<std::string> choice(std::string_view key, Need need,
                                                   const std::vector<std::string>& names);
+  /// The same as its place among them: for enumerators in the order of their names.
+  template <class Names>
+  [[nodiscard]] std::optional<std::size_t> place(std::string_view key, Need need, const Names& names) {
+    const std::vector<std::string> all(names.begin(), names.end());
+    const auto name = choice(key, need, all);
+    if (!name) return std::nullopt;
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), *name) - all.begin());
+  }
   [[nodiscard]] std::optional<bool> boolean(std::string_view key, Need need);
   /// A whole number from `low` to `high`; 1e6 is one, too. Nothing if it is missing or wrong.
   [[nodiscard]] std::optional<unsigned long long> count(std::string_view key, Need need,

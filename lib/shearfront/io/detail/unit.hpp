@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string_view>
+#include <utility>
 
 /// Units of lengths, times and fractions by their usual names; no system of dimensions. A name that is not in the
 /// table is kept as it is and can be compared, not converted.
@@ -23,5 +24,8 @@ struct Unit {
 /// and one of them is not known or they measure different things. The factor is that of the table in one rounding:
 /// 10 for cm to mm, 0.1 for mm to cm.
 [[nodiscard]] std::optional<double> unit_factor(std::string_view from, std::string_view to);
+
+/// The same as a numerator and a denominator, whole numbers both: for scalars that round less than a double.
+[[nodiscard]] std::optional<std::pair<double, double>> unit_ratio(std::string_view from, std::string_view to);
 
 }  // namespace shearfront::detail

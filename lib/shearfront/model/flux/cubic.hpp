@@ -31,6 +31,7 @@ struct Cubic {
       "-phi (1 - phi)(1 - gamma phi), or scaled to the extremum -1/4";
   static constexpr std::string_view kStates = "0 <= phi <= 1";
   static constexpr bool kIsParabola = false;
+  static constexpr int kDegree = 3;
 
   Scalar gamma{0};
   CubicScaling scaling = CubicScaling::none;

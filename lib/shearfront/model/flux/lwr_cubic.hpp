@@ -24,6 +24,7 @@ struct LwrCubic {
   static constexpr std::string_view kFormula = "phi (1 - phi / jam)(1 - gamma phi / jam)";
   static constexpr std::string_view kStates = "0 <= phi <= jam";
   static constexpr bool kIsParabola = false;
+  static constexpr int kDegree = 3;
 
   Scalar jam{1}, gamma{0};
 

@@ -29,6 +29,8 @@ struct StateRange {
 ///                       engines then use the closed forms of the quadratic flux
 ///   second_derivative   f'', only if the model has it: otherwise engines take differences of f'
 ///   joints              places inside the range where f is not analytic, only if there are some: engines cut integrals there
+///   kDegree             between extrema and joints f is a polynomial of this degree, at most 3, only if it is: the exact engine then works
+///                       with its coefficients
 ///
 /// A flux that is one polynomial of degree two for all real states without being such a parabola says so by
 /// kIsQuadraticPolynomial = true.
@@ -56,6 +58,13 @@ template <class F, class Scalar>
     return other - slope <= rounding && slope - other <= rounding;
   };
   return equal(f.secant(p, third)) && equal(f.secant(p, middle)) && equal(f.secant(middle, q));
+}
+
+/// Of polynomials between extrema and joints; large for any other flux.
+template <class F>
+[[nodiscard]] constexpr int degree_between_joints() {
+  if constexpr (requires { F::kDegree; }) return F::kDegree;
+  return F::kIsParabola ? 2 : 1 << 20;
 }
 
 template <class F>

@@ -25,6 +25,7 @@ struct FluxTable {
   static constexpr std::string_view kFormula = "monotone cubic through the points (phi[i], values[i])";
   static constexpr std::string_view kStates = "phi[0] <= phi <= phi[last]";
   static constexpr bool kIsParabola = false;
+  static constexpr int kDegree = 3;
 
   std::vector<Scalar> phi, values;
 

@@ -23,6 +23,7 @@ struct Triangular {
   static constexpr std::string_view kFormula = "min(phi, critical (jam - phi) / (jam - critical))";
   static constexpr std::string_view kStates = "0 <= phi <= jam";
   static constexpr bool kIsParabola = false;
+  static constexpr int kDegree = 1;
 
   Scalar critical{0.5}, jam{1};
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/fit_file.hpp"
+
+/// Several shear rates for the same observations, from one fit file.
+namespace shearfront::fit {
+
+/// Why a model cannot be chosen: its name is none of the depth functions, or it has arrays and no number of them, or the
+/// other way round. Empty if it can.
+[[nodiscard]] std::string refusal(const ModelChoice::Model& model);
+
+/// The fit with this shear rate in place of the scene's, which it resembles at the start: layers have its harmonic means,
+/// a table its values, entries that are single numbers those that come closest in log a(z). Layers are equally thick, the
+/// points of a table equally far from each other. With a shape the start is constant, which has every shape.
+/// Precondition: refusal() is empty. Errors: InputError if the scene is invalid with it.
+[[nodiscard]] FitSpec with_model(const FitSpec& base, const ModelChoice& choice,
+                                 const ModelChoice::Model& model, const Scene<double>& resembled);
+
+struct ChosenModels {
+  std::vector<FitSpec> specs;
+  std::vector<Estimate> estimates;
+};
+
+/// Fits every model from the scene, and again from the best found so far, of which it keeps the better: a model with more
+/// entries starts no worse than one with fewer. Errors: as fit(). Cost: two fits a model.
+[[nodiscard]] ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice,
+                                      const Progress& progress = {});
+
+}  // namespace shearfront::fit
