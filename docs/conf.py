@@ -33,7 +33,7 @@ numpydoc_class_members_toctree = False
 
 # Pictures of the gallery by area, in the order in which they are shown.
 gallery_areas = {
-    "Waves": ["fronts-two-layers", "profiles", "fronts-exponential", "bottleneck", "smooth-start", "bed-height"],
+    "Waves": ["fronts-two-layers", "film", "profiles", "fronts-exponential", "bottleneck", "smooth-start", "bed-height"],
     "Measurements": ["fit-laboratory", "prediction", "bootstrap", "sensitivity", "real-grains", "study"],
     "Other fluxes, diffusion": ["traffic-light", "speed-limit", "settling", "oil-and-water", "diffusion"],
     "Methods": ["error-against-time", "convergence", "packing"],

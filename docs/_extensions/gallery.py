@@ -2,7 +2,7 @@
 """The directives gallery, gallery-thumbnails and picture.
 
 Every picture is a file of docs/gallery or, for the drawings of the theory, docs/drawings: a Python script (.py) that ends with
-`figure = ...`, or a shell script (.sh) that makes picture.svg or picture.png. The first lines are comments: the title, then a
+`figure = ...` or `film = ...` (an animation of matplotlib), or a shell script (.sh) that makes picture.svg or picture.png. The first lines are comments: the title, then a
 sentence or two. What has changed since it last ran is run, a few at a time. The gallery shows pictures with their code; `picture`
 shows one, with its code folded away.
 """
@@ -26,7 +26,10 @@ matplotlib.rcParams["svg.hashsalt"] = "shearfront"
 import sys
 names = {"__name__": "__main__"}
 exec(compile(open(sys.argv[1]).read(), sys.argv[1], "exec"), names)
-names["figure"].savefig("picture.png", dpi=110)
+if "film" in names:
+    names["film"].save("picture.gif", writer="pillow", fps=8, dpi=80)
+else:
+    names["figure"].savefig("picture.png", dpi=110)
 """
 
 
@@ -51,7 +54,7 @@ class Picture:
     @property
     def file(self):
         """The picture."""
-        return next(f for f in (self.folder / "picture.svg", self.folder / "picture.png") if f.exists())
+        return next(f for f in (self.folder / f"picture.{kind}" for kind in ("svg", "png", "gif")) if f.exists())
 
     def draw(self, root):
         """Runs the script, if it is not the one that drew what is there. Returns what went wrong."""
