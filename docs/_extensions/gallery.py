@@ -2,9 +2,9 @@
 """The directives gallery, gallery-thumbnails and picture.
 
 Every picture is a file of docs/gallery or, for the drawings of the theory, docs/drawings: a Python script (.py) that ends with
-`figure = ...` or `film = ...` (an animation of matplotlib), or a shell script (.sh) that makes picture.svg or picture.png. The first lines are comments: the title, then a
-sentence or two. What has changed since it last ran is run, a few at a time. The gallery shows pictures with their code; `picture`
-shows one, with its code folded away.
+`figure = ...` or `film = ...` (an animation of matplotlib), or a shell script (.sh) that makes picture.svg or picture.png. The
+first lines are comments: the title, then a sentence or two. What has changed since it last ran is run, a few at a time. The
+gallery shows pictures with their code; `picture` shows one, with its code folded away.
 """
 
 import concurrent.futures
