@@ -31,6 +31,14 @@ autodoc_member_order = "bysource"
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
 
+# Pictures of the gallery by area, in the order in which they are shown.
+gallery_areas = {
+    "Waves": ["fronts-two-layers", "film", "profiles", "fronts-exponential", "bottleneck", "smooth-start", "bed-height"],
+    "Measurements": ["fit-laboratory", "prediction", "bootstrap", "sensitivity", "real-grains", "study"],
+    "Other fluxes, diffusion": ["traffic-light", "speed-limit", "settling", "oil-and-water", "diffusion"],
+    "Methods": ["error-against-time", "convergence", "packing"],
+}
+
 html_theme = "furo"
 html_title = f"shearfront {version}"
 html_static_path = ["_static"]

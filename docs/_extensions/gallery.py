@@ -2,9 +2,9 @@
 """The directives gallery, gallery-thumbnails and picture.
 
 Every picture is a file of docs/gallery or, for the drawings of the theory, docs/drawings: a Python script (.py) that ends with
-`figure = ...`, or a shell script (.sh) that makes picture.svg or picture.png. The first lines are comments: the title, then a
-sentence or two. What has changed since it last ran is run, a few at a time. The gallery shows pictures with their code; `picture`
-shows one, with its code folded away.
+`figure = ...` or `film = ...` (an animation of matplotlib), or a shell script (.sh) that makes picture.svg or picture.png. The
+first lines are comments: the title, then a sentence or two. What has changed since it last ran is run, a few at a time. The
+gallery shows pictures with their code; `picture` shows one, with its code folded away.
 """
 
 import concurrent.futures
@@ -26,7 +26,10 @@ matplotlib.rcParams["svg.hashsalt"] = "shearfront"
 import sys
 names = {"__name__": "__main__"}
 exec(compile(open(sys.argv[1]).read(), sys.argv[1], "exec"), names)
-names["figure"].savefig("picture.png", dpi=110)
+if "film" in names:
+    names["film"].save("picture.gif", writer="pillow", fps=8, dpi=80)
+else:
+    names["figure"].savefig("picture.png", dpi=110)
 """
 
 
@@ -51,7 +54,7 @@ class Picture:
     @property
     def file(self):
         """The picture."""
-        return next(f for f in (self.folder / "picture.svg", self.folder / "picture.png") if f.exists())
+        return next(f for f in (self.folder / f"picture.{kind}" for kind in ("svg", "png", "gif")) if f.exists())
 
     def draw(self, root):
         """Runs the script, if it is not the one that drew what is there. Returns what went wrong."""
@@ -92,8 +95,17 @@ def _pictures(app):
     return app.shearfront_gallery
 
 
-def _of_gallery(pictures):
-    return [p for p in pictures.values() if p.script.parent.name == "gallery"]
+def _of_gallery(app):
+    """Areas with their pictures; every script of the gallery is in one."""
+    pictures = _pictures(app)
+    areas = app.config.gallery_areas
+    there = {p.name for p in pictures.values() if p.script.parent.name == "gallery"}
+    listed = [name for names in areas.values() for name in names]
+    if sorted(listed) != sorted(there):
+        raise ExtensionError(
+            f"gallery_areas and the scripts of docs/gallery differ: {', '.join(there.symmetric_difference(listed))}"
+        )
+    return {area: [pictures[name] for name in names] for area, names in areas.items()}
 
 
 def _image(picture, page):
@@ -116,7 +128,7 @@ class Thumbnails(SphinxDirective):
         up = "../" * page.count("/")
         wanted = [line.partition(": ")[::2] for line in self.content if line.strip()]
         if not wanted:
-            wanted = [(p.name, p.title) for p in _of_gallery(pictures)]
+            wanted = [(p.name, p.title) for shown in _of_gallery(self.env.app).values() for p in shown]
         size = " large" if len(wanted) < 4 else ""
         cells = "".join(
             f'<a href="{up}gallery/index.html#{name}">'
@@ -130,19 +142,26 @@ class Gallery(SphinxDirective):
     """Every picture with its text and its code."""
 
     def run(self):
-        """A section for each picture."""
+        """A section for each area."""
         made = []
-        for picture in _of_gallery(_pictures(self.env.app)):
-            self.env.note_dependency(str(picture.script))
-            section = nodes.section(ids=[picture.name], names=[picture.name])
-            code = nodes.literal_block(picture.code, picture.code)
-            code["language"] = picture.language
-            section += nodes.title(picture.title, picture.title)
-            section += nodes.paragraph(picture.text, picture.text)
-            section += nodes.raw("", f'<img src="{_image(picture, self.env.docname)}" alt="{picture.title}">', format="html")
-            section += code
-            made.append(section)
+        for area, pictures in _of_gallery(self.env.app).items():
+            part = nodes.section(ids=[nodes.make_id(area)], names=[area])
+            part += nodes.title(area, area)
+            part += [self.section(picture) for picture in pictures]
+            made.append(part)
         return made
+
+    def section(self, picture):
+        """Title, text, picture and code."""
+        self.env.note_dependency(str(picture.script))
+        section = nodes.section(ids=[picture.name], names=[picture.name])
+        code = nodes.literal_block(picture.code, picture.code)
+        code["language"] = picture.language
+        section += nodes.title(picture.title, picture.title)
+        section += nodes.paragraph(picture.text, picture.text)
+        section += nodes.raw("", f'<img src="{_image(picture, self.env.docname)}" alt="{picture.title}">', format="html")
+        section += code
+        return section
 
 
 class OnePicture(SphinxDirective):
@@ -168,6 +187,7 @@ class OnePicture(SphinxDirective):
 
 def setup(app):
     """Adds the directives."""
+    app.add_config_value("gallery_areas", {}, "env")
     app.add_directive("picture", OnePicture)
     app.add_directive("gallery", Gallery)
     app.add_directive("gallery-thumbnails", Thumbnails)

@@ -1,6 +1,6 @@
 # Three models of the same data
-# s a(z) by each of the three fits, with 95 % bands, and the truth dashed. The bands of the wrong models are narrow too: they
-# know nothing of being wrong.
+# s a(z) by each of the three fits, with 95 % bands, and the truth dashed. The bands of the wrong models do not hold the truth:
+# they know nothing of being wrong.
 import matplotlib.pyplot as plt
 
 import shearfront as sf

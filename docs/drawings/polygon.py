@@ -1,6 +1,6 @@
 # The flux as a polygon
-# With corners at steps of 0.2 (left) the curve becomes a polygon, and the fan (right) five jumps with constant speeds, the
-# slopes of its sides.
+# With corners at steps of 1/6 (left) the curve becomes a polygon, and the fan (right) six jumps with constant speeds, the slopes
+# of its sides.
 import matplotlib.pyplot as plt
 import numpy as np
 

@@ -1,5 +1,5 @@
 # Front tracking step by step
-# Six moments of one run with five fronts in the fan. Above: all fronts so far, collisions as dots. Below: φ(z) at that moment.
+# Six moments of one run with six fronts in the fan. Above: all fronts so far, collisions as dots. Below: φ(z) at that moment.
 import matplotlib.pyplot as plt
 
 import shearfront as sf

@@ -1,5 +1,6 @@
 # A bottleneck
-# A uniform mixture over a layer that is sheared little: no more than its capacity passes, the rest piles up. Exact solution.
+# A uniform mixture in two layers, the upper one sheared little. Large grains want to rise, and no more than its capacity passes:
+# they pile up below the interface. Exact solution.
 import shearfront as sf
 
 scene = sf.read("datasets/bottleneck/scene.toml")

@@ -6,4 +6,4 @@ scene = sf.Scene(
     shear_rate=sf.Exponential(2, 0.7),
     initial=sf.SineInitial(mean=0.5, amplitude=0.4, wavelength=0.7),
 )
-figure = sf.pictures.map(scene, 4).figure
+figure = sf.pictures.map(scene, 2, method="front-tracking", resolution=0.005).figure

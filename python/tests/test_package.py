@@ -119,7 +119,9 @@ def test_pictures(may: sf.Scene) -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("name", ["docs/tutorials/python.md", "docs/tutorials/own-flux.md", "README.md"])
+@pytest.mark.parametrize(
+    "name", ["docs/tutorials/python.md", "docs/tutorials/own-flux.md", "docs/how-to/in-python.md", "README.md"]
+)
 def test_pages(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Runs the blocks ```python of a page in one session."""
     if name.startswith("docs"):
