@@ -32,8 +32,8 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(All, EverySolver, testing::ValuesIn(without_diffusion()), test_name);
 
-constexpr double kResolution = 0.02;
-constexpr double kCells = 100;
+constexpr double kSolverResolution = 0.02;
+constexpr double kSolverCells = 100;
 
 SolverRequest request_for(const Scene<double>& scene) {
   SolverRequest request;
@@ -46,7 +46,8 @@ SolverRequest request_for(const Scene<double>& scene) {
 }
 
 TEST_P(EverySolver, KeepsWhatItGuarantees) {
-  const Method method = support::method_of(GetParam(), {{"resolution", kResolution}, {"cells", kCells}});
+  const Method method =
+      support::method_of(GetParam(), {{"resolution", kSolverResolution}, {"cells", kSolverCells}});
   const Guarantees promised = method.guarantees();
   for (std::uint64_t number = 0; number < 40; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
@@ -58,7 +59,7 @@ TEST_P(EverySolver, KeepsWhatItGuarantees) {
     ASSERT_EQ(result.samples.size(), request.times.size() * request.heights.size());
     const ExactSolution<double> exact(scene);
     double slack = 1e-12;
-    if (!promised.exact) slack = std::pow(kResolution, promised.order_M);
+    if (!promised.exact) slack = std::pow(kSolverResolution, promised.order_M);
     for (std::size_t i = 0; i < request.times.size(); ++i)
       for (std::size_t j = 0; j < request.heights.size(); ++j) {
         const Sample& s = result.samples[i * request.heights.size() + j];
@@ -87,7 +88,7 @@ TEST_P(EverySolver, KeepsWhatItGuarantees) {
 }
 
 TEST_P(EverySolver, SolvesEveryShearRateModel) {
-  const Method method = support::method_of(GetParam(), {{"resolution", kResolution}, {"cells", 1000}});
+  const Method method = support::method_of(GetParam(), {{"resolution", kSolverResolution}, {"cells", 1000}});
   const Guarantees promised = method.guarantees();
   DepthFunctionList<double>::for_each([&]<class Model>() {
     for (const Model& model : Model::samples()) {
@@ -104,7 +105,8 @@ TEST_P(EverySolver, SolvesEveryShearRateModel) {
         continue;  // upwind leaves segregated grains where they are
       const ExactSolution<double> exact(scene);
       for (std::size_t j = 0; j < request.heights.size(); ++j)
-        EXPECT_NEAR(result.samples[j].M, exact.M(request.heights[j], 0.3), 0.1 * kResolution) << Model::kName;
+        EXPECT_NEAR(result.samples[j].M, exact.M(request.heights[j], 0.3), 0.1 * kSolverResolution)
+            << Model::kName;
     }
   });
 }

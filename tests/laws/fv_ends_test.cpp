@@ -114,14 +114,14 @@ TEST(FvEnds, ContractInL1AndKeepTheOrder) {
 
 template <class Solver>
 class FvTraffic : public testing::Test {};
-struct SolverName {
+struct NameOfSolver {
   template <class Solver>
   static std::string GetName(int) {
     return std::string(Solver::kName) == "engquist-osher" ? "engquist_osher" : std::string(Solver::kName);
   }
 };
 using Solvers = testing::Types<EngquistOsherSolver, GodunovSolver>;
-TYPED_TEST_SUITE(FvTraffic, Solvers, SolverName);
+TYPED_TEST_SUITE(FvTraffic, Solvers, NameOfSolver);
 
 SceneSpec<double> road() {
   SceneSpec<double> spec;

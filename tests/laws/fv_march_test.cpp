@@ -30,7 +30,7 @@ using support::maker_of;
 using support::options_of;
 using support::SceneMaker;
 
-constexpr int kScenes = 25;
+constexpr int kMarchScenes = 25;
 const std::array<Scheme, 5> kSchemes{
     Scheme{Rule::engquist_osher}, Scheme{Rule::godunov}, Scheme{Rule::godunov, {}, Limiter::minmod},
     Scheme{Rule::godunov, {}, Limiter::mc}, Scheme{Rule::godunov, {}, Limiter::van_leer}};
@@ -153,7 +153,7 @@ TEST(FvMarch, AveragesOfEqualStatesAreThatState) {
 double tolerance_of(const Scheme& scheme) { return scheme.limiter ? 1e-8 : 1e-11; }
 
 TEST(FvMarch, AnyFluxAgreesWithTheParabolaAndGrainsThatRiseAreAMirrorImage) {
-  for (int number = 0; number < kScenes; ++number) {
+  for (int number = 0; number < kMarchScenes; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     SceneMaker maker = maker_of(number);
     const Scene<double> scene = draw(maker);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables: a(z) linear in pieces. Reference values are those of another program in 64-bit significands, closed forms are worked
+// Tables: a(z) linear in pieces. PieceReference values are those of another program in 64-bit significands, closed forms are worked
 // out beside the tests.
 #include <gtest/gtest.h>
 
@@ -35,11 +35,11 @@ SceneSpec<double> four_pieces() {
   return scene_of({{0, 0.3, 0.55, 0.8, 1}, {0.5, 1.6, 0.4, 0.9, 0.6}}, {0.25, 0.6}, {0.35, 0.9, 0.2});
 }
 
-struct Reference {
+struct PieceReference {
   char scene;
   double t, z, phi, M;
 };
-const std::vector<Reference> kReferences{
+const std::vector<PieceReference> kReferences{
     {'B', 0.2, 0.1, 0.0000000000000000, 0.0000000000000000},
     {'B', 0.2, 0.3, 0.1915831519774210, 0.0180907244800961},
     {'B', 0.2, 0.45, 0.3782424404898054, 0.0602789981097019},
@@ -88,7 +88,7 @@ TEST(LinearPieces, AreTheReferenceValues) {
   const ExactSolution<double> one{Scene<double>(one_piece())}, four{Scene<double>(four_pieces())};
   EXPECT_TRUE(one.is_exact());
   EXPECT_EQ(four.n_layers(), 4u);
-  for (const Reference& r : kReferences) {
+  for (const PieceReference& r : kReferences) {
     const auto value = (r.scene == 'B' ? one : four).at(r.z, r.t);
     EXPECT_NEAR(value.M, r.M, 1e-14) << r.scene << " z " << r.z << " t " << r.t;
     EXPECT_NEAR(value.phi, r.phi, 1e-13) << r.scene << " z " << r.z << " t " << r.t;

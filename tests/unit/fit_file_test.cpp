@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScene =
+const std::string kFittedScene =
     "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.5]\nvalues = [2, 1]\n"
     "[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n";
 const std::string kData = "t,z,M\n0.2,0.25,0\n0.2,0.5,0.05\n0.4,0.5,0.1\n";
@@ -33,7 +33,7 @@ class FitFiles : public testing::Test {
   FitFiles() {
     std::string pattern = (fs::temp_directory_path() / "shearfront-fit-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
-    write(folder_ / "scene.toml", kScene);
+    write(folder_ / "scene.toml", kFittedScene);
     write(folder_ / "data.csv", kData);
   }
   ~FitFiles() override { fs::remove_all(folder_); }
@@ -60,7 +60,7 @@ class FitFiles : public testing::Test {
 };
 
 TEST_F(FitFiles, OfASceneAndObservationsInMemoryIsThatOfTheFiles) {
-  const Scene<double> scene = parse_scene<double>(kScene, "scene");
+  const Scene<double> scene = parse_scene<double>(kFittedScene, "scene");
   const std::string settings = kFit.substr(kFit.find("[unknown]"));
   const FitFile memory = parse_fit(settings, "fit", scene, parse_observations(kData, "data", scene));
   const Estimate expected = fit(parse(kFit)), found = fit(memory.spec);
@@ -143,7 +143,7 @@ TEST_F(FitFiles, NamesAreRelativeToTheFile) {
 }
 
 TEST_F(FitFiles, ProblemsOfAllFilesComeTogetherEachWithItsOwnPlace) {
-  write(folder_ / "scene.toml", kScene + "[domain]\ntop = -1\n");
+  write(folder_ / "scene.toml", kFittedScene + "[domain]\ntop = -1\n");
   write(folder_ / "data.csv", kData + "-1,0.5,0.1\n");
   EXPECT_EQ(report(kFit + "start = [2, 0]\n[search]\nstarts = 0\n"),
             "fit.toml:7:10: search.starts = 0; must be a whole number from 1 to 1000000\n"

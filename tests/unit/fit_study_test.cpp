@@ -26,7 +26,8 @@ StudySpec written(const std::string& text) {
   return read_study(path);
 }
 
-const std::string kScene = "scene = \"" SHEARFRONT_SOURCE_DIR "/datasets/may-2010-piecewise/scene.toml\"\n";
+const std::string kStudyScene =
+    "scene = \"" SHEARFRONT_SOURCE_DIR "/datasets/may-2010-piecewise/scene.toml\"\n";
 const std::string kTwo =
     "[[vary]]\nentry = \"shear_rate.values[0]\"\nuniform = [1, 3]\n[[vary]]\nentry = "
     "\"shear_rate.values[1]\"\nlog-uniform = [0.1, 1]\n";
@@ -40,7 +41,7 @@ std::string design(const std::string& kind, int runs, int seed = 1) {
 }
 
 TEST(StudyDesign, AGridHasEveryCombinationTheLastFastest) {
-  const StudySpec spec = written(kScene +
+  const StudySpec spec = written(kStudyScene +
                                  "[[vary]]\nentry = \"shear_rate.values[0]\"\nlist = [1, 2]\n[[vary]]\nentry "
                                  "= \"initial.breaks[0]\"\nrange = [0.4, 0.6]\ncount = 3\n" +
                                  kOutputs);
@@ -53,7 +54,7 @@ TEST(StudyDesign, AGridHasEveryCombinationTheLastFastest) {
 
 TEST(StudyDesign, ALatinHypercubeHasOnePointInEverySlice) {
   constexpr int kRuns = 37;
-  const StudySpec spec = written(kScene + kTwo + design("latin-hypercube", kRuns, 5) + kOutputs);
+  const StudySpec spec = written(kStudyScene + kTwo + design("latin-hypercube", kRuns, 5) + kOutputs);
   const auto points = study_points(spec);
   for (std::size_t j = 0; j < 2; ++j) {
     std::vector<int> counts(kRuns, 0);
@@ -68,7 +69,7 @@ TEST(StudyDesign, ALatinHypercubeHasOnePointInEverySlice) {
 
 /// The first points of the sequence after 0 are known: (1/2, 1/2), (3/4, 1/4), (1/4, 3/4).
 TEST(StudyDesign, ASobolSequenceIsTheKnownOne) {
-  const StudySpec spec = written(kScene +
+  const StudySpec spec = written(kStudyScene +
                                  "[[vary]]\nentry = \"shear_rate.values[0]\"\nuniform = [1, "
                                  "2]\n[[vary]]\nentry = \"shear_rate.values[1]\"\nuniform = [1, 2]\n" +
                                  design("sobol", 3) + kOutputs);
@@ -81,7 +82,7 @@ TEST(StudyDesign, ASobolSequenceIsTheKnownOne) {
 TEST(StudyDesign, DistributionsHaveTheirMoments) {
   constexpr int kRuns = 4000;
   const StudySpec spec =
-      written(kScene +
+      written(kStudyScene +
               "[[vary]]\nentry = \"initial.breaks[0]\"\nnormal = [0.5, 0.02]\n[[vary]]\nentry = "
               "\"shear_rate.values[1]\"\nlognormal = [0.3, 0.1]\n" +
               design("latin-hypercube", kRuns) + kOutputs);
@@ -122,7 +123,7 @@ TEST(SobolIndices, OfIshigamisFunction) {
 }
 
 TEST(StudyRuns, EveryRunIsTheSceneWithItsNumbersWhateverTheThreads) {
-  const StudyRuns runs(written(kScene + kTwo + design("random", 300, 9) + kOutputs));
+  const StudyRuns runs(written(kStudyScene + kTwo + design("random", 300, 9) + kOutputs));
   std::vector<std::size_t> all(runs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::vector<StudyRow> one, three;
@@ -155,7 +156,7 @@ TEST(StudyRuns, EveryRunIsTheSceneWithItsNumbersWhateverTheThreads) {
 
 TEST(StudyRuns, AFailureIsARow) {
   const StudyRuns runs(
-      written(kScene + "[[vary]]\nentry = \"initial.breaks[0]\"\nlist = [0.5, 1.5]\n" + kOutputs));
+      written(kStudyScene + "[[vary]]\nentry = \"initial.breaks[0]\"\nlist = [0.5, 1.5]\n" + kOutputs));
   EXPECT_EQ(runs.run(0).failure, "");
   const StudyRow failed = runs.run(1);
   EXPECT_NE(failed.failure.find("initial.breaks[0] = 1.5; must be inside the domain"), std::string::npos)
@@ -197,7 +198,7 @@ TEST(StudyRuns, ReplicatesScatterAsTheErrorBars) {
 }
 
 TEST(StudyRuns, ItEndsWhenItMayNotGoOn) {
-  const StudyRuns runs(written(kScene + kTwo + design("random", 5000, 9) + kOutputs));
+  const StudyRuns runs(written(kStudyScene + kTwo + design("random", 5000, 9) + kOutputs));
   std::vector<std::size_t> all(runs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::atomic<std::size_t> n = 0;
@@ -220,32 +221,35 @@ TEST(StudyFile, RefusesWhatCannotBe) {
   };
   const std::vector<std::pair<std::string, std::string>> cases{
       {kTwo + kOutputs, "must be given, or fit, but not both"},
-      {kScene + kOutputs, "must be [[vary]] tables"},
-      {kScene + kTwo + kOutputs, "must be another than grid: shear_rate.values[0] has a distribution"},
-      {kScene + kTwo + "[design]\nkind = \"random\"\n" + kOutputs, "design.runs: missing"},
-      {kScene + kTwo + design("random", 3), "outputs: missing"},
-      {kScene + kTwo + design("random", 3) + "[outputs]\n", "must ask for events, quantities or estimates"},
-      {kScene + kTwo + design("random", 3) + "[outputs]\nevents = [\"t2\"]\n",
+      {kStudyScene + kOutputs, "must be [[vary]] tables"},
+      {kStudyScene + kTwo + kOutputs, "must be another than grid: shear_rate.values[0] has a distribution"},
+      {kStudyScene + kTwo + "[design]\nkind = \"random\"\n" + kOutputs, "design.runs: missing"},
+      {kStudyScene + kTwo + design("random", 3), "outputs: missing"},
+      {kStudyScene + kTwo + design("random", 3) + "[outputs]\n",
+       "must ask for events, quantities or estimates"},
+      {kStudyScene + kTwo + design("random", 3) + "[outputs]\nevents = [\"t2\"]\n",
        "must be of: t_0, t_1, t*, t_c(1), t^_c(1)"},
-      {kScene + kTwo + design("random", 3) + "[outputs]\nquantities = [\"phi\"]\ntimes = [1]\n",
+      {kStudyScene + kTwo + design("random", 3) + "[outputs]\nquantities = [\"phi\"]\ntimes = [1]\n",
        "needs times, and phi and M also heights"},
-      {kScene + kTwo + design("random", 3) +
+      {kStudyScene + kTwo + design("random", 3) +
            "[outputs]\nquantities = [\"phi\"]\ntimes = [1]\nheights = [2]\n",
        "must be inside the domain"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.value[0]\"\nlist = [1]\n" + kOutputs,
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.value[0]\"\nlist = [1]\n" + kOutputs,
        "did you mean shear_rate.values[0]?"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\n" + kOutputs, "must have one of: list, range"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\nlist = [1]\nuniform = [1, 2]\n" + kOutputs,
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.scale\"\n" + kOutputs, "must have one of: list, range"},
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.scale\"\nlist = [1]\nuniform = [1, 2]\n" + kOutputs,
        "must have one of: list, range"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\nlog-uniform = [0, 2]\n" + design("random", 3) +
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.scale\"\nlog-uniform = [0, 2]\n" + design("random", 3) +
            kOutputs,
        "must have a first number > 0"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\nnormal = [1, 0]\n" + design("random", 3) + kOutputs,
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.scale\"\nnormal = [1, 0]\n" + design("random", 3) +
+           kOutputs,
        "must have a second number > 0"},
-      {kScene + "[[vary]]\nentry = \"shear_rate.scale\"\nuniform = [2, 1]\n" + design("random", 3) + kOutputs,
+      {kStudyScene + "[[vary]]\nentry = \"shear_rate.scale\"\nuniform = [2, 1]\n" + design("random", 3) +
+           kOutputs,
        "must ascend"},
-      {kScene + kTwo + kTwo + design("random", 3) + kOutputs, "must not vary twice"},
-      {kScene + kTwo + design("fit", 3) + kOutputs, "must be fit or replicates for a fit file"},
+      {kStudyScene + kTwo + kTwo + design("random", 3) + kOutputs, "must not vary twice"},
+      {kStudyScene + kTwo + design("fit", 3) + kOutputs, "must be fit or replicates for a fit file"},
   };
   for (const auto& [text, expected] : cases)
     EXPECT_NE(report(text).find(expected), std::string::npos) << text << "gives\n" << report(text);

@@ -23,7 +23,7 @@
 namespace shearfront {
 namespace {
 
-SceneSpec<double> two_layers() {
+SceneSpec<double> two_layer_bed() {
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{0.2913}, {2.4, 0.31}};
   spec.initial_breaks = {0.4968};
@@ -288,20 +288,20 @@ const std::initializer_list<std::string_view> kEntries{
 
 TEST(Linearisation, OfTheExactSolutionIsItsDerivative) {
   support::Checked checked(kEntries);
-  check_linearisation(Method::of<ExactSolver>(), two_layers(), 1e-6, 1e-7, checked);
+  check_linearisation(Method::of<ExactSolver>(), two_layer_bed(), 1e-6, 1e-7, checked);
 }
 
 TEST(Linearisation, OfCrankNicolsonIsTheDerivativeOfTheScheme) {
   support::Checked checked(kEntries);
   checked.expect("diffusion.D");
-  SceneSpec<double> spec = two_layers();
+  SceneSpec<double> spec = two_layer_bed();
   spec.diffusion = Diffusion<double>{0.02, {}, false};
   check_linearisation(Method::of<CrankNicolsonSolver>({.cells = 60, .time_step = 0.01}), spec, 1e-5, 1e-4,
                       checked);
 }
 
 TEST(Linearisation, MethodsWithoutDerivativesSaySo) {
-  const Scene<double> scene(two_layers());
+  const Scene<double> scene(two_layer_bed());
   for (const char* name : {"front-tracking", "godunov"})
     for (const Entry& entry : entries(scene.spec()))
       EXPECT_FALSE(Method(name).has_derivative(scene, entry)) << name;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "shearfront/fit/covariance.hpp"
+#include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of the misfit: what a solution on a grid changes for no reason is more than rounding.
 constexpr double kSame = 1e-9;
 
@@ -40,7 +40,7 @@ double reach(const Objective& objective, const VectorXd& u, Index j, double sign
   double inside = 0, outside = std::min(kFirstReach, most);
   while (is_same(outside)) {
     inside = outside;
-    if (outside >= most) return kInfinity;
+    if (outside >= most) return infinity<double>();
     outside = std::min(2 * outside, most);
   }
   while (inside > 0 && outside - inside > kFlatEnd) {

@@ -8,12 +8,11 @@
 #include <variant>
 
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/scalar.hpp"
 #include "shearfront/scene/state_range.hpp"
 
 namespace shearfront::fit {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string element(const char* key, std::size_t i) {
   return std::string(key) + "[" + std::to_string(i) + "]";
@@ -63,7 +62,7 @@ double Parameters::states() const {
 void Parameters::set_units() {
   const Scene<double>& scene = start_scene_;
   const StateRange<double> states = state_range(scene.spec());
-  double least = kInfinity, most = -kInfinity;  // of the fluxes
+  double least = infinity<double>(), most = -infinity<double>();  // of the fluxes
   for (const Flux<double>& flux : scene.spec().fluxes) {
     std::vector<double> places = flux.extrema();
     places.push_back(flux.range().lowest);
@@ -131,8 +130,8 @@ void Parameters::set_defaults() {
   for (std::size_t i = 0; i < size(); ++i) {
     Parameter& p = parameters_[i];
     p.start = *places[places_[i]];
-    p.lower = -kInfinity;
-    p.upper = kInfinity;
+    p.lower = -infinity<double>();
+    p.upper = infinity<double>();
     if (is_state(p.entry)) {
       const StateRange<double> states = common_states(spec);
       p.lower = states.lowest, p.upper = states.highest;

@@ -37,7 +37,7 @@ Interval between(const Function& f, double lo, double hi) {
 }
 
 /// Part of the bed between two knots.
-struct Stretch {
+struct BedStretch {
   double bottom;
   Interval starting;  ///< fluxes of its initial states
   Interval room;      ///< fluxes that its states have at every height
@@ -51,14 +51,14 @@ bool falls(const Function& f, double lo, double hi, bool is_upward) {
   return is_upward ? above < below : below < above;
 }
 
-Stretch stretch_of(const Scene<double>& scene, double lo, double hi, bool is_upward) {
+BedStretch stretch_of(const Scene<double>& scene, double lo, double hi, bool is_upward) {
   const Flux<double>& flux = scene.flux_at(lo);
   const auto rate_at = [&](double z) { return scene.rate_at(z); };
   const auto solid_at = [&](double z) { return scene.solid_fraction_at(z); };
   const Interval rate = between(rate_at, lo, hi), solid = between(solid_at, lo, hi);
   const double least = scene.scale() * rate.least * solid.least,
                most = scene.scale() * rate.most * solid.most;
-  Stretch stretch{lo, {}, {}, falls(rate_at, lo, hi, is_upward) || falls(solid_at, lo, hi, is_upward)};
+  BedStretch stretch{lo, {}, {}, falls(rate_at, lo, hi, is_upward) || falls(solid_at, lo, hi, is_upward)};
   const auto start = [&](double share) {
     stretch.starting.take(least * flux.value(share));
     stretch.starting.take(most * flux.value(share));
@@ -81,20 +81,20 @@ std::string overload(const Scene<double>& scene) {
   edges.insert(edges.begin(), scene.bottom());
   edges.push_back(scene.top());
   const bool is_upward = course_of(scene.fluxes().front()) == FluxCourse::rising;
-  std::vector<Stretch> stretches;
+  std::vector<BedStretch> stretches;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
     stretches.push_back(stretch_of(scene, edges[i], edges[i + 1], is_upward));
   if (!is_upward) std::reverse(stretches.begin(), stretches.end());
   Interval coming;
   if (scene.spec().is_periodic)
-    for (const Stretch& stretch : stretches) coming.take(stretch.starting);
+    for (const BedStretch& stretch : stretches) coming.take(stretch.starting);
   const auto& outside = is_upward ? scene.spec().outside_bottom : scene.spec().outside_top;
   if (outside) {
     const double z = is_upward ? scene.bottom() : std::nextafter(scene.top(), scene.bottom());
     const double k = scene.scale() * scene.rate_at(z) * scene.solid_fraction_at(z);
     for (const double share : outside->values) coming.take(k * scene.flux_at(z).value(share));
   }
-  for (const Stretch& stretch : stretches) {
+  for (const BedStretch& stretch : stretches) {
     constexpr double kRoundings = 8;  // in the products of rates, solid fractions and fluxes
     const double slack = kRoundings * std::numeric_limits<double>::epsilon() *
                          std::max(std::abs(stretch.room.least), std::abs(stretch.room.most));

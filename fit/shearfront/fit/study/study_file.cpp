@@ -25,7 +25,7 @@ using detail::TomlSource;
 using Need = TableReader::Need;
 using Kind = StudyOutput::Kind;
 
-constexpr unsigned long long kMostRuns = 100'000'000;
+constexpr unsigned long long kMostStudyRuns = 100'000'000;
 constexpr std::size_t kMostGridRuns = 100'000'000;
 
 class StudyReader {
@@ -94,7 +94,7 @@ class StudyReader {
     }
     const bool is_range = v.kind == VariationKind::range || v.kind == VariationKind::log_range;
     if (is_range) {
-      const auto count = table.count("count", Need::required, 1, kMostRuns);
+      const auto count = table.count("count", Need::required, 1, kMostStudyRuns);
       if (count) fill_range(v, static_cast<std::size_t>(*count));
     }
     if (n_kinds != 1)
@@ -147,7 +147,7 @@ class StudyReader {
   void design(TableReader& table) {
     if (const auto i = table.place("kind", Need::optional, kDesignNames))
       spec_.design = static_cast<DesignKind>(*i);
-    if (const auto n = table.count("runs", Need::optional, 1, kMostRuns))
+    if (const auto n = table.count("runs", Need::optional, 1, kMostStudyRuns))
       spec_.runs = static_cast<std::size_t>(*n);
     if (const auto n = table.count("seed", Need::optional, 0, 9'007'199'254'740'991)) spec_.seed = *n;
     table.finish();
