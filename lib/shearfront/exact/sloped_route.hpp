@@ -61,7 +61,7 @@ struct SlopedSample {
   Scalar T_rising{0},
       T_falling{
           0};  ///< the parts of T that do not decrease and do not increase with h: not T less the other, which may be far
-      ///< larger
+               ///< larger
   Scalar X_falling{0};  ///< X of the turn
   Scalar rising{0}, steep{0}, up{0}, down{0};
 
