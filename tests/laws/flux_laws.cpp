@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/model/flux/all.hpp"
@@ -51,6 +52,33 @@ std::vector<double> states(double lowest, double highest, int n = 40) {
   for (int i = 0; i < n; ++i) phi.push_back(lowest + (highest - lowest) * i / n);
   phi.push_back(highest);
   return phi;
+}
+
+/// Differences of one order more than the degree vanish between extrema and joints, and those of the degree do not all.
+TYPED_TEST(FluxLaws, APolynomialBetweenJointsHasItsDegree) {
+  constexpr int kDegree = degree_between_joints<TypeParam>();
+  if constexpr (kDegree <= 3) {
+    double largest = 0;
+    for_samples<TypeParam>([&](const auto& flux, double lowest, double highest, double steepest) {
+      std::vector<double> ends = flux.extrema();
+      if constexpr (requires { flux.joints(); })
+        for (const double joint : flux.joints()) ends.push_back(joint);
+      ends.push_back(lowest);
+      ends.push_back(highest);
+      std::sort(ends.begin(), ends.end());
+      for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+        std::vector<double> f;
+        for (int i = 0; i <= kDegree + 1; ++i)
+          f.push_back(flux.value(ends[k] + (ends[k + 1] - ends[k]) * i / (kDegree + 1)));
+        for (std::size_t order = 1; order + 1 < f.size(); ++order)
+          for (std::size_t i = 0; i + order < f.size(); ++i) f[i] = f[i + 1] - f[i];
+        largest = std::max(largest, std::abs(f[0]));
+        EXPECT_NEAR(f[1], f[0], 1e-14 * steepest * (highest - lowest))
+            << "between " << ends[k] << " and " << ends[k + 1];
+      }
+    });
+    EXPECT_GT(largest, 0);
+  }
 }
 
 TYPED_TEST(FluxLaws, StatesAreARangeWithAFiniteFlux) {
