@@ -58,15 +58,8 @@ struct SlopedSample {
   Scalar h{0}, qm2{0}, qm{0};
   Scalar y{0}, rate{0};  ///< start of a state, and r there
   Scalar T{0}, X{0};     ///< X: with half of the E of a turn
-<<<<<<< HEAD
   /// The parts of T that do not decrease and do not increase with h: not T less the other, which may be far larger.
   Scalar T_rising{0}, T_falling{0};
-=======
-  Scalar T_rising{0},
-      T_falling{
-          0};  ///< the parts of T that do not decrease and do not increase with h: not T less the other, which may be far
-               ///< larger
->>>>>>> exact
   Scalar X_falling{0};  ///< X of the turn
   Scalar rising{0}, steep{0}, up{0}, down{0};
 
