@@ -2,6 +2,7 @@
 #include "shearfront/solution/observe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>

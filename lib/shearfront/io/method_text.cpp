@@ -2,6 +2,7 @@
 #include "shearfront/io/method_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <concepts>
