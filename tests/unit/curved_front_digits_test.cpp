@@ -15,19 +15,21 @@
 namespace shearfront {
 namespace {
 
-using Digits = boost::multiprecision::cpp_bin_float_50;
+using FrontDigits = boost::multiprecision::cpp_bin_float_50;
 
 /// int q dz from a to b as its closed form stands in a book, for a level that lives at both.
-Digits book_area(const RatePiece& piece, double h, double a, double b) {
+FrontDigits book_area(const RatePiece& piece, double h, double a, double b) {
   const auto primitive = [&](double height) {
-    const Digits z = Digits(height) - Digits(piece.z_low);
-    const Digits r = piece.curve == RateCurve::linear ? Digits(piece.low) + Digits(piece.bend) * z
-                                                      : Digits(piece.low) * exp(Digits(piece.bend) * z);
-    if (h == 0) return Digits(height) * piece.bend;
-    const Digits q = sqrt(1 - Digits(h) / r), artanh = log((1 + q) / (1 - q)) / 2;
-    return piece.curve == RateCurve::linear ? Digits(r * q - Digits(h) * artanh) : Digits(2 * (artanh - q));
+    const FrontDigits z = FrontDigits(height) - FrontDigits(piece.z_low);
+    const FrontDigits r = piece.curve == RateCurve::linear
+                              ? FrontDigits(piece.low) + FrontDigits(piece.bend) * z
+                              : FrontDigits(piece.low) * exp(FrontDigits(piece.bend) * z);
+    if (h == 0) return FrontDigits(height) * piece.bend;
+    const FrontDigits q = sqrt(1 - FrontDigits(h) / r), artanh = log((1 + q) / (1 - q)) / 2;
+    return piece.curve == RateCurve::linear ? FrontDigits(r * q - FrontDigits(h) * artanh)
+                                            : FrontDigits(2 * (artanh - q));
   };
-  return (primitive(b) - primitive(a)) / Digits(piece.bend);
+  return (primitive(b) - primitive(a)) / FrontDigits(piece.bend);
 }
 
 struct LostDigits {
@@ -56,10 +58,10 @@ LostDigits lost_digits(RateCurve curve, double share, double spread, double way,
     set_course(grid, f, z, 0);
     const double end = z + f.direction * way * maker.uniform(0.5, 1);
     const double h_below = grid.capacity(grid.level(f.below)), h_above = grid.capacity(grid.level(f.above));
-    const Digits exact = 2 *
-                         (grid.sign(f.above) * book_area(piece, h_above, z, end) -
-                          grid.sign(f.below) * book_area(piece, h_below, z, end)) /
-                         (Digits(h_below) - Digits(h_above));
+    const FrontDigits exact = 2 *
+                              (grid.sign(f.above) * book_area(piece, h_above, z, end) -
+                               grid.sign(f.below) * book_area(piece, h_below, z, end)) /
+                              (FrontDigits(h_below) - FrontDigits(h_above));
     const double error = std::abs(static_cast<double>((passage(grid, f, end).t - exact) / exact)) * 0x1p53;
     lost.worst = std::max(lost.worst, error);
     lost.sum += error;

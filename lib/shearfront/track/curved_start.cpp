@@ -50,13 +50,13 @@ struct Spacing {
 };
 
 /// How much larger steps of u are than those of the parabola: where q >= 1/2, there they are largest at q = 1/2, and next to q = 0.
-struct Stretch {
+struct StepStretch {
   double far, near;
 };
-Stretch stretch_of(const FluxBranches* flux) {
+StepStretch step_stretch_of(const FluxBranches* flux) {
   if (!flux) return {1, 1};
   constexpr double kFar = 0.5, kNear = 0.02;
-  Stretch stretch{0, 0};
+  StepStretch stretch{0, 0};
   for (const bool is_high : {false, true}) {
     stretch.far = std::max(stretch.far, flux->lack_slope(is_high, kFar, 1 - kFar * kFar));
     stretch.near = std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
@@ -66,7 +66,7 @@ Stretch stretch_of(const FluxBranches* flux) {
 
 Spacing spacing_of(const CurvedProblem& problem, double most, double resolution) {
   const std::vector<RatePiece>& pieces = problem.pieces;
-  const Stretch stretch = stretch_of(problem.flux.get());
+  const StepStretch stretch = step_stretch_of(problem.flux.get());
   double least_rate = INFINITY;
   for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
   const double offset = std::min(0.1 * most, least_rate);

@@ -11,55 +11,55 @@
 namespace shearfront {
 namespace {
 
-constexpr std::size_t kNodes = 11;
+constexpr std::size_t kBranchNodes = 11;
 
 /// The nodes of Chebyshev in -1 ... 1, and the coefficients of the polynomial through values there.
-const std::array<double, kNodes>& nodes() {
-  static const std::array<double, kNodes> all = [] {
-    std::array<double, kNodes> x{};
-    for (std::size_t i = 0; i < kNodes; ++i)
-      x[i] = std::cos(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(kNodes));
+const std::array<double, kBranchNodes>& branch_nodes() {
+  static const std::array<double, kBranchNodes> all = [] {
+    std::array<double, kBranchNodes> x{};
+    for (std::size_t i = 0; i < kBranchNodes; ++i)
+      x[i] = std::cos(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(kBranchNodes));
     return x;
   }();
   return all;
 }
 
-std::array<double, kNodes> polynomial_through(const std::array<double, kNodes>& values) {
+std::array<double, kBranchNodes> branch_polynomial_through(const std::array<double, kBranchNodes>& values) {
   // Chebyshev coefficients, then powers.
-  constexpr double n = kNodes;
-  std::array<double, kNodes> result{}, before{}, now{};
+  constexpr double n = kBranchNodes;
+  std::array<double, kBranchNodes> result{}, before{}, now{};
   before[0] = 1;  // T_0
   now[1] = 1;     // T_1
-  for (std::size_t k = 0; k < kNodes; ++k) {
+  for (std::size_t k = 0; k < kBranchNodes; ++k) {
     double c = 0;
-    for (std::size_t i = 0; i < kNodes; ++i)
+    for (std::size_t i = 0; i < kBranchNodes; ++i)
       c += values[i] * std::cos(M_PI * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / n);
     c *= (k == 0 ? 1 : 2) / n;
-    for (std::size_t i = 0; i < kNodes; ++i) result[i] += c * before[i];
-    std::array<double, kNodes> next{};
-    for (std::size_t i = 0; i + 1 < kNodes; ++i) next[i + 1] = 2 * now[i];
-    for (std::size_t i = 0; i < kNodes; ++i) next[i] -= before[i];
+    for (std::size_t i = 0; i < kBranchNodes; ++i) result[i] += c * before[i];
+    std::array<double, kBranchNodes> next{};
+    for (std::size_t i = 0; i + 1 < kBranchNodes; ++i) next[i + 1] = 2 * now[i];
+    for (std::size_t i = 0; i < kBranchNodes; ++i) next[i] -= before[i];
     before = now;
     now = next;
   }
   return result;
 }
 
-double horner(const std::array<double, kNodes>& c, double x) {
-  double sum = c[kNodes - 1];
-  for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + c[i];
+double branch_polynomial(const std::array<double, kBranchNodes>& c, double x) {
+  double sum = c[kBranchNodes - 1];
+  for (std::size_t i = kBranchNodes - 1; i-- > 0;) sum = sum * x + c[i];
   return sum;
 }
 
-constexpr std::array<double, 5> kGauss{0, 0.5384693101056830910, -0.5384693101056830910,
-                                       0.9061798459386639928, -0.9061798459386639928};
-constexpr std::array<double, 5> kGaussWeight{0.5688888888888888889 / 2, 0.4786286704993664680 / 2,
-                                             0.4786286704993664680 / 2, 0.2369268850561890875 / 2,
-                                             0.2369268850561890875 / 2};
+constexpr std::array<double, 5> kBranchGauss{0, 0.5384693101056830910, -0.5384693101056830910,
+                                             0.9061798459386639928, -0.9061798459386639928};
+constexpr std::array<double, 5> kBranchWeight{0.5688888888888888889 / 2, 0.4786286704993664680 / 2,
+                                              0.4786286704993664680 / 2, 0.2369268850561890875 / 2,
+                                              0.2369268850561890875 / 2};
 
 /// The distance d at which value(d) = `target`, value rising from 0 on, by Newton's method in a bracket.
-double distance_of(double target, double most, double start, const std::function<double(double)>& value,
-                   const std::function<double(double)>& slope) {
+double branch_distance(double target, double most, double start, const std::function<double(double)>& value,
+                       const std::function<double(double)>& slope) {
   if (!(target > 0)) return 0;
   double lo = 0, hi = most, d = start > 0 && start < most ? start : most / 2;
   constexpr int kMostSteps = 80;
@@ -76,7 +76,7 @@ double distance_of(double target, double most, double start, const std::function
 }
 
 /// Places where the flux is not analytic, as far as its model knows.
-std::vector<double> joints_of(const Flux<double>& flux) {
+std::vector<double> branch_joints(const Flux<double>& flux) {
   return with_model(flux, [](const auto& model) -> std::vector<double> {
     if constexpr (requires { model.joints(); }) return model.joints();
     return {};
@@ -90,7 +90,7 @@ bool FluxBranches::suits(const Flux<double>& flux) {
   if (flux.extrema().size() != 1 || flux.curvature() == Curvature::mixed || flux.value(range.lowest) != 0 ||
       flux.value(range.highest) != 0 || flux.value(flux.extrema().front()) == 0)
     return false;
-  std::vector<double> ends = joints_of(flux);
+  std::vector<double> ends = branch_joints(flux);
   ends.insert(ends.end(), {range.lowest, flux.extrema().front(), range.highest});
   std::sort(ends.begin(), ends.end());
   constexpr int kParts = 4;
@@ -151,19 +151,19 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
   const auto shape_at = [&](double w) {
     const double x = (1 - w) * (1 + w);
     if (x < 0.5) {
-      last = distance_of(x, way, last, from_pure, [&](double d) { return slope_at(pure + inward * d); });
+      last = branch_distance(x, way, last, from_pure, [&](double d) { return slope_at(pure + inward * d); });
       return 2 * last / x;
     }
     const double start = last > 0 ? way - last : way * w;
-    const double d =
-        distance_of(w * w, way, start, from_top, [&](double y) { return slope_at(extreme - inward * y); });
+    const double d = branch_distance(w * w, way, start, from_top,
+                                     [&](double y) { return slope_at(extreme - inward * y); });
     last = way - d;
     return (side.spread - 2 * d) / x;
   };
   std::vector<double> cuts;
   for (std::size_t i = 0; i <= kBins; ++i)
     cuts.push_back(static_cast<double>(i) / static_cast<double>(kBins));
-  for (const double joint : joints_of(flux)) {
+  for (const double joint : branch_joints(flux)) {
     const double u = (joint - end_) / slope_;
     if (u > 0 && u < 1 && (u > top_) == is_high && u != top_) cuts.push_back(root_of(u));
   }
@@ -181,16 +181,16 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
     const auto [low, high] = todo.back();
     todo.pop_back();
     const double middle = low + (high - low) / 2, half = (high - low) / 2;
-    std::array<double, kNodes> shapes{}, rests{};
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const double w = middle + half * nodes()[i];
+    std::array<double, kBranchNodes> shapes{}, rests{};
+    for (std::size_t i = 0; i < kBranchNodes; ++i) {
+      const double w = middle + half * branch_nodes()[i];
       shapes[i] = shape_at(w);
       rests[i] = (shapes[i] - side.pure_shape) / ((1 - w) * (1 + w));
     }
-    const Polynomial shape = polynomial_through(shapes), rest = polynomial_through(rests);
+    const Polynomial shape = branch_polynomial_through(shapes), rest = branch_polynomial_through(rests);
     double error = 0;
     for (const double x : {-0.97, -0.55, 0.14, 0.85})
-      error = std::max(error, std::abs(horner(shape, x) / shape_at(middle + half * x) - 1));
+      error = std::max(error, std::abs(branch_polynomial(shape, x) / shape_at(middle + half * x) - 1));
     if (error > kTolerance && half > kThinnest) {
       todo.push_back({middle, high});
       todo.push_back({low, middle});
@@ -215,15 +215,15 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
       const auto from = [&](double y) {  // of the panel's part above y
         double sum = 0;
         for (const double part : {0.25, 0.75})
-          for (std::size_t i = 0; i < kGauss.size(); ++i) {
-            const double x = y + (1 - y) * (part + kGauss[i] / 4);
-            sum += kGaussWeight[i] * horner(f, x) * 2 * (middle + half * x);
+          for (std::size_t i = 0; i < kBranchGauss.size(); ++i) {
+            const double x = y + (1 - y) * (part + kBranchGauss[i] / 4);
+            sum += kBranchWeight[i] * branch_polynomial(f, x) * 2 * (middle + half * x);
           }
         return sum / 2 * half * (1 - y);
       };
-      std::array<double, kNodes> values{};
-      for (std::size_t i = 0; i < kNodes; ++i) values[i] = above + from(nodes()[i]);
-      all[k] = polynomial_through(values);
+      std::array<double, kBranchNodes> values{};
+      for (std::size_t i = 0; i < kBranchNodes; ++i) values[i] = above + from(branch_nodes()[i]);
+      all[k] = branch_polynomial_through(values);
       above += from(-1);
     }
   }
@@ -238,7 +238,7 @@ void FluxBranches::build(const Flux<double>& flux, bool is_high) {
 double FluxBranches::evaluate(const Side& side, Function function, double w) {
   const std::size_t panel = panel_of(side, w);
   const double low = panel == 0 ? 0 : side.ends[panel - 1], high = side.ends[panel];
-  return horner(side.functions[function][panel], ((w - low) - (high - w)) / (high - low));
+  return branch_polynomial(side.functions[function][panel], ((w - low) - (high - w)) / (high - low));
 }
 
 double FluxBranches::lack_slope(bool is_high, double w, double x) const {
@@ -264,9 +264,9 @@ double FluxBranches::integral(const Side& side, Function function, Function prim
   const auto part = [&](double lo, double hi) {
     const double middle = (lo + hi) / 2, half = (hi - lo) / 2;
     double sum = 0;
-    for (std::size_t i = 0; i < kGauss.size(); ++i) {
-      const double w = middle + half * kGauss[i];
-      sum += kGaussWeight[i] * evaluate(side, function, w) * w;
+    for (std::size_t i = 0; i < kBranchGauss.size(); ++i) {
+      const double w = middle + half * kBranchGauss[i];
+      sum += kBranchWeight[i] * evaluate(side, function, w) * w;
     }
     return sum / middle;
   };

@@ -27,7 +27,7 @@ double linear_series(double q) {
 }
 
 /// log(r(b) / r(a)) in a linear piece.
-double log_of_rates(const LevelCurves::Place& a, const LevelCurves::Place& b, double rise) {
+double log_of_level_rates(const LevelCurves::Place& a, const LevelCurves::Place& b, double rise) {
   return b.rate < a.rate / 2 ? std::log(b.rate / a.rate) : std::log1p(rise / a.rate);
 }
 
@@ -66,7 +66,7 @@ double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a
   const double rise = piece.bend * (b.z - a.z);
   const double delta = h * rise / (a.rate * b.rate * (a.q + b.q));
   return (rise * (a.rate + b.rate - h) / (a.q * a.rate + b.q * b.rate) -
-          h * (std::log1p(delta / (1 + a.q)) + 0.5 * log_of_rates(a, b, rise))) /
+          h * (std::log1p(delta / (1 + a.q)) + 0.5 * log_of_level_rates(a, b, rise))) /
          piece.bend;
 }
 
@@ -101,7 +101,7 @@ double LevelCurves::parabola_deficit(std::size_t p, std::size_t level, const Pla
     return (delta - std::log1p(delta / (1 + a.q))) * (2 / piece.bend);
   }
   const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
-  const double half_log = 0.5 * log_of_rates(a, b, rise);
+  const double half_log = 0.5 * log_of_level_rates(a, b, rise);
   return h / piece.bend *
          (rise * (1 - 1 / (1 + a.q) - 1 / (1 + b.q)) / (a.q * a.rate + b.q * b.rate) +
           std::log1p(delta / (1 + a.q)) + half_log);
@@ -132,7 +132,7 @@ double LevelCurves::branch_deficit(std::size_t p, State s, Place a, Place b) con
     live = flux_->shape_integral(is_upper, a.q, b.q, dx) / piece.bend;
   } else {
     const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
-    live = (flux_->pure_shape(is_upper) * log_of_rates(a, b, rise) +
+    live = (flux_->pure_shape(is_upper) * log_of_level_rates(a, b, rise) +
             flux_->rest_integral(is_upper, a.q, b.q, dx)) *
            (h / piece.bend);
   }
@@ -158,7 +158,7 @@ double LevelCurves::characteristic_time(std::size_t p, bool is_high, double h, c
       return 2 * (flux_->lack(is_high, a.q, x_a) - flux_->lack(is_high, b.q, x_b)) / (piece.bend * h);
     const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
     return 2 *
-           (flux_->pure_shape(is_high) * log_of_rates(a, b, rise) +
+           (flux_->pure_shape(is_high) * log_of_level_rates(a, b, rise) +
             flux_->rest_integral(is_high, a.q, b.q, dx) + flux_->shape(is_high, a.q) -
             flux_->shape(is_high, b.q)) /
            piece.bend;
@@ -170,7 +170,7 @@ double LevelCurves::characteristic_time(std::size_t p, bool is_high, double h, c
   if (piece.curve == RateCurve::exponential)
     return -2 * share * std::expm1(-piece.bend * d) / (a.rate * piece.bend * (a.q + b.q));
   const double rise = piece.bend * d, delta = h * rise / (a.rate * b.rate * (a.q + b.q));
-  return share * (2 * std::log1p(delta / (1 + a.q)) + log_of_rates(a, b, rise)) / piece.bend;
+  return share * (2 * std::log1p(delta / (1 + a.q)) + log_of_level_rates(a, b, rise)) / piece.bend;
 }
 
 }  // namespace shearfront
