@@ -79,6 +79,8 @@ class PolygonStack {
       for (const S& v : layer.edge_speed) fastest = std::max(fastest, v < 0 ? S(-v) : v);
     return fastest;
   }
+  /// No fans, no edges of fans.
+  [[nodiscard]] S edge_speed(std::size_t layer, State i) const { return speed(layer, i, i); }
   [[nodiscard]] static bool is_fan_step(std::size_t, State, State) { return false; }
   [[nodiscard]] static S fan_rate(std::size_t, State, State) { return S(0); }
 
