@@ -34,6 +34,8 @@ class Parameter:
     ci95, profile95, bootstrap95 : pair of float or None
         95 % intervals: from the curvature, by profile likelihood, by bootstrap. An end that the data do not give is NaN.
     at_bound : bool
+    held_by_shape : bool
+        Whether the shape asked for binds it to its neighbours.
     ci95_is_doubtful : bool or None
         Whether the misfit rises otherwise than the interval assumes; None where it was not checked.
 
@@ -55,6 +57,7 @@ class Parameter:
     profile95: tuple[float, float] | None
     bootstrap95: tuple[float, float] | None
     at_bound: bool
+    held_by_shape: bool
     ci95_is_doubtful: bool | None
 
 

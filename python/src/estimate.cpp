@@ -50,6 +50,7 @@ nb::list parameters_of(const Fitted& self) {
     row["profile95"] = ends_of(p.profile95);
     row["bootstrap95"] = ends_of(p.bootstrap95);
     row["at_bound"] = p.at_bound;
+    row["held_by_shape"] = p.held_by_shape;
     row["ci95_is_doubtful"] = p.check ? nb::object(nb::cast(p.check->is_doubtful())) : nb::none();
     all.append(row);
   }
