@@ -22,16 +22,18 @@ TEST_P(Soak, NoLawIsViolated) {
   for (std::uint64_t n = 0; n < kScenes; ++n) check_scene(support::seed_of(GetParam() + n));
 }
 
-void check_kind(std::uint64_t seed) {
+std::uint64_t check_kind(std::uint64_t seed) {
   const soak::Findings findings = soak::check_any_kind(seed);
-  EXPECT_GT(findings.n_checked, 100u);
   for (const auto& [law, places] : findings.violations())
     ADD_FAILURE() << law << ": " << places.front() << "\n" << soak::text_of_any_kind(seed);
+  return findings.n_checked;
 }
 
 TEST_P(Soak, NoLawIsViolatedOnScenesOfAnyKind) {
   constexpr std::uint64_t kScenes = 20;
-  for (std::uint64_t n = 0; n < kScenes; ++n) check_kind(support::seed_of(GetParam() + n));
+  std::uint64_t n_checked = 0;  // no method may take a scene of Burgers' flux with a rate that jumps, say
+  for (std::uint64_t n = 0; n < kScenes; ++n) n_checked += check_kind(support::seed_of(GetParam() + n));
+  EXPECT_GT(n_checked, 100 * kScenes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Soak, testing::Values(1, 21, 41, 61));
