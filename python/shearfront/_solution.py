@@ -64,6 +64,9 @@ class Solution:
     summary: dict[str, Any] = field(repr=False)
     fronts: Any = field(default=None, repr=False)
 
+    def __repr__(self) -> str:
+        return f"<Solution by {self.method}: phi and M at {self.t.size} times and {self.z.size} heights>"
+
     def to_dataframe(self) -> Any:
         """A table with a row per time and height, heights running fastest; needs pandas.
 
@@ -212,6 +215,9 @@ class Jacobian:
     M: FloatArray
     dphi: FloatArray
     dM: FloatArray
+
+    def __repr__(self) -> str:
+        return f"<Jacobian of shape {self.phi.shape} by {', '.join(self.names)}>"
 
     def __getitem__(self, name: str) -> FloatArray:
         """The derivative of phi with respect to an entry."""

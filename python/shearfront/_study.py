@@ -63,6 +63,9 @@ class Study:
     outputs: dict[str, FloatArray] = field(repr=False)
     failures: dict[int, str]
 
+    def __repr__(self) -> str:
+        return f"<Study of {len(self)} runs, {len(self.failures)} of them failed: {', '.join([*self.entries, *self.outputs])}>"
+
     def __getitem__(self, name: str) -> FloatArray:
         """A column."""
         return self.entries[name] if name in self.entries else self.outputs[name]

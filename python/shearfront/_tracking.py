@@ -48,6 +48,9 @@ class Profile:
     below: FloatArray
     above: FloatArray
 
+    def __repr__(self) -> str:
+        return f"<Profile of {self.below.size} cells from z = {self.z[0]:g} to {self.z[-1]:g}>"
+
     def line(self) -> tuple[FloatArray, FloatArray]:
         """phi and z as a line to be drawn, jumps included.
 

@@ -234,3 +234,14 @@ def test_tables(may: sf.Scene) -> None:
     labelled = solution.to_xarray()
     assert labelled.phi.sel(t=1, z=0.4).item() == solution.phi[1, 1]
     assert labelled.z.attrs["units"] == "mm"
+
+
+def test_what_holds_arrays_shows_their_sizes_only() -> None:
+    scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    solution = scene.solve([0.5, 1], np.linspace(0, 1, 1001))
+    assert repr(solution) == "<Solution by exact: phi and M at 2 times and 1001 heights>"
+    jacobian = scene.jacobian([0.3, 0.6], 1)
+    assert repr(jacobian).startswith("<Jacobian of shape (2,) by shear_rate.breaks[0], ")
+    assert repr(scene.track(0.5).profile()) == "<Profile of 4 cells from z = 0 to 1>"
+    study = sf.study(scene, {"initial.breaks[0]": [0.4, 0.5]})
+    assert repr(study) == "<Study of 2 runs, 0 of them failed: initial.breaks[0], t_star>"
