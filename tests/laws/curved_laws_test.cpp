@@ -137,7 +137,7 @@ TEST(CurvedLaws, StopsOnTheWayChangeNothing) {
     CurvedRun direct(spec, 0.05), stopped(spec, 0.05);
     const double t = 2 * direct.unit_time;
     direct.advance(t);
-    for (int i = 1; i <= 7; ++i) stopped.advance(t * i / 7);
+    for (int i = 1; i < 7; ++i) stopped.advance(t * i / 7);
     stopped.advance(t);
     const CurvedSnapshot a = direct.snapshot(), b = stopped.snapshot();
     EXPECT_EQ(a.z, b.z) << seed;
