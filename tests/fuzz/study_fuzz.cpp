@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "report.hpp"
+#include "scene_folder.hpp"
 #include "shearfront/fit/study/study_design.hpp"
 #include "shearfront/fit/study/study_spec.hpp"
 
@@ -17,25 +15,6 @@
 namespace {
 
 using namespace shearfront;
-
-/// A folder with a good scene, so that what the study says of its entries is reached.
-class StudyFolder {
- public:
-  StudyFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "shearfront-study-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-    std::ofstream(path_ / "scene.toml")
-        << "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.5]\nvalues = [2, 1]\n"
-           "[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n";
-  }
-  ~StudyFolder() { std::filesystem::remove_all(path_); }
-  StudyFolder(const StudyFolder&) = delete;
-  StudyFolder& operator=(const StudyFolder&) = delete;
-  [[nodiscard]] std::string file() const { return (path_ / "fuzz.toml").string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 constexpr std::size_t kMostPoints = 10'000;
 
@@ -55,7 +34,7 @@ void check_points(const fit::StudySpec& study) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const StudyFolder folder;
+  static const fuzz::SceneFolder folder;
   std::ofstream(folder.file(), std::ios::binary)
       << std::string(reinterpret_cast<const char*>(data), size) << std::flush;
   try {
