@@ -30,6 +30,7 @@ class AnySolver {
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> smooth(const Scene<double>&) const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> amounts() const = 0;
   [[nodiscard]] virtual std::string refusal(const Scene<double>&) const = 0;
+  [[nodiscard]] virtual std::string forewarning(const Scene<double>&) const = 0;
   [[nodiscard]] virtual std::unique_ptr<Run> start(const Scene<double>&, const Watch&) const = 0;
   [[nodiscard]] virtual bool has_derivative(const Scene<double>&, const Entry&) const = 0;
   [[nodiscard]] virtual Linearisation linearise(const Scene<double>&, const std::vector<Place>&,
@@ -81,6 +82,10 @@ class Configured final : public AnySolver {
   }
   [[nodiscard]] std::string refusal(const Scene<double>& scene) const override {
     return S::refusal(scene, options_);
+  }
+  [[nodiscard]] std::string forewarning(const Scene<double>& scene) const override {
+    if constexpr (requires { S::forewarning(scene, options_); }) return S::forewarning(scene, options_);
+    return {};
   }
   [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const override {
     return S::start(scene, options_, watch);
@@ -156,6 +161,11 @@ class Method {
 
   /// Why the method cannot solve the scene, and which can; empty if it can.
   [[nodiscard]] std::string refusal(const Scene<double>& scene) const;
+  /// What is known before a run of the work it may become, in one clause; empty if that is little, and where there is a
+  /// refusal.
+  [[nodiscard]] std::string forewarning(const Scene<double>& scene) const {
+    return solver_->forewarning(scene);
+  }
   /// Precondition: refusal(scene) is empty. The scene must outlive the run.
   [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const;
 
