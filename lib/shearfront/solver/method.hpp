@@ -120,6 +120,9 @@ class Configured final : public AnySolver {
 
 }  // namespace method_detail
 
+/// Errors: InputError (keys "places[i].t" and ".z", the first few) for places before t = 0 or outside the bed.
+void check_places(const Scene<double>& scene, const std::vector<Place>& places);
+
 /// A solver with its options: what --method, [forward] and `compare` choose. A value.
 class Method {
  public:
@@ -174,9 +177,10 @@ class Method {
     return solver_->has_derivative(scene, entry);
   }
   /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at
-  /// least one if `entries` is empty.
+  /// least one if `entries` is empty. Errors: as check_places().
   [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
                                         const std::vector<std::size_t>& entries, std::any& memory) const {
+    check_places(scene, places);
     return solver_->linearise(scene, places, entries, memory);
   }
 
