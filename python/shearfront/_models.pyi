@@ -19,6 +19,16 @@ class Pieces(Model):
 
 def Step(height: float, below: float = ..., above: float = ...) -> Pieces: ...
 
+class Bagnold(Model):
+    angle: float
+    grain: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    surface: float
+    def __init__(self, angle: float, grain: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., surface: float = ...) -> None: ...
+
 class BuckleyLeverett(Model):
     viscosity_ratio: float
     def __init__(self, viscosity_ratio: float) -> None: ...
@@ -48,6 +58,14 @@ class FluxTable(Model):
     phi: tuple[float, ...]
     values: tuple[float, ...]
     def __init__(self, phi: ArrayLike, values: ArrayLike) -> None: ...
+
+class Kinetic(Model):
+    amplitude: float
+    length: float
+    load: float
+    ground: float
+    lid: float
+    def __init__(self, amplitude: float, length: float, load: float, ground: float = ..., lid: float = ...) -> None: ...
 
 class KinkInitial(Model):
     below: float
@@ -90,6 +108,86 @@ class RichardsonZaki(Model):
     exponent: float
     def __init__(self, exponent: float) -> None: ...
 
+class ScalingBagnold(Model):
+    angle: float
+    grain: float
+    small_diameter: float
+    size_ratio: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    surface: float
+    share: float
+    packing: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, angle: float, grain: float, small_diameter: float, size_ratio: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., surface: float = ..., share: float = ..., packing: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingExponential(Model):
+    amplitude: float
+    decay: float
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, amplitude: float, decay: float, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingKinetic(Model):
+    amplitude: float
+    length: float
+    load: float
+    small_diameter: float
+    size_ratio: float
+    ground: float
+    lid: float
+    share: float
+    packing: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, amplitude: float, length: float, load: float, small_diameter: float, size_ratio: float, ground: float = ..., lid: float = ..., share: float = ..., packing: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingTable(Model):
+    z: tuple[float, ...]
+    values: tuple[float, ...]
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, z: ArrayLike, values: ArrayLike, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingVelocity(Model):
+    z: tuple[float, ...]
+    velocity: tuple[float, ...]
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, z: ArrayLike, velocity: ArrayLike, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
 class SineInitial(Model):
     amplitude: float
     wavelength: float
@@ -122,12 +220,14 @@ __all__ = [
     "Model",
     "Pieces",
     "Step",
+    "Bagnold",
     "BuckleyLeverett",
     "Burgers",
     "Chute",
     "Cubic",
     "Exponential",
     "FluxTable",
+    "Kinetic",
     "KinkInitial",
     "Lwr",
     "LwrCubic",
@@ -137,6 +237,11 @@ __all__ = [
     "Piecewise",
     "Quadratic",
     "RichardsonZaki",
+    "ScalingBagnold",
+    "ScalingExponential",
+    "ScalingKinetic",
+    "ScalingTable",
+    "ScalingVelocity",
     "SineInitial",
     "Table",
     "TableInitial",

@@ -9,6 +9,7 @@
 
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/exact/root_medium.hpp"
 #include "shearfront/exact/scaled_medium.hpp"
 #include "shearfront/exact/sloped_medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
@@ -65,6 +66,12 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   const Scalar unit(std::ldexp(1.0, std::ilogb(to_double(fastest))));
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
+  if (form.rate_forms().front() == RateForm::root) {
+    Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), form.boundaries());
+    auto root = std::make_unique<const RootMedium<Scalar>>(low[0], high[0], std::move(cells), form.mass());
+    if (unit == Scalar(1)) return root;
+    return std::make_shared<const ScaledMedium<Scalar>>(std::move(root), unit);
+  }
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
   Cells<Scalar> cells = form.start()
                             ? Cells<Scalar>(form.start(), finer_cuts(form), form.boundaries())
