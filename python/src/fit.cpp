@@ -4,9 +4,11 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -60,6 +62,15 @@ void bind_fit(nb::module_& m) {
       .def_prop_ro("scene", [](const FitProblem& self) { return SharedScene(self.spec->scene); })
       .def_prop_ro("observations", [](const FitProblem& self) { return self.spec->observations; })
       .def_prop_ro("method", [](const FitProblem& self) { return self.spec->forward.method; })
+      .def_prop_ro("priors",
+                   [](const FitProblem& self) {
+                     std::vector<std::tuple<std::string, std::string, double, double>> all;
+                     for (const fit::Prior& prior : self.spec->priors)
+                       all.emplace_back(prior.parameter,
+                                        fit::kPriorNames[static_cast<std::size_t>(prior.kind)], prior.first,
+                                        prior.second);
+                     return all;
+                   })
       .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
       .def("with_uncertainty", &with_uncertainty)
       .def("run", &run);

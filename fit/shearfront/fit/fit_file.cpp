@@ -20,6 +20,7 @@
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/model_choice.hpp"
 #include "shearfront/fit/parameters.hpp"
+#include "shearfront/fit/prior_table.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/method_text.hpp"
@@ -95,6 +96,8 @@ class FitReader {
     if (auto table = root.table("search", Need::optional, "must be a table with algorithm")) search(*table);
     if (auto table = root.table("uncertainty", Need::optional, "must be a table with profile and bootstrap"))
       uncertainty(*table);
+    if (root.table("prior", Need::optional, "must be a table of unknowns with distributions"))
+      priors_ = read_priors(source_, report_);
     root.finish();
 
     if (data_path)
@@ -108,7 +111,7 @@ class FitReader {
     remarks_.insert(remarks_.begin(), scene_->spec().remarks.begin(), scene_->spec().remarks.end());
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
-                    std::move(search_), uncertainty_},
+                    std::move(search_), uncertainty_, std::move(priors_)},
             scene_path.value_or(""), data_path.value_or(""), std::move(remarks_), std::move(choice_)};
   }
 
@@ -325,7 +328,7 @@ class FitReader {
     if (choice_) unknown.shape = Shape::none;  // of what is compared
     if (has_bad_numbers_) unknown.start = unknown.lower = unknown.upper = {};
     try {
-      (void)Parameters(*scene_, unknown);
+      check_priors(priors_, Parameters(*scene_, unknown), source_, report_);
     } catch (const InputError& error) {
       for (Complaint complaint : error.complaints()) {
         if (report_.is_spoiled(complaint.key)) continue;
@@ -364,6 +367,7 @@ class FitReader {
   MisfitSpec misfit_;
   SearchSpec search_;
   UncertaintySpec uncertainty_;
+  std::vector<Prior> priors_;
   std::vector<std::string> remarks_;
   std::optional<ModelChoice> choice_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper
