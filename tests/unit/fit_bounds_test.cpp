@@ -35,7 +35,7 @@ FitSpec twelve_rates(std::uint64_t replicate) {
 /// In one fit of five the lowest rate ends at its lower bound. With it taken as known the interval of the second misses the truth.
 TEST(SlowFitBounds, WhatANeighbourAtABoundLeavesOpenIsNotTakenAsKnown) {
   const FitSpec spec = twelve_rates(258);
-  const auto& truth = std::get<Table<double>>(support::bed_of_42_mm().shear_rate).values;
+  const std::vector<double> truth = std::get<Table<double>>(support::bed_of_42_mm().shear_rate).values;
   const Estimate e = fit(spec);
   ASSERT_TRUE(e.parameters[0].at_bound);
   ASSERT_TRUE(e.parameters[0].profile95 && e.parameters[1].profile95);
