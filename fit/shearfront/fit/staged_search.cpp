@@ -91,6 +91,22 @@ void StagedSearch::find() {
     u_ = before.u;
     break;
   }
+  leave_bounds(start);
+}
+
+void StagedSearch::leave_bounds(const VectorXd& start) {
+  if (!uses_derivatives(spec_.search.algorithm) || spec_.unknown.shape != Shape::none || has_jumps()) return;
+  const std::vector<bool> at_bound = coordinates_.at_bound(u_);
+  for (Eigen::Index j = 0; j < start.size() && result_.status == Status::ok && !control_.must_stop(); ++j) {
+    if (!at_bound[static_cast<std::size_t>(j)] || coordinates_.at_bound(start)[static_cast<std::size_t>(j)])
+      continue;
+    const SearchResult before = result_;
+    u_[j] = start[j];
+    search_from_here(*objective_, 0);
+    if (result_.status == Status::ok && result_.misfit < before.misfit) continue;
+    result_ = before;
+    u_ = before.u;
+  }
 }
 
 void StagedSearch::find_from(const VectorXd& start) {
