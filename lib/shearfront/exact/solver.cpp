@@ -118,7 +118,8 @@ std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Op
 
 Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& options,
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
-                                     std::any& memory) {
+                                     std::any& memory, const Progress& progress) {
+  constexpr std::size_t kPlacesPerCall = 64;  // a few milliseconds in large beds
   // The number of pieces is kept, so that the solution is a smooth function of the numbers of the scene.
   ExactSolution<double>::Options settings = options_of(options);
   if (const auto* pieces = std::any_cast<std::size_t>(&memory)) settings.layers = *pieces;
@@ -131,6 +132,12 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
   result.samples.reserve(places.size());
   result.derivatives.reserve(places.size() * wanted.size());
   for (const Place& place : places) {
+    const std::size_t n = result.samples.size();
+    if (n % kPlacesPerCall == 0 && progress && !progress(place.t, n)) {
+      result.summary.status = Status::interrupted;
+      result.summary.message = "interrupted after " + std::to_string(n) + " places";
+      return result;
+    }
     if (!derivatives) {
       const auto value = solution.at(place.z, place.t);
       result.samples.push_back({value.phi, value.M});
