@@ -28,7 +28,8 @@ struct MapGrid {
   double low, width;
 
   [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return i * heights.size() + j; }
-  void find_steep() {
+  /// `jumps`: heights where phi jumps at rest.
+  void find_steep(const std::vector<double>& jumps) {
     is_steep.assign(phi.size(), false);
     const auto compare = [&](std::size_t a, std::size_t b) {
       if (std::abs(phi[a] - phi[b]) > kSteep * width) is_steep[a] = is_steep[b] = true;
@@ -38,6 +39,12 @@ struct MapGrid {
         if (j > 0) compare(at(i, j - 1), at(i, j));
         if (i > 0) compare(at(i - 1, j), at(i, j));
       }
+    for (const double z : jumps) {
+      const auto above = std::lower_bound(heights.begin(), heights.end(), z) - heights.begin();
+      const auto j = static_cast<std::size_t>(above);
+      for (std::size_t i = 0; i < times.size() && j > 0 && j < heights.size(); ++i)
+        is_steep[at(i, j - 1)] = is_steep[at(i, j)] = true;
+    }
   }
 };
 
@@ -129,7 +136,10 @@ int draw_map(const std::string& path, const Scene<double>& scene, const Method& 
   const StateRange<double> range = states_of(scene);
   MapGrid grid{request.times, request.heights, {}, {}, range.lowest, range.highest - range.lowest};
   for (const Sample& s : result.samples) grid.phi.push_back(s.phi);
-  grid.find_steep();
+  std::vector<double> jumps;
+  for (const double z : scene.knots())
+    if (scene.jumps_at(z)) jumps.push_back(z);
+  grid.find_steep(jumps);
   const std::vector<double> states = contour_states(contours, grid);
   Picture picture(path, "map");
   set_scene(picture, scene, described(method));

@@ -70,7 +70,7 @@ if (n_times <= words(many_colours)) {
       with lines lw 1.3 dt dash_of(j) lc rgb dark_of(k) notitle, \
     for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)).unit, \
     for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact', \
-    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (4,3) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})', \
+    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})', \
     for [j=1:n_others] keyentry with lines lw 1.3 dt dash_of(j) lc rgb 'black' title word(others, j)
 } else {  # too many to be named
   eval "set palette defined (" . phi_palette . ")"
@@ -87,5 +87,5 @@ if (n_times <= words(many_colours)) {
       with lines lw line_width dt dash(n_times-k+1) lc palette cb t_of(n_times-k+1) notitle, \
     for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
       with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : '', \
-    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (4,3) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})'
+    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})'
 }

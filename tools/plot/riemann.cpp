@@ -15,6 +15,7 @@ namespace shearfront::tools {
 namespace {
 
 constexpr double kWaveResolution = 0.005;  // of a fan
+constexpr std::size_t kMostWaves = 40;     // drawn
 
 /// The only height where a, c, T or the flux jumps. Errors: InputError for a bed that is no Riemann problem there.
 double interface_of(const Scene<double>& scene) {
@@ -120,10 +121,15 @@ int draw_riemann(const std::string& path, const Scene<double>& scene) {
   });
   picture.add_file("waves.csv", [&](OutputFile& file) {
     std::string rows = "dz,phi,jump\n";
-    for (const Wave& wave : waves)
+    // A fan of more lines than can be told apart is a solid area.
+    const std::size_t stride = 1 + waves.size() / kMostWaves;
+    for (std::size_t i = 0; i < waves.size(); ++i) {
+      const Wave& wave = waves[i];
+      const double jump = std::abs(wave.phi_above - wave.phi_below);
+      if (i % stride != 0 && jump < 2 * kWaveResolution) continue;
       rows += fmt::format("{},{},{}\n", number_text(wave.speed * t_end),
-                          number_text((wave.phi_below + wave.phi_above) / 2),
-                          number_text(std::abs(wave.phi_above - wave.phi_below)));
+                          number_text((wave.phi_below + wave.phi_above) / 2), number_text(jump));
+    }
     file.write(rows);
   });
   return picture.draw();

@@ -16,31 +16,32 @@ below_colour = blue
 above_colour = '#d55e00'
 
 set multiplot
-set label 1 title noenhanced at screen 0.5,0.955 center
+set label 1 title noenhanced at screen 0.5,0.965 center
 # The flux plane.
 set datafile nocolumnheaders
 stats 'curves.csv' using 3 skip 1 nooutput
 low = min(STATS_min, 0)
 high = max(STATS_max, 0)
 room = 0.08 * (high - low)
-set lmargin at screen 0.1
+set lmargin at screen 0.125
 set rmargin at screen 0.5
 set bmargin at screen 0.17
-set tmargin at screen 0.88
+set tmargin at screen 0.84
 set xlabel 'concentration {/:Italic φ}' offset 0,0.3
-set ylabel label('flux', unit_z eq '' || unit_t eq '' ? '' : unit_z.'/'.unit_t) offset 0.5,0
+set ylabel label('flux', unit_z eq '' || unit_t eq '' ? '' : unit_z.'/'.unit_t) offset 1.2,0
 set xrange [phi_low-0.03*(phi_high-phi_low):phi_high+0.03*(phi_high-phi_low)]
 set yrange [low-room:high+room]
 if (phi_low == 0 && phi_high == 1) set xtics 0.2
 set ytics round_up((high - low) / 5.0)
 set arrow 1 from phi_low,flux_interface to phi_high,flux_interface nohead lw 0.8 dt (8,6) lc rgb grey back
 # States that are the same have one name.
-name(text, phi, flux) = sprintf("set label '%s' at %.9g,%.9g point pt 7 ps 0.7 offset 0.5,%.1f front", text, phi, flux, flux > low + 0.5 * (high - low) ? -0.8 : 0.8)
-eval name('{/:Italic φ}_{below}', phi_outer_below, flux_outer_below)
-eval name('{/:Italic φ}_{above}', phi_outer_above, flux_outer_above)
-if (phi_inner_below != phi_outer_below) { eval name('{/:Italic φ}_−', phi_inner_below, flux_interface) }
-if (phi_inner_above != phi_outer_above) { eval name('{/:Italic φ}_+', phi_inner_above, flux_interface) }
-set key at graph 0.5,1.0 center bottom horizontal Left reverse samplen 1.6
+# The outer states above, the inner ones below their points.
+name(text, phi, flux, up) = sprintf("set label '%s' at %.9g,%.9g point pt 7 ps 0.7 offset 0.6,%.1f front", text, phi, flux, up ? 0.7 : -0.8)
+eval name('{/:Italic φ}_{below}', phi_outer_below, flux_outer_below, 1)
+eval name('{/:Italic φ}_{above}', phi_outer_above, flux_outer_above, 1)
+if (phi_inner_below != phi_outer_below) { eval name('{/:Italic φ}_−', phi_inner_below, flux_interface, 0) }
+if (phi_inner_above != phi_outer_above) { eval name('{/:Italic φ}_+', phi_inner_above, flux_interface, 0) }
+set key at graph 0.5,1.01 center bottom horizontal Left reverse samplen 1.6
 set datafile nocolumnheaders
 plot 'curves.csv' index 0 using 2:3 skip 1 with lines lw 1.2 lc rgb below_colour title 'layer below', \
   'curves.csv' index 1 using 2:3 with lines lw 1.2 lc rgb above_colour title 'layer above', \
@@ -54,7 +55,7 @@ load 'panel.gp'
 set lmargin at screen 0.6
 set rmargin at screen 0.88
 set bmargin at screen 0.17
-set tmargin at screen 0.88
+set tmargin at screen 0.84
 set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
 set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
 set xrange [0:t_end]

@@ -153,7 +153,7 @@ class GridRun final : public Run {
 
   /// On until the bed is near its settled state, or that takes too long.
   Status find_rest_time() {
-    constexpr double kLooksPerCrossing = 16;
+    constexpr double kLooksPerCrossing = 64;
     const double per_look = std::max(1.0, std::floor(n_cells_ / kLooksPerCrossing));
     const double most = static_cast<double>(n_updates_) + kMostUpdatesForRestTime;
     while (!is_near_steady()) {
