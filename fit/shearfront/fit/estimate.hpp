@@ -16,8 +16,8 @@ namespace shearfront::fit {
 /// Stands for a number that the data do not give.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
-/// the best point found (Status::interrupted).
+/// Called after every evaluation, and within those that take long, with the number so far and the smallest misfit; false
+/// ends the search with the best point found (Status::interrupted), and what is still running within RunControl::kGrace.
 using Progress = std::function<bool(std::size_t evaluations, double best_misfit)>;
 
 /// The smallest misfit after so many evaluations: a curve for the picture of a search.

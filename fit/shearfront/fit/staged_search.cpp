@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "shearfront/fit.hpp"
@@ -230,7 +231,8 @@ void StagedSearch::settle(bool leaves_out_jumps) {
 
 bool StagedSearch::renew_rows(std::vector<bool>& keep) {
   std::vector<bool> now =
-      rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
+      rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_),
+                         [this](double, std::uint64_t) { return control_.may_run(); });
   if (now == keep) return false;
   keep = std::move(now);
   objective_ = make_objective(rows_.selected(keep), loss_);

@@ -25,8 +25,8 @@ struct KinkInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "below", .measure = Measure::state}, self.below);
-    visit(FieldInfo{.key = "above", .measure = Measure::state}, self.above);
+    visit(FieldInfo{.key = "below", .measure = Measure::state, .also = "a state of the flux"}, self.below);
+    visit(FieldInfo{.key = "above", .measure = Measure::state, .also = "a state of the flux"}, self.above);
     visit(FieldInfo{.key = "centre", .measure = Measure::height}, self.centre);
     visit(FieldInfo{"width", Range::positive}, self.width);
   }

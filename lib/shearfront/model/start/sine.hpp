@@ -23,9 +23,14 @@ struct SineInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"mean", Range::any, true, Measure::state}, self.mean);
-    visit(FieldInfo{.key = "amplitude", .measure = Measure::state}, self.amplitude);
-    visit(FieldInfo{"wavelength", Range::positive}, self.wavelength);
+    visit(FieldInfo{"mean", Range::any, true, Measure::state, {}, "mean -+ amplitude states of the flux"},
+          self.mean);
+    visit(
+        FieldInfo{
+            .key = "amplitude", .measure = Measure::state, .also = "mean -+ amplitude states of the flux"},
+        self.amplitude);
+    visit(FieldInfo{.key = "wavelength", .range = Range::positive, .also = "at most 1e5 waves"},
+          self.wavelength);
     visit(FieldInfo{"origin", Range::any, true, Measure::height}, self.origin);
   }
   /// So short a wave is not seen by any grid, and each is a piece of its own to those without one.

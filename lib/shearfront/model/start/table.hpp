@@ -23,8 +23,8 @@ struct TableInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "z", .measure = Measure::height}, self.z);
-    visit(FieldInfo{.key = "values", .measure = Measure::state}, self.values);
+    visit(FieldInfo{.key = "z", .measure = Measure::height, .also = "from bottom to top, ascending"}, self.z);
+    visit(FieldInfo{.key = "values", .measure = Measure::state, .also = "states of the flux"}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {
