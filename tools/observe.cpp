@@ -17,6 +17,7 @@
 #include "cli/scene.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront::tools {
@@ -163,6 +164,9 @@ int observe_scene(ObserveArguments& arguments) {
   check_arguments(arguments);
   const Method method = arguments.method.method();
   const auto scene = arguments.scene.read();
+  if (scene.is_slab())
+    throw InputError(printable(arguments.scene.file()), "",
+                     "has a table slab: `solve --method slab` gives phi(x, z, t)");
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);

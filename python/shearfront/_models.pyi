@@ -19,6 +19,17 @@ class Pieces(Model):
 
 def Step(height: float, below: float = ..., above: float = ...) -> Pieces: ...
 
+class BagnoldVelocity(Model):
+    angle: float
+    grain: float
+    surface: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    ground: float
+    def __init__(self, angle: float, grain: float, surface: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., ground: float = ...) -> None: ...
+
 class BuckleyLeverett(Model):
     viscosity_ratio: float
     def __init__(self, viscosity_ratio: float) -> None: ...
@@ -55,6 +66,11 @@ class KinkInitial(Model):
     centre: float
     width: float
     def __init__(self, below: float, above: float, centre: float, width: float) -> None: ...
+
+class LinearVelocity(Model):
+    slope: float
+    slip: float
+    def __init__(self, slope: float, slip: float = ...) -> None: ...
 
 class Lwr(Model):
     jam: float
@@ -107,10 +123,19 @@ class TableInitial(Model):
     values: tuple[float, ...]
     def __init__(self, z: ArrayLike, values: ArrayLike) -> None: ...
 
+class TableVelocity(Model):
+    z: tuple[float, ...]
+    values: tuple[float, ...]
+    def __init__(self, z: ArrayLike, values: ArrayLike) -> None: ...
+
 class Triangular(Model):
     critical: float
     jam: float
     def __init__(self, critical: float, jam: float = ...) -> None: ...
+
+class UniformVelocity(Model):
+    value: float
+    def __init__(self, value: float) -> None: ...
 
 MODELS: dict[str, type[Model]]
 
@@ -122,6 +147,7 @@ __all__ = [
     "Model",
     "Pieces",
     "Step",
+    "BagnoldVelocity",
     "BuckleyLeverett",
     "Burgers",
     "Chute",
@@ -129,6 +155,7 @@ __all__ = [
     "Exponential",
     "FluxTable",
     "KinkInitial",
+    "LinearVelocity",
     "Lwr",
     "LwrCubic",
     "PackingPolynomial",
@@ -140,5 +167,7 @@ __all__ = [
     "SineInitial",
     "Table",
     "TableInitial",
+    "TableVelocity",
     "Triangular",
+    "UniformVelocity",
 ]

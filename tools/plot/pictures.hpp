@@ -27,6 +27,10 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
 /// phi over t (from 0) and z (map.gp).
 int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end);
 
+/// phi over x and z, a panel per time (slab.gp).
+int draw_slab(const std::string& path, const Scene<double>& scene, const Method& method,
+              const SlabSamples& frames);
+
 /// Mixing or bed height against time up to the last time (bed.gp).
 int draw_bed_course(const std::string& path, const Scene<double>& scene, const Method& method,
                     const BedCourse& course);

@@ -116,6 +116,8 @@ HeaderMatch match(const std::vector<Heading>& headings, const ObservationFormat&
         find(c, [&](const Heading& h) { return lower_case(h.name) == usual; });
         if (result.fields[c].size() > 1) result.fields[c].resize(1);
       }
+  const auto t = static_cast<std::size_t>(Column::t);
+  if (format.is_chute && unnamed(t)) find(t, [](const Heading& h) { return h.name == "x"; });
   return result;
 }
 
@@ -408,8 +410,13 @@ std::string ObservationColumns::understood() const {
 
 bool ObservationColumns::is_plain() const {
   if (layout_ != TableLayout::rows || has(Column::phi_large)) return false;
-  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
-    if (at_[c] && (headings_[*at_[c]].name != kColumnNames[c] || factors_[c] != 1)) return false;
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
+    if (!at_[c]) continue;
+    const std::string& name = headings_[*at_[c]].name;
+    const bool is_distance =
+        static_cast<Column>(c) == Column::t && name == "x";  // only a chute takes x for t
+    if ((name != kColumnNames[c] && !is_distance) || factors_[c] != 1) return false;
+  }
   return true;
 }
 
