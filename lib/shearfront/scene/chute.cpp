@@ -64,6 +64,7 @@ SteadyChute<S>::SteadyChute(const Scene<S>& scene)
   SHEARFRONT_EXPECTS(scene.is_chute(), "a steady chute");
   spec_ = nullptr;
   known_.insert(known_.end(), {bottom_, top_});
+  known_.insert(known_.end(), scene.initial_breaks().begin(), scene.initial_breaks().end());
   std::sort(known_.begin(), known_.end());
   known_in_bed_ = bed_heights(known_);
 }
