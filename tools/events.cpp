@@ -243,7 +243,7 @@ int events(EventsArguments& arguments) {
   check_outputs(arguments.scene.file(), {{"--plot", arguments.plot}});
   const auto scene = arguments.scene.read();
   check_picture_target(arguments.plot);
-  note_unused_layers(arguments.method, scene);
+  note_before_run(arguments.method, method, scene);
 
   SolverRequest request;
   request.timeline = true;

@@ -85,10 +85,11 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "shearfront " SHEARFRONT_VERSION, "Print the version and exit");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{
-      tools::add_events(program), tools::add_solve(program),   tools::add_observe(program),
-      tools::add_fit(program),    tools::add_compare(program), tools::add_check(program),
-      tools::add_list(program),   tools::add_import(program),  tools::add_study(program)};
+  const std::vector<Command> commands{tools::add_events(program),  tools::add_solve(program),
+                                      tools::add_observe(program), tools::add_fit(program),
+                                      tools::add_compare(program), tools::add_check(program),
+                                      tools::add_list(program),    tools::add_import(program),
+                                      tools::add_study(program),   tools::add_design(program)};
   bool is_verbose = false;
   for (const Command& command : commands) {
     command.app->add_flag("--verbose", is_verbose,

@@ -170,7 +170,7 @@ int observe_scene(ObserveArguments& arguments) {
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
-  note_unused_layers(arguments.method, scene);
+  note_before_run(arguments.method, method, scene);
 
   const SolverResult result =
       with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });

@@ -147,7 +147,7 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
     refuse("--times", arguments.times, "must give at most 1e8 times");
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
-  note_unused_layers(arguments.method, task.scene);
+  note_before_run(arguments.method, task.method, task.scene);
   const BedCourse course = with_progress(
       [&](const Progress& progress) {
         return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
@@ -177,7 +177,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   if (request.fronts) fronts.emplace(arguments.fronts);
   check_picture_target(arguments.plot);
   check_picture_target(arguments.map);
-  note_unused_layers(arguments.method, task.scene);
+  note_before_run(arguments.method, task.method, task.scene);
   const SolverResult result = with_progress(
       [&](const Progress& progress) { return shearfront::solve(task.scene, task.method, request, progress); },
       last_time(request.times));

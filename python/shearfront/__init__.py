@@ -29,8 +29,11 @@ if TYPE_CHECKING:
     from ._estimate import Bootstrap, Fit, Parameter, Prediction, RateBand
     from ._fit import Problem, compare_fits, fit, problem, read_fit
     from ._misfit import Misfit
+    from ._posterior import Posterior
+    from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
     from ._study import Study, study
     from ._tracking import Profile, Tracking
+    from ._umbridge import umbridge
 
 __version__ = "0.1.0"
 
@@ -40,8 +43,11 @@ _LAZY = {
     "_estimate": ("Bootstrap", "Fit", "Parameter", "Prediction", "RateBand"),
     "_fit": ("Problem", "compare_fits", "fit", "problem", "read_fit"),
     "_misfit": ("Misfit",),
+    "_posterior": ("Posterior",),
+    "_priors": ("HalfNormal", "LogNormal", "Normal", "Prior", "Uniform"),
     "_study": ("Study", "study"),
     "_tracking": ("Profile", "Tracking"),
+    "_umbridge": ("umbridge",),
 }
 
 __all__ = [
@@ -49,14 +55,19 @@ __all__ = [
     "Complaint",
     "Events",
     "Fit",
+    "HalfNormal",
     "InputError",
     "Interface",
     "Jacobian",
+    "LogNormal",
     "Misfit",
     "NoResult",
+    "Normal",
     "Observations",
     "Parameter",
+    "Posterior",
     "Prediction",
+    "Prior",
     "Problem",
     "Profile",
     "RateBand",
@@ -65,6 +76,7 @@ __all__ = [
     "Solution",
     "Study",
     "Tracking",
+    "Uniform",
     "compare_fits",
     "data",
     "fit",
@@ -76,6 +88,7 @@ __all__ = [
     "read_fit",
     "sampled",
     "study",
+    "umbridge",
 ]
 __all__ += _model_names
 

@@ -14,10 +14,14 @@ from ._errors import NoResult
 from ._scene import Scene
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
     from ._arrays import FloatArray
     from ._fit import Problem
+    from ._posterior import Posterior
+    from ._priors import Prior
 
 _DRAWS = 1000
 
@@ -284,6 +288,29 @@ class Fit:
     def residuals(self) -> FloatArray:
         """Observed less predicted, in the unit of the data."""
         return self.problem.observations.value - self.predicted
+
+    def posterior(self, priors: Mapping[str, Prior] | None = None) -> Posterior:
+        """What data and priors together say about the unknowns; see :meth:`Problem.posterior`.
+
+        Parameters
+        ----------
+        priors : mapping, optional
+            By unknown or field.
+
+        Returns
+        -------
+        Posterior
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
+        >>> found = sf.fit(scene, seen, "shear_rate.values")
+        >>> found.posterior({"shear_rate.values": sf.LogNormal(1, 2)}).priors["shear_rate.values[1]"]
+        LogNormal(median=1, sigma=2)
+        """
+        return self.problem.posterior(priors)
 
     def predict(self, t: Any, z: Any, *, draws: int = _DRAWS, seed: int | None = None) -> Prediction:
         """phi and M with 95 % bands, from scenes drawn from the error bars.

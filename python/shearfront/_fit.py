@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,10 @@ from ._estimate import Fit
 from ._misfit import Misfit
 from ._scene import Scene
 from ._toml import toml_text
+
+if TYPE_CHECKING:
+    from ._posterior import Posterior
+    from ._priors import Prior
 
 
 class Problem:
@@ -52,6 +56,30 @@ class Problem:
     def misfit(self) -> Misfit:
         """The misfit as a function of the unknowns."""
         return Misfit(self)
+
+    def posterior(self, priors: Mapping[str, Prior] | None = None) -> Posterior:
+        """What data and priors together say about the unknowns.
+
+        Parameters
+        ----------
+        priors : mapping, optional
+            By unknown, or by field for all of its entries; flat within the bounds where none is given.
+
+        Returns
+        -------
+        Posterior
+
+        Examples
+        --------
+        >>> import shearfront as sf
+        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-3)
+        >>> sf.problem(scene, seen, "shear_rate.values").posterior().names
+        ['shear_rate.values[0]', 'shear_rate.values[1]']
+        """
+        from ._posterior import Posterior
+
+        return Posterior(self, priors)
 
     def run(self) -> Fit:
         """Finds the unknowns.

@@ -19,6 +19,16 @@ class Pieces(Model):
 
 def Step(height: float, below: float = ..., above: float = ...) -> Pieces: ...
 
+class Bagnold(Model):
+    angle: float
+    grain: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    surface: float
+    def __init__(self, angle: float, grain: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., surface: float = ...) -> None: ...
+
 class BagnoldVelocity(Model):
     angle: float
     grain: float
@@ -59,6 +69,14 @@ class FluxTable(Model):
     phi: tuple[float, ...]
     values: tuple[float, ...]
     def __init__(self, phi: ArrayLike, values: ArrayLike) -> None: ...
+
+class Kinetic(Model):
+    amplitude: float
+    length: float
+    load: float
+    ground: float
+    lid: float
+    def __init__(self, amplitude: float, length: float, load: float, ground: float = ..., lid: float = ...) -> None: ...
 
 class KinkInitial(Model):
     below: float
@@ -106,6 +124,86 @@ class RichardsonZaki(Model):
     exponent: float
     def __init__(self, exponent: float) -> None: ...
 
+class ScalingBagnold(Model):
+    angle: float
+    grain: float
+    small_diameter: float
+    size_ratio: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    surface: float
+    share: float
+    packing: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, angle: float, grain: float, small_diameter: float, size_ratio: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., surface: float = ..., share: float = ..., packing: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingExponential(Model):
+    amplitude: float
+    decay: float
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, amplitude: float, decay: float, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingKinetic(Model):
+    amplitude: float
+    length: float
+    load: float
+    small_diameter: float
+    size_ratio: float
+    ground: float
+    lid: float
+    share: float
+    packing: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, amplitude: float, length: float, load: float, small_diameter: float, size_ratio: float, ground: float = ..., lid: float = ..., share: float = ..., packing: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingTable(Model):
+    z: tuple[float, ...]
+    values: tuple[float, ...]
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, z: ArrayLike, values: ArrayLike, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
+class ScalingVelocity(Model):
+    z: tuple[float, ...]
+    velocity: tuple[float, ...]
+    small_diameter: float
+    size_ratio: float
+    share: float
+    packing: float
+    pressure: float
+    density: float
+    gravity: float
+    lid: float
+    B: float
+    C: float
+    E: float
+    def __init__(self, z: ArrayLike, velocity: ArrayLike, small_diameter: float, size_ratio: float, share: float = ..., packing: float = ..., pressure: float = ..., density: float = ..., gravity: float = ..., lid: float = ..., B: float = ..., C: float = ..., E: float = ...) -> None: ...
+
 class SineInitial(Model):
     amplitude: float
     wavelength: float
@@ -147,6 +245,7 @@ __all__ = [
     "Model",
     "Pieces",
     "Step",
+    "Bagnold",
     "BagnoldVelocity",
     "BuckleyLeverett",
     "Burgers",
@@ -154,6 +253,7 @@ __all__ = [
     "Cubic",
     "Exponential",
     "FluxTable",
+    "Kinetic",
     "KinkInitial",
     "LinearVelocity",
     "Lwr",
@@ -164,6 +264,11 @@ __all__ = [
     "Piecewise",
     "Quadratic",
     "RichardsonZaki",
+    "ScalingBagnold",
+    "ScalingExponential",
+    "ScalingKinetic",
+    "ScalingTable",
+    "ScalingVelocity",
     "SineInitial",
     "Table",
     "TableInitial",

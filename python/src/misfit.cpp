@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -57,6 +58,26 @@ class CallableMisfit {
     for (const double x : r) sum += loss_(x * x).rho;
     return sum / 2;
   }
+  /// sum r^2 and its gradient 2 J^T r, in one run of the model: what a Gaussian likelihood is made of, whatever the loss.
+  [[nodiscard]] std::pair<double, nb::object> squares(const Numbers& p) {
+    const auto [r, jacobian] = run(p, true);
+    const VectorXd gradient = 2 * (jacobian.transpose() * r);
+    return {r.squaredNorm(), array_of({gradient.data(), gradient.data() + gradient.size()})};
+  }
+  /// The order among the values of a(z): "none", "decreasing" or "convex".
+  [[nodiscard]] std::string shape() const {
+    switch (parameters_.shape()) {
+      case fit::Shape::decreasing:
+        return "decreasing";
+      case fit::Shape::convex:
+        return "convex";
+      case fit::Shape::none:
+        break;
+    }
+    return "none";
+  }
+  [[nodiscard]] std::size_t n_rows() const { return rows_.rows.size(); }
+  [[nodiscard]] bool has_exact_derivatives() const { return forward_.has_derivatives(); }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const fit::Parameter& p : parameters_) all.push_back(p.name());
@@ -118,6 +139,10 @@ void bind_misfit(nb::module_& m) {
       .def("residuals", &CallableMisfit::residuals)
       .def("jacobian", &CallableMisfit::jacobian)
       .def("misfit", &CallableMisfit::misfit)
+      .def("squares", &CallableMisfit::squares)
+      .def_prop_ro("shape", &CallableMisfit::shape)
+      .def_prop_ro("n_rows", &CallableMisfit::n_rows)
+      .def_prop_ro("has_exact_derivatives", &CallableMisfit::has_exact_derivatives)
       .def_prop_ro("names", &CallableMisfit::names)
       .def_prop_ro("start", [](const CallableMisfit& self) { return self.numbers(&fit::Parameter::start); })
       .def_prop_ro("lower", [](const CallableMisfit& self) { return self.numbers(&fit::Parameter::lower); })

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "shearfront/fit.hpp"
@@ -61,6 +62,37 @@ Example table_example() {
   return example;
 }
 
+/// A bed sheared under a light lid (kinetic.hpp), and one whose rate is a law of the shear rate without a lid (scaling.hpp), in 20 bins.
+Example rheology_example(const char* name, DepthFunction<double> rate, std::vector<std::string> parameters,
+                         std::vector<double> start, double first) {
+  SceneSpec<double> scene;
+  scene.shear_rate = std::move(rate);
+  scene.initial_breaks = {0.5};
+  scene.initial_values = {0, 1};
+  Example example{name, scene, std::move(parameters), std::move(start), {}, {}};
+  for (int i = 0; i < 16; ++i) example.times.push_back(first * std::pow(1.4, i));
+  example.depths = grid(0.025, 0.05, 20);
+  example.forward = {Method::of<ExactSolver>({.tolerance = 1e-4})};
+  return example;
+}
+Example kinetic_example() {
+  Kinetic<double> a;
+  a.length = 0.2;
+  a.load = 0.3;
+  a.lid = 1;
+  return rheology_example("kinetic", a, {"shear_rate.amplitude", "shear_rate.length", "shear_rate.load"},
+                          {0.8, 0.25, 0.4}, 0.2);
+}
+Example scaling_example() {
+  Scaling<Exponential<double>> a;
+  a.shear = {20, 0.5};
+  a.small_diameter = 0.05;
+  a.size_ratio = 2;
+  a.pressure = 0;
+  a.lid = 1;
+  return rheology_example("scaling", a, {"shear_rate.B", "shear_rate.C"}, {0.3, 0.4}, 0.2);
+}
+
 std::vector<Example> examples() {
   SceneSpec<double> scene;
   scene.initial_breaks = {0.5};
@@ -97,7 +129,9 @@ std::vector<Example> examples() {
        {0.25, 0.5, 1, 1.5, 2, 3, 4, 6},
        grid(0.025, 0.05, 20),
        crank_nicolson},
-      table_example()};
+      table_example(),
+      kinetic_example(),
+      scaling_example()};
 }
 
 Observations without_noise(const Example& example, Quantity quantity) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "soak/curved.hpp"
 #include "soak/laws.hpp"
 
 namespace {
@@ -32,7 +33,7 @@ struct Settings {
   std::uint64_t seed = 1, scenes = UINT64_MAX;
   unsigned threads = 1;
   double seconds_per_scene = 120;
-  bool print = false;
+  bool print = false, curved_only = false;
 };
 
 class Soak {
@@ -68,13 +69,19 @@ class Soak {
       const std::uint64_t seed = next_++;
       if (seed - settings_.seed >= settings_.scenes) return;
       worker.seed = seed;
+      if (!settings_.curved_only) {
+        worker.begin = Clock::now().time_since_epoch().count();
+        check(
+            seed, [&] { return soak::check_trial(soak::draw_trial(seed)); },
+            [&] { return soak::text_of(soak::draw_trial(seed)); });
+        worker.begin = Clock::now().time_since_epoch().count();
+        check(
+            seed, [&] { return soak::check_any_kind(seed); }, [&] { return soak::text_of_any_kind(seed); });
+      }
       worker.begin = Clock::now().time_since_epoch().count();
       check(
-          seed, [&] { return soak::check_trial(soak::draw_trial(seed)); },
-          [&] { return soak::text_of(soak::draw_trial(seed)); });
-      worker.begin = Clock::now().time_since_epoch().count();
-      check(
-          seed, [&] { return soak::check_any_kind(seed); }, [&] { return soak::text_of_any_kind(seed); });
+          seed, [&] { return soak::check_curved(soak::draw_curved(seed)); },
+          [&] { return soak::text_of(soak::draw_curved(seed)); });
       worker.begin = 0;
     }
   }
@@ -114,7 +121,8 @@ class Soak {
         const std::lock_guard lock(mutex_);
         std::printf(
             "VIOLATED  every scene ends within %g s\n%s\n", settings_.seconds_per_scene,
-            (soak::text_of(soak::draw_trial(worker.seed)) + "or\n" + soak::text_of_any_kind(worker.seed))
+            (soak::text_of(soak::draw_trial(worker.seed)) + "or\n" + soak::text_of_any_kind(worker.seed) +
+             "or\n" + soak::text_of(soak::draw_curved(worker.seed)))
                 .c_str());
         ++total_.n_violations;
         print_summary();
@@ -163,6 +171,7 @@ int main(int argc, char** argv) {
                  "A scene that takes longer is a violation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--curved", settings.curved_only, "Only the laws of curved fronts");
   app.add_flag("--print", settings.print, "Print every scene");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, remember_interrupt);

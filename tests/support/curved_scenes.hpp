@@ -84,6 +84,57 @@ inline SceneSpec<double> random_curved_flux_spec(std::uint64_t seed) {
   return spec;
 }
 
+/// Beds next to what a double can hold: rates over 20 decades, pieces 1e-12 high, rates that differ by 1e-15, states 1e-15 from
+/// pure ones or from 1/2.
+inline SceneSpec<double> hostile_curved_spec(std::uint64_t seed) {
+  SceneMaker maker(seed);
+  const auto decades = [&](double lo, double hi) { return std::pow(10.0, maker.uniform(lo, hi)); };
+  SceneSpec<double> spec;
+  const int shape = maker.integer(0, 5);
+  if (shape == 0) {
+    spec.shear_rate = Exponential<double>{decades(-3, 3), decades(-1.4, 13)};
+  } else if (shape == 1) {
+    spec.shear_rate = Chute<double>{decades(-3, 3), decades(-1.4, 13), maker.uniform(0, 1)};
+  } else {
+    const double range = maker.integer(0, 1) == 0 ? 10 : 1;
+    Table<double> table{{0}, {decades(-range, range)}};
+    const auto next = [&] {
+      switch (maker.integer(0, 3)) {
+        case 0:
+          return table.values.back() * (1 + maker.integer(-20, 20) * 1e-16);
+        case 1:
+          return table.values.back() * (1 + maker.uniform(-1, 1) * decades(-14, 0) / 2);
+        default:
+          return decades(-range, range);
+      }
+    };
+    for (const double z : maker.heights(maker.integer(1, 4), 0, 1)) {
+      table.z.push_back(z);
+      table.values.push_back(next());
+      if (maker.integer(0, 2) != 0) continue;
+      const double higher = z + (maker.integer(0, 2) == 0 ? 0 : decades(-13, -4));
+      table.z.push_back(higher);
+      table.values.push_back(next());
+    }
+    table.z.push_back(1);
+    table.values.push_back(next());
+    spec.shear_rate = table;
+  }
+  const int jumps = maker.integer(0, 3);
+  spec.initial_breaks = maker.heights(jumps, 0, 1);
+  for (int i = 0; i <= jumps; ++i) {
+    const double little = decades(-16, -1) / 2, sign = maker.integer(0, 1) == 0 ? -1 : 1;
+    const int kind = maker.integer(0, 5);
+    spec.initial_values.push_back(kind == 0   ? 0
+                                  : kind == 1 ? 1
+                                  : kind == 2 ? little
+                                  : kind == 3 ? 1 - little
+                                  : kind == 4 ? 0.5 + sign * little * maker.integer(0, 1)
+                                              : maker.uniform(0, 1));
+  }
+  return spec;
+}
+
 /// The same bed upside down, with large and small grains exchanged. Its rates are those of a table through the same values.
 inline SceneSpec<double> turned_over(const SceneSpec<double>& spec) {
   SceneSpec<double> turned = spec;

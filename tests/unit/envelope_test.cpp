@@ -64,5 +64,17 @@ TEST(Envelope, IsOneSidedAndBendsOneWay) {
   }
 }
 
+/// What no check of a scene lets through must not run for ever.
+TEST(Envelope, OfStatesThatNoLayerHasIsAnError) {
+  for (const Flux<double>& flux : support::unimodal_fluxes()) {
+    SCOPED_TRACE(support::name_of(flux));
+    const LayerStack<double> stack({0, 1}, {1.7}, 1, {}, {{flux}, {}, {}});
+    const auto built = UnimodalGrid<double>::exact_levels(stack, 0.04, {{0, 0.03125}});
+    const State n = built.grid.n_states(0);
+    for (const auto& [l, r] : Fronts{{0, n}, {n, 0}, {0, n + 3}, {n + 3, 1}, {n, n + 1}, {-1, 1}, {1, -2}})
+      EXPECT_THROW(Envelope<UnimodalGrid<double>>(built.grid, 0, l, r), ContractViolation) << l << " " << r;
+  }
+}
+
 }  // namespace
 }  // namespace shearfront

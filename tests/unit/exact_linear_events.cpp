@@ -11,23 +11,18 @@
 #include "shearfront/exact/events.hpp"
 #include "support/random_scene.hpp"
 #include "support/scene_cast.hpp"
+#include "support/table_scenes.hpp"
 
 namespace shearfront {
 namespace {
 
-SceneSpec<double> scene_of(Table<double> table, std::vector<double> breaks, std::vector<double> values) {
-  SceneSpec<double> spec;
-  spec.shear_rate = std::move(table);
-  spec.initial_breaks = std::move(breaks);
-  spec.initial_values = std::move(values);
-  return spec;
-}
+using support::table_scene;
 
 /// With 1 above 0 in one segment t* = (4 / |b|) artanh(|b| m / a(m)); from 1 to e with the jump at 1/2 it is 2 ln(1 / e) / (1 -
 /// e), where the flux at the end is of the order of e.
 TEST(LinearEvents, KeepTheirDigitsWhereTheFluxIsTiny) {
   for (const double least : {1e-2, 1e-5, 1e-8, 1e-11}) {
-    const auto events = exact_timeline(Scene<double>(scene_of({{0, 1}, {1, least}}, {0.5}, {0, 1})));
+    const auto events = exact_timeline(Scene<double>(table_scene({{0, 1}, {1, least}}, {0.5}, {0, 1})));
     const double t = 2 * std::log(1 / least) / (1 - least);
     EXPECT_NEAR(*events.t_star, t, 2e-14 * t) << least;
   }
@@ -35,7 +30,7 @@ TEST(LinearEvents, KeepTheirDigitsWhereTheFluxIsTiny) {
 
 TEST(LinearEvents, ListTheKnots) {
   const auto events = exact_timeline(
-      Scene<double>(scene_of({{0, 0.2, 0.4, 0.8, 1}, {2, 1, 1, 3, 0.5}}, {0.3, 0.9}, {0, 1, 0.4})));
+      Scene<double>(table_scene({{0, 0.2, 0.4, 0.8, 1}, {2, 1, 1, 3, 0.5}}, {0.3, 0.9}, {0, 1, 0.4})));
   ASSERT_EQ(events.interfaces.size(), 3u);
   EXPECT_EQ(events.interfaces[0].z, 0.2);
   EXPECT_NEAR(*events.interfaces[0].first, 0.1, 1e-15);  // 0s below the jump: in the flat piece
@@ -43,10 +38,11 @@ TEST(LinearEvents, ListTheKnots) {
   // int dz / a from 0.3 over 0.4, where the slope is 5.
   EXPECT_NEAR(*events.interfaces[2].first, 0.1 + std::log(3) / 5, 1e-15);
   // A state that is neither 0 nor 1 changes at once where a slopes.
-  const auto mixed = exact_timeline(Scene<double>(scene_of({{0, 0.5, 1}, {2, 1, 1}}, {}, {0.4})));
+  const auto mixed = exact_timeline(Scene<double>(table_scene({{0, 0.5, 1}, {2, 1, 1}}, {}, {0.4})));
   EXPECT_EQ(*mixed.interfaces[0].first, 0);
   // Nothing passes a height with only 1 below it.
-  const auto still = exact_timeline(Scene<double>(scene_of({{0, 0.2, 1}, {2, 1, 3}}, {0.5, 0.7}, {1, 0, 1})));
+  const auto still =
+      exact_timeline(Scene<double>(table_scene({{0, 0.2, 1}, {2, 1, 3}}, {0.5, 0.7}, {1, 0, 1})));
   EXPECT_FALSE(still.interfaces[0].first.has_value());
 }
 
@@ -88,7 +84,7 @@ TEST(LinearEvents, AreThoseOfMoreDigits) {
     std::vector<double> z{0, make.uniform(0.1, 0.4), make.uniform(0.5, 0.9), 1}, a;
     for (int k = 0; k < 4; ++k) a.push_back(std::exp(make.uniform(-9, 1)));
     const Scene<double> scene(
-        scene_of({z, a}, {make.uniform(0.2, 0.8)}, {make.uniform(0, 0.4), make.uniform(0.6, 1)}));
+        table_scene({z, a}, {make.uniform(0.2, 0.8)}, {make.uniform(0, 0.4), make.uniform(0.6, 1)}));
     const auto events = exact_timeline(scene);
     const auto precise = exact_timeline(scene_cast<Real110>(scene));
     EXPECT_NEAR(*events.t_star, to_double(*precise.t_star), 1e-12 * *events.t_star) << "scene " << n;

@@ -8,32 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/l1_error.hpp"
-#include "shearfront/scene/entries.hpp"
 #include "support/many_digits.hpp"
 #include "support/random_scene.hpp"
+#include "support/table_scenes.hpp"
 
 namespace shearfront {
 namespace {
 
-SceneSpec<double> scene_of(Table<double> table, std::vector<double> breaks, std::vector<double> values,
-                           double scale = 1) {
-  SceneSpec<double> spec;
-  spec.shear_rate = std::move(table);
-  spec.scale = scale;
-  spec.initial_breaks = std::move(breaks);
-  spec.initial_values = std::move(values);
-  return spec;
-}
-/// One piece: a = 2 - 1.5 z.
-SceneSpec<double> one_piece() { return scene_of({{0, 1}, {2, 0.5}}, {0.5}, {0, 1}, 1.3); }
-/// A hump, a throat, a hump.
-SceneSpec<double> four_pieces() {
-  return scene_of({{0, 0.3, 0.55, 0.8, 1}, {0.5, 1.6, 0.4, 0.9, 0.6}}, {0.25, 0.6}, {0.35, 0.9, 0.2});
-}
+using support::four_pieces;
+using support::one_piece;
+using support::table_scene;
 
 struct PieceReference {
   char scene;
@@ -115,64 +102,15 @@ TEST(LinearPieces, MixedBedsOfOnePieceComeToRestAtTheClosedForm) {
 /// A throat in the middle of a vee: its capacity a / 4 delays the last grains far longer than a staircase says.
 TEST(LinearPieces, AThroatLetsThroughWhatItCan) {
   // The flux at rest is s a / 4 = 0.05: M(1/2) grows as 0.05 t from the time the first path rests there.
-  const Scene<double> vee(scene_of({{0, 0.5, 1}, {2, 0.2, 2}}, {0.7}, {0, 1}));
+  const Scene<double> vee(table_scene({{0, 0.5, 1}, {2, 0.2, 2}}, {0.7}, {0, 1}));
   const ExactSolution<double> exact(vee);
   EXPECT_NEAR(exact.M(0.5, 4) - exact.M(0.5, 3), 0.05, 1e-15);
   EXPECT_NEAR(exact.phi(0.5, 3), 0.5, 1e-15);
   // Two throats: four digits of a Godunov scheme, extrapolated.
-  const auto events = exact_timeline(
-      Scene<double>(scene_of({{0, 0.2, 0.35, 0.5, 0.8, 1}, {0.5, 3, 0.2, 1.5, 0.1, 2}}, {0.5}, {0.2, 0.9})));
+  const auto events = exact_timeline(Scene<double>(
+      table_scene({{0, 0.2, 0.35, 0.5, 0.8, 1}, {0.5, 3, 0.2, 1.5, 0.1, 2}}, {0.5}, {0.2, 0.9})));
   EXPECT_GT(*events.t_star, 7.950);
   EXPECT_LT(*events.t_star, 7.951);
-}
-
-Entry entry_named(const SceneSpec<double>& spec, const std::string& name, std::size_t& place) {
-  const auto all = entries(spec);
-  for (place = 0; place < all.size(); ++place)
-    if (all[place].name() == name) return all[place];
-  ADD_FAILURE() << name;
-  return all.front();
-}
-
-TEST(LinearPieces, HaveTheReferenceDerivatives) {
-  struct Case {
-    SceneSpec<double> spec;
-    double z, t;
-    std::string name;
-    double M, phi;
-  };
-  const double any = NAN;
-  const std::vector<Case> cases{
-      {one_piece(), 0.3, 0.5, "shear_rate.values[0]", 0.08480452094079, -0.02719386630407586},
-      {one_piece(), 0.3, 0.5, "shear_rate.values[1]", 0.06693950434107, 0.09575314021191129},
-      {one_piece(), 0.3, 0.5, "shear_rate.scale", 0.15621445696317, any},
-      {one_piece(), 0.3, 0.5, "initial.breaks[0]", -0.50754114440425, any},
-      {one_piece(), 0.3, 0.2, "shear_rate.values[0]", 0.02656887622377, any},
-      {one_piece(), 0.3, 0.2, "shear_rate.values[1]", 0.01855700767669, any},
-      {one_piece(), 0.3, 0.2, "initial.breaks[0]", -0.25927197782812, any},
-      {four_pieces(), 0.5, 1, "shear_rate.values[1]", 0.01385237237874, any},
-      {four_pieces(), 0.5, 1, "shear_rate.values[2]", 0.19459051048505, any},
-      {four_pieces(), 0.5, 1, "shear_rate.z[1]", 0.06649138741794, any},
-      {four_pieces(), 0.5, 1, "shear_rate.z[2]", 0.63969483042996, any},
-      {four_pieces(), 0.62, 0.3, "shear_rate.values[1]", 0.00065290459569, -0.02606159554593217},
-      {four_pieces(), 0.62, 0.3, "shear_rate.values[2]", 0.02968811254435, -0.2222625598100639},
-      {four_pieces(), 0.62, 0.3, "shear_rate.values[3]", 0.00276355785326, 0.03923783235019867},
-      {four_pieces(), 0.62, 0.3, "shear_rate.z[3]", -0.00552711570652, any},
-      {four_pieces(), 0.35, 0.3, "shear_rate.values[0]", 0.00240407178249, any},
-      {four_pieces(), 0.35, 0.3, "shear_rate.values[1]", 0.06125314903352, any},
-      {four_pieces(), 0.35, 0.3, "shear_rate.z[1]", 0.10077092197638, any},
-      {four_pieces(), 0.35, 0.3, "initial.breaks[0]", -0.25212548820721, any},
-  };
-  for (const Case& c : cases) {
-    const ExactSolution<double> exact{Scene<double>(c.spec)};
-    const auto at = Derivatives<double>(exact).at(c.z, c.t);
-    std::size_t place = 0;
-    entry_named(c.spec, c.name, place);
-    EXPECT_NEAR(at.M[place], c.M, 1e-13) << c.name << " z " << c.z;
-    if (!std::isnan(c.phi)) {
-      EXPECT_NEAR(at.phi[place], c.phi, 1e-12) << c.name << " z " << c.z;
-    }
-  }
 }
 
 /// Random tables with jumps, flats and slopes of 1e-15.
@@ -207,7 +145,7 @@ TEST(LinearPieces, AreTheLimitOfManyLayers) {
   support::SceneMaker make(seed);
   for (int n = 0; n < 12; ++n) {
     const Table<double> table = random_table(make, make.integer(1, 7));
-    const auto spec = scene_of(table, {0.3125, 0.59375}, random_states(make, 3));
+    const auto spec = table_scene(table, {0.3125, 0.59375}, random_states(make, 3));
     const auto in_layers = [&](std::size_t n_layers) {
       const auto stack = staircase(Scene<double>(spec), n_layers);
       SceneSpec<double> steps = spec;
@@ -249,8 +187,8 @@ TEST(LinearPieces, MorePointsOnTheLinesChangeNothing) {
         fine.values.push_back(table.values[i] + (table.values[i + 1] - table.values[i]) * k / 61);
       }
     }
-    const ExactSolution<double> few{Scene<double>(scene_of(table, breaks, states))},
-        many{Scene<double>(scene_of(fine, breaks, states))};
+    const ExactSolution<double> few{Scene<double>(table_scene(table, breaks, states))},
+        many{Scene<double>(table_scene(fine, breaks, states))};
     for (int i = 0; i < 40; ++i) {
       const double z = make.uniform(0, 1), t = std::exp(make.uniform(-3, 2));
       n_turned += few.path(z, t).turned ? 1 : 0;
@@ -267,7 +205,7 @@ TEST(LinearPieces, AreTheSameInManyDigits) {
   support::SceneMaker make(seed);
   for (int n = 0; n < 12; ++n) {
     const Scene<double> scene(
-        scene_of(random_table(make, make.integer(1, 8)), {0.3125, 0.59375}, random_states(make, 3)));
+        table_scene(random_table(make, make.integer(1, 8)), {0.3125, 0.59375}, random_states(make, 3)));
     support::expect_same_in_many_digits(scene, make, 6, 4e-15, 1e-11,
                                         "seed " + std::to_string(seed) + " scene " + std::to_string(n));
   }
@@ -279,7 +217,7 @@ TEST(LinearPieces, MRisesAsPhiSays) {
   support::SceneMaker make(seed);
   for (int n = 0; n < 20; ++n) {
     const ExactSolution<double> exact{Scene<double>(
-        scene_of(random_table(make, make.integer(1, 6)), {0.3125, 0.59375}, random_states(make, 3)))};
+        table_scene(random_table(make, make.integer(1, 6)), {0.3125, 0.59375}, random_states(make, 3)))};
     const double t = std::exp(make.uniform(-2, 1)), h = 1e-5;
     int n_smooth = 0;
     for (int i = 0; i < 60; ++i) {
@@ -296,7 +234,7 @@ TEST(LinearPieces, MRisesAsPhiSays) {
 
 /// A table through an exponential: second order in its steps.
 TEST(LinearPieces, TendToAnExponentialWithTheSecondOrder) {
-  const SceneSpec<double> spec = scene_of({}, {0.3, 0.6}, {0, 1, 0.35});
+  const SceneSpec<double> spec = table_scene({}, {0.3, 0.6}, {0, 1, 0.35});
   SceneSpec<double> smooth = spec;
   smooth.shear_rate = Exponential<double>{2, 0.3};
   const ExactSolution<double> exact{Scene<double>(smooth)};
@@ -343,7 +281,7 @@ TEST(LinearPieces, L1ErrorsAreThoseOfAQuadrature) {
 
 TEST(LinearPieces, ATableMayJumpInsideTheBed) {
   const auto complaints = [](Table<double> table) {
-    return find_complaints(scene_of(std::move(table), {}, {0.5}));
+    return find_complaints(table_scene(std::move(table), {}, {0.5}));
   };
   EXPECT_TRUE(complaints({{0, 0.5, 0.5, 1}, {1, 2, 3, 4}}).empty());
   EXPECT_FALSE(complaints({{0, 0, 0.5, 1}, {1, 2, 3, 4}}).empty());
@@ -352,62 +290,10 @@ TEST(LinearPieces, ATableMayJumpInsideTheBed) {
   EXPECT_FALSE(complaints({{0, 0.5, 0.4, 1}, {1, 2, 3, 4}}).empty());
 }
 
-/// A jump inside a flat piece: at its own height the fan stands still.
-TEST(LinearPieces, HaveDerivativesAtASourceInAFlatPiece) {
-  for (const auto& table :
-       {Table<double>{{0, 0.3, 0.6, 1}, {2, 1, 1, 0.5}}, Table<double>{{0, 0.3, 0.6, 1}, {0.5, 1, 1, 2}}}) {
-    const ExactSolution<double> exact{Scene<double>(scene_of(table, {0.5}, {0, 1}))};
-    const auto at = Derivatives<double>(exact).at(0.5, 0.05);
-    EXPECT_EQ(at.value.phi, 0.5);
-    EXPECT_NEAR(at.value.M, 0.05 / 4, 1e-16);
-    double sum = 0;
-    for (const double by : at.M) {
-      EXPECT_TRUE(std::isfinite(by));
-      sum += by;
-    }
-    for (const double by : at.phi) EXPECT_TRUE(std::isfinite(by));
-    EXPECT_TRUE(std::isfinite(sum));
-  }
-}
-
 /// Constant on both sides of its jumps, a table is a stack of layers: two engines, one solution.
-/// dT/dh is infinite where such a path starts.
-TEST(LinearPieces, HaveDerivativesWhereAStateOfOneHalfLeavesItsPiece) {
-  SceneSpec<double> spec;
-  spec.shear_rate = Table<double>{{0, 0.5, 1}, {1, 2, 2.2}};
-  spec.initial_values = {0.5};
-  const Scene<double> scene(spec);
-  const ExactSolution<double> exact(scene);
-  const std::vector<Entry> all = entries(spec);
-  int n_checked = 0;
-  for (const double z : {0.51, 0.52, 0.53})
-    for (const double t : {0.2, 0.25, 0.3}) {
-      const auto path = exact.path(z, t);
-      if (path.kind != exact::PathKind::constant || !(path.foot < 0.5)) continue;
-      const auto at = Derivatives<double>(exact).at(z, t);
-      for (std::size_t e = 0; e < all.size(); ++e) {
-        const bool is_end = all[e].field == "shear_rate.z" && all[e].index != 1;
-        if (is_end || !derivative_refusal(scene, all[e]).empty()) continue;
-        constexpr double kStep = 1e-6;
-        double M[2], phi[2];
-        for (const int side : {0, 1}) {
-          SceneSpec<double> moved = spec;
-          *entry_places(moved)[e] += side == 0 ? -kStep : kStep;
-          const ExactSolution<double> other{Scene<double>(moved)};
-          M[side] = other.M(z, t), phi[side] = other.phi(z, t);
-        }
-        EXPECT_NEAR(at.M[e], (M[1] - M[0]) / (2 * kStep), 1e-7) << all[e].name() << ' ' << z << ' ' << t;
-        EXPECT_NEAR(at.phi[e], (phi[1] - phi[0]) / (2 * kStep), 1e-5)
-            << all[e].name() << ' ' << z << ' ' << t;
-        ++n_checked;
-      }
-    }
-  EXPECT_GT(n_checked, 10);
-}
-
 TEST(LinearPieces, ATableOfStepsIsAStackOfLayers) {
-  const ExactSolution<double> table{
-      Scene<double>(scene_of({{0, 0.25, 0.25, 0.625, 0.625, 1}, {2, 2, 0.5, 0.5, 1, 1}}, {0.5}, {0.2, 0.9}))};
+  const ExactSolution<double> table{Scene<double>(
+      table_scene({{0, 0.25, 0.25, 0.625, 0.625, 1}, {2, 2, 0.5, 0.5, 1, 1}}, {0.5}, {0.2, 0.9}))};
   SceneSpec<double> spec;
   spec.shear_rate = Piecewise<double>{{0.25, 0.625}, {2, 0.5, 1}};
   spec.initial_breaks = {0.5};

@@ -63,7 +63,9 @@ TEST(Lists, ModelsAreTheSameInEveryScalar) {
 }
 
 TEST(Lists, NamesJoinsInOrder) {
-  EXPECT_EQ(DepthFunctionList<double>::names(), "piecewise, exponential, table, chute");
+  EXPECT_EQ(DepthFunctionList<double>::names(),
+            "piecewise, exponential, table, chute, kinetic, bagnold, scaling-velocity, scaling-table, "
+            "scaling-exponential, scaling-kinetic, scaling-bagnold");
 }
 
 TEST(Lists, EveryListedTypeHasSamples) {

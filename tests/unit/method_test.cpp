@@ -291,6 +291,28 @@ TEST(Linearisation, OfTheExactSolutionIsItsDerivative) {
   check_linearisation(Method::of<ExactSolver>(), two_layer_bed(), 1e-6, 1e-7, checked);
 }
 
+/// C++ gets the complaint that the program and Python give.
+TEST(Places, OutsideTheBedAreRefused) {
+  const Scene<double> scene(two_layer_bed());
+  const double nan = std::nan("");
+  const std::vector<Place> bad{{0.5, 0.2}, {0.5, 1.5}, {0.5, -1e-9}, {-1, 0.5}, {nan, nan}};
+  const auto keys_of = [&](const auto& call) {
+    std::vector<std::string> keys;
+    try {
+      call();
+    } catch (const InputError& error) {
+      for (const Complaint& complaint : error.complaints()) keys.push_back(complaint.key);
+    }
+    return keys;
+  };
+  const std::vector<std::string> expected{"places[1].z", "places[2].z", "places[3].t", "places[4].t",
+                                          "places[4].z"};
+  std::any memory;
+  for (const Method& method : {Method::of<ExactSolver>(), Method("front-tracking")})
+    EXPECT_EQ(keys_of([&] { (void)sample(scene, method, bad); }), expected) << method.name();
+  EXPECT_EQ(keys_of([&] { (void)Method::of<ExactSolver>().linearise(scene, bad, {}, memory); }), expected);
+}
+
 TEST(Linearisation, OfCrankNicolsonIsTheDerivativeOfTheScheme) {
   support::Checked checked(kEntries);
   checked.expect("diffusion.D");

@@ -93,9 +93,11 @@ double number_of(const Method& method, std::string_view option) {
   return number;
 }
 
-void note_unused_layers(const MethodArguments& arguments, const Scene<double>& scene) {
+void note_before_run(const MethodArguments& arguments, const Method& method, const Scene<double>& scene) {
   if (arguments.has("layers") && scene.is_layered())
     note("--layers changes nothing: the shear rate is piecewise constant");
+  if (const std::string much = method.forewarning(scene); !much.empty())
+    note(fmt::format("{}: {}", method.name(), much));
 }
 
 }  // namespace shearfront::tools

@@ -44,7 +44,8 @@ class MethodArguments {
 /// A number among the options of a method; 0 if it has none of this name.
 [[nodiscard]] double number_of(const Method& method, std::string_view option);
 
-/// Says that --layers changes nothing where the shear rate is piecewise constant already.
-void note_unused_layers(const MethodArguments& arguments, const Scene<double>& scene);
+/// What is known before a run, on standard error: that --layers changes nothing where the shear rate is piecewise constant
+/// already, and that the method may have much to do.
+void note_before_run(const MethodArguments& arguments, const Method& method, const Scene<double>& scene);
 
 }  // namespace shearfront::tools

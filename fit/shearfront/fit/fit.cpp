@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -30,6 +31,33 @@ void check_uncertainty(const FitSpec& spec) {
                      "must be false with unknown.shape; use uncertainty.bootstrap");
 }
 
+/// Where a parameter is at a bound, intervals that take it as known are replaced by profiles.
+void mind_bounds(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
+                 const Progress& progress, Estimate& estimate) {
+  const bool has_bound = std::any_of(estimate.parameters.begin(), estimate.parameters.end(),
+                                     [](const ParameterEstimate& p) { return p.at_bound; });
+  if (!has_bound || spec.unknown.shape != Shape::none || !objective.has_derivatives()) return;
+  const Profiles profiles = intervals_beside_bounds(spec, parameters, objective, estimate, progress);
+  std::string names;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!profiles.intervals[i]) continue;
+    ParameterEstimate& p = estimate.parameters[i];
+    p.profile95 = profiles.intervals[i];
+    if (p.at_bound) continue;
+    p.std_error.reset();
+    p.ci95.reset();
+    p.check.reset();
+    estimate.correlation.row(static_cast<Eigen::Index>(i)).setConstant(kUnknown);
+    estimate.correlation.col(static_cast<Eigen::Index>(i)).setConstant(kUnknown);
+    names += (names.empty() ? "" : ", ") + p.name;
+  }
+  if (!names.empty())
+    estimate.warnings.push_back(names +
+                                ": how far the parameters at a bound are from it matters here, so only the "
+                                "profile interval is given");
+  estimate.warnings.insert(estimate.warnings.end(), profiles.warnings.begin(), profiles.warnings.end());
+}
+
 /// Adds the intervals that [uncertainty] asks for, and their warnings.
 void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
                      const Refit& refit, const Progress& progress, Estimate& estimate) {
@@ -37,6 +65,7 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
   const auto warn = [&](const std::vector<std::string>& texts) {
     estimate.warnings.insert(estimate.warnings.end(), texts.begin(), texts.end());
   };
+  mind_bounds(spec, parameters, objective, progress, estimate);
   if (spec.uncertainty.profile) {
     const Profiles profiles = profile_intervals(spec, parameters, objective, estimate, progress);
     for (std::size_t i = 0; i < parameters.size(); ++i)

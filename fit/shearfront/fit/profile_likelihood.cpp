@@ -65,6 +65,9 @@ class Side {
     fixed_[static_cast<std::size_t>(j)] = true;
   }
 
+  /// A place that may lie inside: where another profile has come to.
+  void set_inside(const VectorXd& u) { known_ = u; }
+
   /// The coordinate where 2 (F - F_min) = scale * quantile, not beyond the bound.
   End end(double scale, double quantile, double first_step, double bound) {
     scale_ = scale;
@@ -72,6 +75,18 @@ class Side {
     const double limit = std::abs(bound - from_);
     double inside = 0, below = -target_, edge = std::numeric_limits<double>::infinity();
     double outside = std::min(first_step, limit);
+    // From there, not over a ridge between two valleys of the misfit.
+    const double known = known_.size() > 0 ? direction_ * (known_[j_] - from_) : 0;
+    if (known > 0) {
+      const VectorXd kept = std::exchange(u_, known_);
+      if (const double there = height(known); there < 0) {
+        inside = known;
+        below = there;
+        outside = std::min(limit, inside + first_step);
+      } else {
+        u_ = kept;
+      }
+    }
     while (inside < outside && inside < (1 - kEdgeTolerance) * edge && may_refit()) {
       const double above = height(outside);
       if (above == kVeryFar) {
@@ -90,6 +105,8 @@ class Side {
     return {kUnknown, from_ + direction_ * inside, failure_};
   }
   [[nodiscard]] bool found_lower() const { return found_lower_; }
+  /// Where the last refit ended.
+  [[nodiscard]] const VectorXd& last() const { return u_; }
 
  private:
   [[nodiscard]] bool may_refit() const {
@@ -143,6 +160,7 @@ class Side {
   SearchSpec spec_;
   VectorXd start_;  ///< of the whole fit
   VectorXd u_;      ///< of the last refit, the start of the next
+  VectorXd known_;  ///< empty: none
   double misfit_;
   Index j_;
   double direction_, from_;
@@ -208,7 +226,37 @@ class Profiler {
       profiles_.warnings.emplace_back(
           "no profile intervals: the model has no solution at the estimate, or only just");
     for (Index j = 0; is_possible() && j < u_.size(); ++j)
-      if (!add(j)) break;
+      if (!add(j, {true, true})) break;
+    return finished();
+  }
+
+  /// Of parameters at a bound, and of those that depend on how far they are from it.
+  Profiles beside_bounds() {
+    profiles_.intervals.resize(parameters_.size());
+    if (!is_possible()) return std::move(profiles_);
+    const auto is_at_bound = [&](Index j) {
+      return estimate_.parameters[static_cast<std::size_t>(j)].at_bound;
+    };
+    std::vector<bool> moves(parameters_.size(), false);
+    for (Index j = 0; j < u_.size(); ++j) {
+      if (!is_at_bound(j)) continue;
+      const bool is_lower = u_[j] - coordinates_.lower()[j] < coordinates_.upper()[j] - u_[j];
+      inside_.resize(0);
+      if (!add(j, {!is_lower, is_lower})) return finished();
+      inside_ = last_;
+      for (Index i = 0; i < u_.size(); ++i) {
+        const double moved = std::abs(last_[i] - u_[i]), error = std::sqrt(errors_.matrix(i, i));
+        const auto k = static_cast<std::size_t>(i);
+        moves[k] = moves[k] || (errors_.determined[k] && moved > kMostMoved * error);
+      }
+    }
+    for (Index j = 0; j < u_.size(); ++j)
+      if (moves[static_cast<std::size_t>(j)] && !is_at_bound(j) && !add(j, {true, true})) break;
+    return finished();
+  }
+
+ private:
+  Profiles finished() {
     if (found_lower_)
       profiles_.warnings.emplace_back(
           "a lower misfit was found on the way along a profile: the estimate is not the best fit; try other "
@@ -216,29 +264,31 @@ class Profiler {
     return std::move(profiles_);
   }
 
- private:
   [[nodiscard]] bool is_possible() const { return best_.is_valid && estimate_.sigma > 0; }
 
-  /// The interval of coordinate j; false if the user ended it.
-  bool add(Index j) {
+  /// The interval of coordinate j, with a lower and an upper end if they are wanted; false if the user ended it.
+  bool add(Index j, const std::array<bool, 2>& wanted) {
     // Refits of one parameter may take as long as the fit itself did.
     RunControl control(local_.max_evaluations, progress_);
     Objective refitted(parameters_, coordinates_, forward_, objective_.rows(), objective_.loss(), control);
     std::array<End, 2> ends;
     for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (!wanted[i]) continue;
       Side side(refitted, local_, coordinates_.coordinates(parameters_.start()), u_, best_.misfit, j,
                 i == 0 ? -1 : 1);
+      side.set_inside(inside_);
       ends[i] = side.end(scale_of(errors_, estimate_, j), quantile_, first_step(j),
                          (i == 0 ? coordinates_.lower() : coordinates_.upper())[j]);
       ends[i].place = value(j, ends[i].place);
       ends[i].edge = value(j, ends[i].edge);
       found_lower_ = found_lower_ || side.found_lower();
+      last_ = side.last();
     }
     if (control.is_interrupted()) return false;
     const auto k = static_cast<std::size_t>(j);
     if (std::isfinite(ends[0].place) || std::isfinite(ends[1].place))
       profiles_.intervals[k] = Interval{ends[0].place, ends[1].place};
-    warn_of_open_ends(parameters_[k].name(), ends, profiles_.warnings);
+    if (wanted[0] && wanted[1]) warn_of_open_ends(parameters_[k].name(), ends, profiles_.warnings);
     return true;
   }
 
@@ -269,10 +319,18 @@ class Profiler {
   Objective::Evaluation best_;
   Covariance errors_;
   Profiles profiles_;
+  VectorXd last_;    ///< coordinates at the last end
+  VectorXd inside_;  ///< at the end of the profile of one at a bound; empty: none
   bool found_lower_ = false;
 };
 
 }  // namespace
+
+Profiles intervals_beside_bounds(const FitSpec& spec, const Parameters& parameters,
+                                 const Objective& objective, const Estimate& estimate,
+                                 const Progress& progress) {
+  return Profiler(spec, parameters, objective, estimate, progress).beside_bounds();
+}
 
 Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
                            const Estimate& estimate, const Progress& progress) {

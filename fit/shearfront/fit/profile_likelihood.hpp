@@ -38,6 +38,15 @@ struct Profiles {
                                          const Objective& objective, const Estimate& estimate,
                                          const Progress& progress = {});
 
+/// The intervals that a linear model cannot give because a parameter is at a bound, by profiles as above: those of parameters at
+/// a bound, open beyond it, and of all that move by more than kMostMoved of their standard errors while one at a bound
+/// moves to the inner end of its interval. With it taken as known theirs would be too narrow, and beside the truth where the bound is.
+/// Empty for all others. Preconditions as above; the forward model has derivatives. Cost: some 10 refits for each of them.
+[[nodiscard]] Profiles intervals_beside_bounds(const FitSpec& spec, const Parameters& parameters,
+                                               const Objective& objective, const Estimate& estimate,
+                                               const Progress& progress = {});
+
+inline constexpr double kMostMoved = 0.3;
 inline constexpr double kEndTolerance = 1e-3;
 inline constexpr int kMostRefits = 40;
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <memory>
 #include <utility>
 #include <variant>
 
 #include "shearfront/diffusion/closed_form.hpp"
+#include "shearfront/diffusion/steady_logistic.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront {
@@ -43,11 +46,15 @@ constexpr double kMostEndEffect = 1e-5, kEndRounding = 1e-15;
 
 class ColeHopfRun final : public Run {
  public:
-  ColeHopfRun(const Scene<double>& scene, diffusion::ClosedForm form, const Watch& watch)
-      : progress_(watch.progress), last_time_(watch.last_time), field_(scene, std::move(form)) {}
+  ColeHopfRun(const Scene<double>& scene, diffusion::ClosedForm form, bool is_steady, const Watch& watch)
+      : progress_(watch.progress),
+        last_time_(watch.last_time),
+        is_steady_(is_steady),
+        field_(scene, std::move(form)) {}
 
   Status advance(double t) override {
     field_.t = t;
+    if (is_steady_ && std::isfinite(t)) return status_ = Status::unsupported;
     const double last = std::max(t, last_time_);
     effect_ = field_.effect_of_ends(t);
     if (field_.effect_of_ends(last) > kMostEndEffect) {
@@ -68,6 +75,8 @@ class ColeHopfRun final : public Run {
  private:
   [[nodiscard]] std::string message() const {
     if (status_ == Status::interrupted) return "interrupted at t = " + number_text(field_.t);
+    if (status_ == Status::unsupported && is_steady_)
+      return "the option steady gives the steady state only, t = inf";
     if (status_ == Status::unsupported)
       return "the closed form is that of an endless bed, and its phi_z at the ends of this one is no longer "
              "0 at "
@@ -79,21 +88,29 @@ class ColeHopfRun final : public Run {
 
   Progress progress_;
   double last_time_, too_late_ = 0, effect_ = 0;
+  bool is_steady_;
   ColeHopfField field_;
   Status status_ = Status::ok;
 };
 
 }  // namespace
 
-std::string ColeHopfSolver::refusal(const Scene<double>& scene, const Options&) {
+std::string ColeHopfSolver::refusal(const Scene<double>& scene, const Options& options) {
+  if (options.steady) return diffusion::SteadyLogistic::refusal(scene);
   const auto found = diffusion::closed_form(scene);
   const auto* why = std::get_if<std::string>(&found);
   return why ? *why : std::string();
 }
 
-std::unique_ptr<Run> ColeHopfSolver::start(const Scene<double>& scene, const Options&, const Watch& watch) {
+std::unique_ptr<Run> ColeHopfSolver::start(const Scene<double>& scene, const Options& options,
+                                           const Watch& watch) {
+  if (options.steady) {
+    const auto state = std::make_shared<const diffusion::SteadyLogistic>(scene);
+    diffusion::ClosedForm form{[state](double z, double) { return state->at(z); }};
+    return std::make_unique<ColeHopfRun>(scene, std::move(form), true, watch);
+  }
   return std::make_unique<ColeHopfRun>(scene, std::get<diffusion::ClosedForm>(diffusion::closed_form(scene)),
-                                       watch);
+                                       false, watch);
 }
 
 }  // namespace shearfront

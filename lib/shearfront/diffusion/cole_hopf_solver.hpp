@@ -11,15 +11,21 @@ namespace shearfront {
 ///     (diffusion::Kink): as long as its ends change phi by less than 1e-5, which is said; Status::unsupported
 ///     beyond;
 ///   - Burgers' flux from a sine in a periodic domain of whole wavelengths (diffusion::PeriodicBurgers).
-/// No options. Guarantees: those of the classes. Cost: 0.1 to 10 us a point.
+///   - with the option `steady`, the steady state (t = infinity) alone of any s a sqrt(T) and D between walls
+///     (diffusion::SteadyLogistic): Status::unsupported at other times.
+/// Guarantees: those of the classes. Cost: 0.1 to 10 us a point.
 struct ColeHopfSolver {
   static constexpr std::string_view kName = "cole-hopf";
   static constexpr std::string_view kDescription = "beds with diffusion that have a closed form: exact";
   static constexpr std::string_view kScenes = "uniform starts, kinks and periodic Burgers with diffusion";
 
   struct Options {
+    bool steady = false;
     template <class Self, class Visit>
-    static void fields(Self&, Visit&&) {}
+    static void fields(Self& self, Visit&& visit) {
+      visit(OptionInfo{"steady", "only the steady state, t = inf, but of any a(z), T(z) and D(z)"},
+            self.steady);
+    }
   };
 
   static Guarantees guarantees() {

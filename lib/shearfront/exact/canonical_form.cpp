@@ -34,6 +34,22 @@ bool is_exponential_scene(const Scene<Scalar>& scene) {
   return is_between_knots(scene, [](const auto& model) { return is_exponential_between_knots(model); });
 }
 
+/// Likewise (kIsRoot) that the square of a(z) is, and falls.
+template <class Model>
+[[nodiscard]] constexpr bool is_root_between_knots(const Model& /*model*/) {
+  if constexpr (requires { Model::kIsRoot; })
+    return Model::kIsRoot;
+  else
+    return false;
+}
+
+/// Whether the square of the rate is linear and the bed one piece.
+template <Real Scalar>
+bool is_root_scene(const Scene<Scalar>& scene) {
+  return is_between_knots(scene, [](const auto& model) { return is_root_between_knots(model); }) &&
+         !scene.has_smooth_start() && scene.knots().empty();
+}
+
 /// A function at both ends of an interval without a knot inside.
 template <Real Scalar>
 EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& lo, const Scalar& hi) {
@@ -73,7 +89,9 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
       has_pieces_(!scene_->is_layered() && (is_parabolic_ || !scene_->has_smooth_start())),
       is_exponential_(is_exponential_scene(*scene_)),
-      is_exact_(scene_->is_layered() || (has_pieces_ && (is_exponential_ || is_linear_scene(*scene_)))),
+      is_root_(is_parabolic_ && is_root_scene(*scene_)),
+      is_exact_(scene_->is_layered() ||
+                (has_pieces_ && (is_exponential_ || is_root_ || is_linear_scene(*scene_)))),
       layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers)),
       n_start_parts_(std::max<std::size_t>(1, layers)) {
   if (is_identity_) {
@@ -149,11 +167,15 @@ void CanonicalForm<Scalar>::set_end_rates() {
       }
       return {factor * rates.low, factor * rates.high};
     };
-    const EndValues<Scalar> rates = ends(lo, hi);
+    EndValues<Scalar> rates = ends(lo, hi);
+    // To a rate of 0 a linear or an exponential piece would take for ever.
+    if (!is_exact_ && !(rates.low > 0 && rates.high > 0)) rates = {rates_[k], rates_[k]};
     low_rates_.push_back(rates.low);
     high_rates_.push_back(rates.high);
     if (is_exact_) {
-      rate_forms_.push_back(is_exponential_ ? RateForm::exponential : RateForm::linear);
+      rate_forms_.push_back(is_exponential_ ? RateForm::exponential
+                            : is_root_      ? RateForm::root
+                                            : RateForm::linear);
     } else {
       rate_forms_.push_back(
           nearer_form(rates.low, ends(lo, Scalar(lo + (hi - lo) / Scalar(2))).high, rates.high));

@@ -123,7 +123,7 @@ class CanonicalForm {
   [[nodiscard]] Scalar image_mass() const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
-  bool is_identity_, is_concave_, is_parabolic_, has_pieces_, is_exponential_, is_exact_;
+  bool is_identity_, is_concave_, is_parabolic_, has_pieces_, is_exponential_, is_root_, is_exact_;
   LayerStack<Scalar> layers_;
   // Empty in the identity:
   std::vector<Scalar> lowest_, highest_, width_;  ///< per flux

@@ -317,28 +317,42 @@ void Derivatives<Scalar>::add_path(const Path<Scalar>& path, const Scalar& y, co
 }
 
 template <Real Scalar>
-auto Derivatives<Scalar>::at(const Scalar& z, const Scalar& t) const -> At {
-  At out{{}, std::vector<Scalar>(n_entries_, Scalar(0)), std::vector<Scalar>(n_entries_, Scalar(0))};
-  const Scalar y = form_.image_of(z);
+void Derivatives<Scalar>::clear(At& out) const {
+  out.M.assign(n_entries_, Scalar(0));
+  out.phi.assign(n_entries_, Scalar(0));
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::at(const Scalar& z, const Scalar& t, At& out) const {
   const bool is_initial = t == Scalar(0);
-  if (is_initial || !is_finite(t)) {
-    out.value = solution_.at(z, t);
-    const auto& jumps = form_.initial_breaks();
-    const auto j = std::upper_bound(jumps.begin(), jumps.end(), y) - jumps.begin();
-    if (is_initial) spread(states_, static_cast<std::size_t>(j), {Scalar(0), Scalar(1)}, out);
-    const bool below = !is_initial && y < solution_.medium().steady_height();
-    if (!below) add_initial_cumulative(is_initial ? y : form_.boundaries().back(), true, out);
-  } else {
-    const Path<Scalar> path = solution_.path(z, t);
-    out.value = solution_.value_of(path, z, t);
-    add_path(path, y, t, out);
-  }
-  if (form_.is_identity()) return out;
+  if (!is_initial && is_finite(t)) return along(solution_.path(z, t), z, t, out);
+  clear(out);
+  const Scalar y = form_.image_of(z);
+  out.value = solution_.at(z, t);
+  const auto& jumps = form_.initial_breaks();
+  const auto j = std::upper_bound(jumps.begin(), jumps.end(), y) - jumps.begin();
+  if (is_initial) spread(states_, static_cast<std::size_t>(j), {Scalar(0), Scalar(1)}, out);
+  const bool below = !is_initial && y < solution_.medium().steady_height();
+  if (!below) add_initial_cumulative(is_initial ? y : form_.boundaries().back(), true, out);
+  scale_to_scene(z, out);
+}
+
+template <Real Scalar>
+void Derivatives<Scalar>::along(const Path<Scalar>& path, const Scalar& z, const Scalar& t, At& out) const {
+  clear(out);
+  out.value = solution_.value_of(path, z, t);
+  add_path(path, form_.image_of(z), t, out);
+  scale_to_scene(z, out);
+}
+
+/// From the canonical form.
+template <Real Scalar>
+void Derivatives<Scalar>::scale_to_scene(const Scalar& z, At& out) const {
+  if (form_.is_identity()) return;
   const std::size_t k = form_.layers().layer_at(z);
   const Scalar slope = form_.state_slope(k) * form_.layers().solid_fraction(k);
   for (Scalar& by : out.M) by *= form_.sign();
   for (Scalar& by : out.phi) by *= slope;
-  return out;
 }
 
 template class Derivatives<Instantiated>;

@@ -48,7 +48,15 @@ class Derivatives {
   /// `solution` must live as long as this.
   explicit Derivatives(const ExactSolution<Scalar>& solution);
 
-  [[nodiscard]] At at(const Scalar& z, const Scalar& t) const;
+  [[nodiscard]] At at(const Scalar& z, const Scalar& t) const {
+    At out;
+    at(z, t, out);
+    return out;
+  }
+  /// The same into what another place has left: without a call for memory.
+  void at(const Scalar& z, const Scalar& t, At& out) const;
+  /// Along the path of (z, t), 0 < t < +infinity.
+  void along(const exact::Path<Scalar>& path, const Scalar& z, const Scalar& t, At& out) const;
 
  private:
   using Pair = typename exact::PathGradient<Scalar>::Pair;
@@ -70,6 +78,8 @@ class Derivatives {
   void add_sloped_pieces();
   void add_initial();
   void spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const;
+  void clear(At& out) const;
+  void scale_to_scene(const Scalar& z, At& out) const;
   void add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const;
   void add_path(const exact::Path<Scalar>& path, const Scalar& y, const Scalar& t, At& out) const;
   void add_start(const exact::Path<Scalar>& path, const exact::PathGradient<Scalar>& gradient, At& out) const;

@@ -137,9 +137,47 @@ template <Real Scalar>
 auto ExactSolution<Scalar>::value_of(const Path& path, const Scalar& z, const Scalar& t) const -> Value {
   Value value = in_scene(fine_, image_value(path, form().image_of(z)), z);
   if (is_exact()) return value;
+  return with_errors(std::move(value), coarse_.medium->best_path(coarse_.form->image_of(z), t), z);
+}
+
+template <Real Scalar>
+auto ExactSolution<Scalar>::paths(const Representation& of, const std::vector<Scalar>& z, const Scalar& t)
+    -> std::vector<Path> {
+  if (of.form->is_identity()) return of.medium->best_paths(z, t);
+  std::vector<Scalar> y;
+  y.reserve(z.size());
+  for (const Scalar& height : z) y.push_back(of.form->image_of(height));
+  return of.medium->best_paths(y, t);
+}
+
+template <Real Scalar>
+auto ExactSolution<Scalar>::paths(const std::vector<Scalar>& z, const Scalar& t) const -> std::vector<Path> {
+  return paths(fine_, z, t);
+}
+
+template <Real Scalar>
+auto ExactSolution<Scalar>::at(const std::vector<Scalar>& z, const Scalar& t) const -> std::vector<Value> {
+  std::vector<Value> values;
+  values.reserve(z.size());
+  if (t == Scalar(0) || !is_finite(t)) {
+    for (const Scalar& height : z) values.push_back(at(height, t));
+    return values;
+  }
+  const std::vector<Path> fine = paths(fine_, z, t),
+                          coarse = is_exact() ? std::vector<Path>{} : paths(coarse_, z, t);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    Value value = in_scene(fine_, image_value(fine[i], form().image_of(z[i])), z[i]);
+    values.push_back(is_exact() ? std::move(value) : with_errors(std::move(value), coarse[i], z[i]));
+  }
+  return values;
+}
+
+/// What the change from half as many pieces tells.
+template <Real Scalar>
+auto ExactSolution<Scalar>::with_errors(Value value, const Path& coarse_path, const Scalar& z) const
+    -> Value {
   const Scalar y = coarse_.form->image_of(z);
-  const exact::Medium<Scalar>& medium = *coarse_.medium;
-  const Value coarse = in_scene(coarse_, image_value(medium, medium.best_path(y, t), y), z);
+  const Value coarse = in_scene(coarse_, image_value(*coarse_.medium, coarse_path, y), z);
   const auto change = [](const Scalar& a, const Scalar& b) { return a > b ? Scalar(a - b) : Scalar(b - a); };
   // Second order leaves a third of the change. Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of it on average; stairs that
   // fit a turning point by chance make the change smaller than that.

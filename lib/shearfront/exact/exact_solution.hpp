@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/medium.hpp"
@@ -70,6 +71,11 @@ class ExactSolution {
   /// t = 0 and t = +infinity.
   [[nodiscard]] exact::Path<Scalar> path(const Scalar& z, const Scalar& t) const;
 
+  /// The same at many heights, ascending, 0 < t < +infinity: faster where they lie close together.
+  [[nodiscard]] std::vector<exact::Path<Scalar>> paths(const std::vector<Scalar>& z, const Scalar& t) const;
+  /// Values there: as at(), up to rounding.
+  [[nodiscard]] std::vector<Value> at(const std::vector<Scalar>& z, const Scalar& t) const;
+
   /// The value that belongs to path(z, t), 0 < t < +infinity.
   [[nodiscard]] Value value_of(const exact::Path<Scalar>& path, const Scalar& z, const Scalar& t) const;
 
@@ -116,6 +122,9 @@ class ExactSolution {
   [[nodiscard]] Value in_scene(const Representation& of, Value value, const Scalar& z) const;
   [[nodiscard]] static Value image_value(const exact::Medium<Scalar>& medium, const Path& path,
                                          const Scalar& y);
+  [[nodiscard]] static std::vector<Path> paths(const Representation& of, const std::vector<Scalar>& z,
+                                               const Scalar& t);
+  [[nodiscard]] Value with_errors(Value value, const Path& coarse_path, const Scalar& z) const;
   [[nodiscard]] Value value_at_rest(const Scalar& z, bool is_initial) const;
 
   Representation fine_, coarse_;  ///< coarse_: half as many layers, for estimates of the error

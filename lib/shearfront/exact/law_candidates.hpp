@@ -104,7 +104,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     return h.least > 0 ? Scalar(Scalar(4) * (change + Scalar(kSlack)) / (view_.bends[k].least * h.least))
                        : infinity<Scalar>();
   }
-  [[nodiscard]] bool may_turn(const Route& way, std::size_t j, const Range& h) const {
+  [[nodiscard]] bool may_turn(const Route& way, std::size_t, std::size_t j, const Range& h) const {
     return turn_times(way, j, h).may_be(t_);
   }
   [[nodiscard]] bool may_turn_from_state(const Route& way, std::size_t j, std::size_t k,
@@ -140,23 +140,23 @@ class LawCandidates : protected SlopedStarts<Scalar> {
       State state{Scalar(0), Scalar(0)};
       const InverseFlux<Scalar>* flux = nullptr;
     } last[2];
-    for (const auto& run : route.runs) {
-      const Scalar bend = run.is_upwards ? view_.bend[run.cell] : Scalar(-view_.bend[run.cell]);
-      const InverseFlux<Scalar>* flux = &view_.fluxes->flux(view_.piece[run.cell]);
+    route.for_each_run(view_, [&](const auto& leg, std::size_t cell, const RunEnds<Scalar>& run) {
+      const Scalar bend = leg.is_upwards ? view_.bend[cell] : Scalar(-view_.bend[cell]);
+      const InverseFlux<Scalar>* flux = &view_.fluxes->flux(view_.piece[cell]);
       for (const bool is_up : {true, false}) {
-        if (run.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
+        if (leg.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
         auto& [r, state, of] = last[is_up];
         const State begin =
-            r == run.r1 && of == flux ? state : state_at(run.cell, is_up, run.r1, route.least, s.qm2, s.h);
+            r == run.r1 && of == flux ? state : state_at(cell, is_up, run.r1, route.least, s.qm2, s.h);
         r = run.r2;
-        state = state_at(run.cell, is_up, run.r2, route.least, s.qm2, s.h);
+        state = state_at(cell, is_up, run.r2, route.least, s.qm2, s.h);
         of = flux;
-        const LawRun<Scalar> law(view_.side(run.cell, is_up), run.form, bend, run.d, run.r1, begin, run.r2,
-                                 state, s.h);
+        const LawRun<Scalar> law(view_.side(cell, is_up), run.form, bend, run.d, run.r1, begin, run.r2, state,
+                                 s.h);
         s.T_rising += law.T;
         s.X += law.X;
       }
-    }
+    });
     if (route.turn_bend > 0) {
       const std::size_t j = route.turn_cell;
       const Scalar& r = route.turn_rate;
@@ -188,10 +188,13 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   }
   /// Whether a path may pass the place with the least rate at less than its speed.
   [[nodiscard]] bool has_kink(const Route& route) const {
-    return std::any_of(route.runs.begin(), route.runs.end(), [&](const auto& run) {
-      const LawSide<Scalar> side = view_.side(run.cell, true);
-      return (run.r1 == route.least || run.r2 == route.least) && side.slope({Scalar(0), side.reach()}) > 0;
+    bool has = false;
+    route.for_each_run(view_, [&](const auto&, std::size_t cell, const RunEnds<Scalar>& run) {
+      const LawSide<Scalar> side = view_.side(cell, true);
+      has = has ||
+            ((run.r1 == route.least || run.r2 == route.least) && side.slope({Scalar(0), side.reach()}) > 0);
     });
+    return has;
   }
   void straight_fan(const Route& route, std::size_t node, const Scalar& time) {
     const Scalar base = view_.M[node] + gained(view_.x[node], z_);

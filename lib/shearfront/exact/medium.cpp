@@ -9,6 +9,7 @@
 
 #include "shearfront/exact/canonical_form.hpp"
 #include "shearfront/exact/layered_medium.hpp"
+#include "shearfront/exact/root_medium.hpp"
 #include "shearfront/exact/scaled_medium.hpp"
 #include "shearfront/exact/sloped_medium.hpp"
 #include "shearfront/numeric/instantiated.hpp"
@@ -18,25 +19,14 @@ namespace shearfront::exact {
 template <Real Scalar>
 Path<Scalar> Medium<Scalar>::best_path(const Scalar& z, const Scalar& t) const {
   Path<Scalar> wall;
-  if (pure_travel_time(bottom(), z) <= t) {
-    wall.value = z - bottom();
-    wall.p = Scalar(1);
-    wall.kind = PathKind::bottom_wall;
-    wall.upward = true;
-    wall.foot = bottom();
-  }
+  if (is_reached_from(true, z, t)) wall = bottom_path(z);
   // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
   // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
   // decide.
   const bool at_top = z == top();
   const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (top() - bottom());
   const bool full = at_top && wall.value <= mass_ + tie;
-  if (pure_travel_time(top(), z) <= t && !(mass_ > wall.value) && !full) {
-    wall = Path<Scalar>{};
-    wall.value = mass_;
-    wall.kind = PathKind::top_wall;
-    wall.foot = top();
-  }
+  if (!(mass_ > wall.value) && !full && is_reached_from(false, z, t)) wall = top_path();
   Path<Scalar> free = best_free(z, t, wall.value);
   if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
     return free;
@@ -76,6 +66,12 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   const Scalar unit(std::ldexp(1.0, std::ilogb(to_double(fastest))));
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
+  if (form.rate_forms().front() == RateForm::root) {
+    Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), form.boundaries());
+    auto root = std::make_unique<const RootMedium<Scalar>>(low[0], high[0], std::move(cells), form.mass());
+    if (unit == Scalar(1)) return root;
+    return std::make_shared<const ScaledMedium<Scalar>>(std::move(root), unit);
+  }
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
   Cells<Scalar> cells = form.start()
                             ? Cells<Scalar>(form.start(), finer_cuts(form), form.boundaries())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -33,9 +34,12 @@ struct PathGradient {
   struct Pair {
     Scalar M{0}, phi{0};
   };
-  std::size_t first = 0;         ///< the lowest piece the path touches
-  std::vector<Pair> pieces;      ///< Medium::numbers_per_piece() for each of first, first + 1, ...
-  std::vector<Pair> boundaries;  ///< boundaries[n]: the lower boundary of piece first + n, n >= 1
+  std::size_t first = 0;  ///< the lowest piece the path touches
+  /// Such as most paths need: a query takes no memory from the heap.
+  template <std::size_t n>
+  using Pairs = boost::container::small_vector<Pair, n>;
+  Pairs<24> pieces;      ///< Medium::numbers_per_piece() for each of first, first + 1, ...
+  Pairs<12> boundaries;  ///< boundaries[n]: the lower boundary of piece first + n, n >= 1
   StartMomentum<Scalar> start;
   Scalar phi_start{0};      ///< d phi / d (height of the source), fan kind
   Scalar phi_state{0};      ///< d phi / d (initial state), constant kind
@@ -76,6 +80,10 @@ class Medium {
   }
   /// Time a pure state (H = 0) needs from one height to another: |int dz / (s a)| for the quadratic flux.
   [[nodiscard]] virtual Scalar pure_travel_time(const Scalar& from, const Scalar& to) const = 0;
+  /// Whether that of the bottom, or of the top, has come to z by the time t.
+  [[nodiscard]] virtual bool is_reached_from(bool is_bottom, const Scalar& z, const Scalar& t) const {
+    return pure_travel_time(is_bottom ? bottom() : top(), z) <= t;
+  }
   /// Final amount minus the value of a path that best_free(z, t) returned.
   [[nodiscard]] virtual Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                          FinalAmount amount) const = 0;
@@ -93,8 +101,35 @@ class Medium {
 
   /// The best of all paths, those from the walls included.
   [[nodiscard]] Path<Scalar> best_path(const Scalar& z, const Scalar& t) const;
+  /// The same at many heights, ascending.
+  [[nodiscard]] virtual std::vector<Path<Scalar>> best_paths(const std::vector<Scalar>& z,
+                                                             const Scalar& t) const {
+    std::vector<Path<Scalar>> paths;
+    paths.reserve(z.size());
+    for (const Scalar& height : z) paths.push_back(best_path(height, t));
+    return paths;
+  }
 
  protected:
+  /// phi = 1 from the bottom.
+  [[nodiscard]] Path<Scalar> bottom_path(const Scalar& z) const {
+    Path<Scalar> wall;
+    wall.value = z - bottom();
+    wall.p = Scalar(1);
+    wall.kind = PathKind::bottom_wall;
+    wall.upward = true;
+    wall.foot = bottom();
+    return wall;
+  }
+  /// phi = 0 from the top.
+  [[nodiscard]] Path<Scalar> top_path() const {
+    Path<Scalar> wall;
+    wall.value = mass_;
+    wall.kind = PathKind::top_wall;
+    wall.foot = top();
+    return wall;
+  }
+
   Cells<Scalar> cells_;
   Scalar mass_;
 };

@@ -8,8 +8,8 @@
 namespace shearfront::exact {
 
 /// How the rate r = s a runs between the ends of a piece: r(z) = r_1 + bend (z - z_1), or r_1 exp(bend (z - z_1)). A constant
-/// one is linear.
-enum class RateForm : std::uint8_t { linear, exponential };
+/// one is linear. Or the root of a linear function, which falls: only in a bed that is one piece (exact/root_medium.hpp).
+enum class RateForm : std::uint8_t { linear, exponential, root };
 
 /// The bend of a piece: slope, or slope of log r.
 template <Real Scalar>

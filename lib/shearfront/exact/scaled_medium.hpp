@@ -28,8 +28,17 @@ class ScaledMedium final : public Medium<Scalar> {
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override {
     return outward(inner_->best_moving(z, time(t)));
   }
+  [[nodiscard]] std::vector<Path<Scalar>> best_paths(const std::vector<Scalar>& z,
+                                                     const Scalar& t) const override {
+    std::vector<Path<Scalar>> paths = inner_->best_paths(z, time(t));
+    for (Path<Scalar>& path : paths) path = outward(std::move(path));
+    return paths;
+  }
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override {
     return inner_->pure_travel_time(from, to) / unit_;
+  }
+  [[nodiscard]] bool is_reached_from(bool is_bottom, const Scalar& z, const Scalar& t) const override {
+    return inner_->is_reached_from(is_bottom, z, time(t));
   }
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override {

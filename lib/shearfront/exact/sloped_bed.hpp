@@ -10,6 +10,7 @@
 #include "shearfront/exact/law_run.hpp"
 #include "shearfront/exact/sloped_crossing.hpp"
 #include "shearfront/exact/sloped_stretches.hpp"
+#include "shearfront/exact/sloped_turn_times.hpp"
 #include "shearfront/numeric/contract.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
@@ -76,12 +77,17 @@ struct SlopedView {
   std::vector<RelativeBends<Scalar>> bends;
   std::vector<Scalar> p,
       missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
-  std::vector<Scalar> p_high;                         ///< at its upper end
-  std::vector<Scalar> q0;                             ///< 2 p - 1, or twice the distance from the peak
-  std::vector<Scalar> G0, e0;                         ///< 4 H over r, and what it lacks to 1
-  std::vector<Scalar> pure_time;                      ///< of a pure state upwards through each cell
-  std::vector<Scalar> pure_back;                      ///< and downwards
-  std::vector<bool> emits;                            ///< a fan can leave the node upwards
+  std::vector<Scalar> p_high;                       ///< at its upper end
+  std::vector<Scalar> q0;                           ///< 2 p - 1, or twice the distance from the peak
+  std::vector<Scalar> G0, e0;                       ///< 4 H over r, and what it lacks to 1
+  std::vector<Scalar> pure_time;                    ///< of a pure state upwards through each cell
+  std::vector<Scalar> pure_back;                    ///< and downwards
+  std::vector<RunEnds<Scalar>> upwards, downwards;  ///< through each cell
+  std::vector<bool> emits;                          ///< a fan can leave the node upwards
+  std::size_t first_start = 0;  ///< no cell below it has a state that moves upwards, nor its upper node a fan
+  std::size_t end_of_starts = 0,
+              end_of_falls = 0;  ///< nor this cell and above, but pure ones; no r falls there
+  SlopedTurnTimes<Scalar> turn_times;
   std::shared_ptr<const StartShape<Scalar>> shape;    ///< of a smooth start, of parabolas only
   std::shared_ptr<const PieceFluxes<Scalar>> fluxes;  ///< none: all are parabolas
 
@@ -122,6 +128,18 @@ struct SlopedView {
       pure_back.push_back(fluxes ? pure_way(i, x[i + 1] - x[i], low[i], high[i], false) : pure_time.back());
     }
     for (std::size_t i = 1; i < n_cells(); ++i) emits[i] = may_emit(i);
+    for (std::size_t i = 0; i < n_cells(); ++i) {
+      upwards.emplace_back(form[i], Scalar(x[i + 1] - x[i]), low[i], high[i]);
+      downwards.emplace_back(form[i], Scalar(x[i + 1] - x[i]), high[i], low[i]);
+    }
+    set_extent();
+    turn_times.prepare(*this);
+  }
+
+  /// Whether the state of a cell moves upwards with H > 0, somewhere in the cell.
+  [[nodiscard]] bool has_moving_state(std::size_t cell) const {
+    if (is_curved(cell)) return std::max(p[cell], p_high[cell]) > Scalar(0.5);
+    return p[cell] > 0 && missing[cell] > 0 && (q0[cell] > 0 || (q0[cell] == 0 && bend[cell] > 0));
   }
 
   /// The same with a node at a height of a cell, which it makes of `view`: one and the same for many queries needs no memory.
@@ -146,6 +164,11 @@ struct SlopedView {
     view.pure_back[cell] = pure_way(cell, below, low[cell], r, false);
     insert(view.pure_time, cell + 1, pure_way(cell, above, r, high[cell], true));
     insert(view.pure_back, cell + 1, pure_way(cell, above, r, high[cell], false));
+    view.upwards[cell] = {form[cell], below, low[cell], r};
+    view.downwards[cell] = {form[cell], below, r, low[cell]};
+    insert(view.upwards, cell + 1, RunEnds<Scalar>(form[cell], above, r, high[cell]));
+    insert(view.downwards, cell + 1, RunEnds<Scalar>(form[cell], above, high[cell], r));
+    view.set_extent();
   }
 
   /// At least int p dz of paths that rise by `rise` from a throat, or fall.
@@ -210,6 +233,16 @@ struct SlopedView {
   [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
 
  private:
+  void set_extent() {
+    first_start = n_cells();
+    end_of_starts = end_of_falls = 0;
+    for (std::size_t i = 0; i < n_cells(); ++i) {
+      const bool is_start = has_moving_state(i) || (i + 1 < n_cells() && emits[i + 1]);
+      if (is_start) end_of_starts = i + 1;
+      if (bend[i] < 0) end_of_falls = i + 1;
+      if (first_start == n_cells() && (is_start || missing[i] == 0)) first_start = i;
+    }
+  }
   /// What a curved cell can send upwards through its upper end.
   [[nodiscard]] Scalar most_at_top(std::size_t cell) const {
     const Scalar one(1), &u = p_high[cell];
@@ -255,6 +288,8 @@ struct SlopedPlace {
   Scalar z;
   std::size_t below, above;
   Scalar rate_below, rate_above;
+  Scalar time_below, back_below, time_above,
+      back_above;  ///< of pure states through the parts of the cells: up, down
 
   SlopedPlace(const SlopedView<Scalar>& view, const Scalar& height) : z(height) {
     const auto it = std::upper_bound(view.x.begin() + 1, view.x.end() - 1, z);
@@ -262,6 +297,14 @@ struct SlopedPlace {
     below = above > 0 && z == view.x[above] ? above - 1 : above;
     rate_above = view.rate(above, z);
     rate_below = below == above ? rate_above : view.rate(below, z);
+    const auto time = [&](std::size_t cell, const Scalar& d, const Scalar& r1, const Scalar& r2, bool is_up) {
+      return view.pure_way(cell, d, r1, r2, is_up);
+    };
+    const Scalar from_below = z - view.x[below], to_above = view.x[above + 1] - z;
+    time_below = time(below, from_below, view.low[below], rate_below, true);
+    time_above = time(above, to_above, rate_above, view.high[above], true);
+    back_below = view.fluxes ? time(below, from_below, view.low[below], rate_below, false) : time_below;
+    back_above = view.fluxes ? time(above, to_above, rate_above, view.high[above], false) : time_above;
   }
   [[nodiscard]] SlopedPlace turned_over(const SlopedView<Scalar>& view) const {
     SlopedPlace place = *this;
@@ -269,6 +312,8 @@ struct SlopedPlace {
     place.below = view.n_cells() - 1 - above;
     place.above = view.n_cells() - 1 - below;
     std::swap(place.rate_below, place.rate_above);
+    std::swap(place.time_below, place.back_above);
+    std::swap(place.time_above, place.back_below);
     return place;
   }
 };

@@ -23,38 +23,53 @@ struct TurnParts {
   Scalar T, T_h, T_A, T_near, T_far, M_near, M_far;
 };
 
-/// Derivatives with respect to the rates at both ends of a run: of its time at fixed h, and of int p dz at fixed H, over h / 4:
-/// J_i = int (dr / dr_i) / (r^2 q) dz.
+/// A run over d of a parabola: J_i = int (dr / dr_i) / (r^2 q) dz.
 template <Real Scalar>
-struct CrossingDerivatives {
-  Scalar J1, J2, T1, T2;
-
+struct CrossingDerivatives : RunParts<Scalar> {
   CrossingDerivatives(RateForm form, const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2,
                       const Scalar& q2, const Scalar& h) {
     form == RateForm::linear ? linear(d, r1, q1, r2, q2, h) : exponential(d, r1, q1, r2, q2, h);
   }
 
  private:
-  /// -2 T_i = J_i + L_i, L_i = int hat_i / (r^2 q^3) dz.
+  using RunParts<Scalar>::T, RunParts<Scalar>::T_h, RunParts<Scalar>::T1, RunParts<Scalar>::T2,
+      RunParts<Scalar>::J1, RunParts<Scalar>::J2;
+
+  /// With y and x = b y of exact/sloped_crossing.hpp; -2 T_i = J_i + L_i, L_i = int hat_i / (r^2 q^3) dz.
   void linear(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
               const Scalar& h) {
-    const Scalar one(1), two(2), four(4), sum = q1 + q2;
-    const Scalar product = (one + q1) * (one + q2), w1 = r1 * (one + q1) * (one + q1);
-    const Scalar D = w1 + r2 * (one + q2) * (one + q2), y = two * d * product / (sum * D);
-    const Scalar b = (r2 - r1) / d, x = (r2 - r1) * (two * product) / (sum * D);
-    const Scalar c = two / d * b * y * y * y * artanh_rest(Scalar(x * x)),
-                 part = four * d * product / (sum * sum * D);
-    J1 = part * q2 / r1 - c;
-    J2 = part * q1 / r2 + c;
-    T1 = -J1 - h * d / (r1 * r1 * r2 * sum * sum) / q1;
-    T2 = -J2 - h * d / (r1 * r2 * r2 * sum * sum) / q2;
+    using std::log;
+    const Scalar one(1), two(2), sum = q1 + q2, per_sum = one / sum, per_q1 = one / q1, per_q2 = one / q2;
+    const Scalar inverse1 = one / r1, inverse2 = one / r2;
+    const Scalar R1 = one + q1, R2 = one + q2, w1 = r1 * R1 * R1, w2 = r2 * R2 * R2;
+    const Scalar slowness = two * R1 * R2 / (sum * (w1 + w2)), y = d * slowness, x = (r2 - r1) * slowness,
+                 x2 = x * x;
+    // artanh(x) / x, and what it is more than 1 over x^2.
+    Scalar ratio, rest;
+    if (x2 <= one / Scalar(8)) {
+      rest = artanh_series(x2);
+      ratio = one + x2 * rest;
+    } else {
+      ratio = log(Scalar(w2 / w1)) / (two * x);
+      rest = (ratio - one) / x2;
+    }
+    const Scalar c = two * x * y * slowness * rest, part = two * y * per_sum,
+                 steep = (h * inverse1) * (d * inverse2) * per_sum * per_sum;
+    T = two * y * ratio;
+    T_h = (d * inverse1) * inverse2 * per_q1 * per_q2 * per_sum;
+    J1 = part * q2 * inverse1 - c;
+    J2 = part * q1 * inverse2 + c;
+    T1 = -J1 - steep * inverse1 * per_q1;
+    T2 = -J2 - steep * inverse2 * per_q2;
   }
   /// r_i dr/dr_i = r times the part of the way that lies on the side of i: the mean of that part over the time for J, over
   /// int dz / r for T.
   void exponential(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
                    const Scalar& h) {
     using std::log;
-    const Scalar one(1), two(2), sum = q1 + q2, T = two * exponential_slowness(d, r1, r2) / sum;
+    const Scalar one(1), two(2), sum = q1 + q2;
+    T = two * exponential_slowness(d, r1, r2) / sum;
+    T_h = crossing_T_h(RateForm::exponential, d, r1, q1, r2, q2);
     const Scalar size = r2 > r1 ? Scalar(log(Scalar(r2 / r1))) : Scalar(log(Scalar(r1 / r2)));
     const Scalar in_r = r2 > r1 ? Scalar(one - exponential_mean_place(size)) : exponential_mean_place(size);
     const Scalar in_time = mean_place_in_time(r1, q1, r2, q2, h);
@@ -128,15 +143,13 @@ class ParabolaCalculus {
                                      const Scalar& r2) const {
     const RateForm form = pieces_.form[k];
     const Scalar q1 = q(r1), q2 = q(r2), some_q1 = std::max(tiny(), q1), some_q2 = std::max(tiny(), q2);
-    const Crossing<Scalar> crossing(form, d, r1, q1, r2, q2, h_);
-    const CrossingDerivatives<Scalar> by(form, d, r1, q1, r2, q2, h_);
-    RunParts<Scalar> parts{crossing.T, crossing_T_h(form, d, r1, some_q1, r2, some_q2), by.T1, by.T2, by.J1,
-                           by.J2};
+    RunParts<Scalar> parts = CrossingDerivatives<Scalar>(form, d, r1, some_q1, r2, some_q2, h_);
     // At the start of a state of 1/2 what is divided by q is multiplied by it in the end.
     if (some_q1 != q1 || some_q2 != q2) {
-      const CrossingDerivatives<Scalar> near(form, d, r1, some_q1, r2, some_q2, h_);
-      parts.T1 = near.T1;
-      parts.T2 = near.T2;
+      const RunParts<Scalar> at = CrossingDerivatives<Scalar>(form, d, r1, q1, r2, q2, h_);
+      parts.T = at.T;
+      parts.J1 = at.J1;
+      parts.J2 = at.J2;
     }
     return parts;
   }
@@ -177,7 +190,6 @@ class ParabolaCalculus {
   }
 
  private:
-  /// Terms that cancel in sum are divided by q and a half of the digits kept.
   /// Terms that cancel in sum are divided by q: half of the digits are kept.
   [[nodiscard]] static Scalar tiny() {
     using std::sqrt;

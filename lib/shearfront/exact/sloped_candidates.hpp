@@ -26,8 +26,9 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
 
  protected:
   using Base = SlopedStarts<Scalar>;
-  using Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer, Base::size_of_bend,
-      Base::slack_, Base::slope_of_start, Base::start_at, Base::t_, Base::view_, Base::w_of, Base::z_;
+  using Base::above_, Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer,
+      Base::size_of_bend, Base::slack_, Base::slope_of_start, Base::start_at, Base::t_, Base::view_,
+      Base::w_of, Base::z_;
   using typename Base::Leaves;
   using typename Base::Range;
   using typename Base::Route;
@@ -35,14 +36,14 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
   using typename Base::Start;
   using typename Base::StateRange;
 
-  [[nodiscard]] static Sample fan_sample(const Route& route, const Scalar& w) {
+  [[nodiscard]] Sample fan_sample(const Route& route, const Scalar& w) const {
     const Scalar one(1), more = one + w;
     Sample s;
     s.v = w;
     s.qm = (one - w) / more;
     s.qm2 = s.qm * s.qm;
     s.h = Scalar(4) * route.least * w / (more * more);
-    add_route(route, s);
+    add_route(view_, route, s);
     return s;
   }
   /// Newton's step for a change of T: of w, dT/dw being more than the largest number where w is very small.
@@ -87,7 +88,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
   void turned_fan(const Route& route, std::size_t node, std::size_t j, const Scalar& lo, const Scalar& hi,
                   const Scalar& top) {
     const Scalar base = view_.M[node] + gained(view_.x[node], top);
-    if (base > limit()) return;
+    if (base + view_.turn_times.least_cost(t_, node, above_, j, lo) > limit()) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
     const Sample a = at(w_of(lo, route.least));
     if (bound(base, a) > limit()) return;
@@ -104,16 +105,44 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising);
   }
 
+  /// The path of one fan along a route, from what its h is about: true if Newton finds it at once, with the sign of dT/dh that it must
+  /// have, and between h_least and h_most.
+  [[nodiscard]] bool fan_near(const Route& route, std::size_t node, bool turned, std::size_t j,
+                              const Scalar& top, const Scalar& h, const Scalar& h_least,
+                              const Scalar& h_most) {
+    using std::sqrt;
+    const Scalar close = sqrt(unit_roundoff<Scalar>()), most = w_of(h_most, route.least),
+                 least = w_of(h_least, route.least);
+    Scalar w = w_of(h, route.least);
+    constexpr int kMost = 5;
+    for (int n = 0; n < kMost; ++n) {
+      if (!(w > 0 && w < Scalar(1))) return false;
+      const Sample s = fan_sample(route, w);
+      if (!is_finite(s.T) || (turned ? !(s.F() < 0) : !(s.F() > 0))) return false;
+      const Scalar step = fan_step(s, Scalar(t_ - s.T));
+      if (!(w + step >= least && w + step <= most)) return false;
+      if ((step < 0 ? Scalar(-step) : step) > close * w) {
+        w += step;
+        continue;
+      }
+      finish_fan(route, node, view_.M[node] + gained(view_.x[node], top), s, step, turned, j);
+      return true;
+    }
+    return false;
+  }
+
   // Whether a time along a route may be t.
   using Stretches = SlopedStretches<Scalar>;
   [[nodiscard]] typename Stretches::Times turn_times(const Route& way, std::size_t j, const Range& h) const {
     return way.stretches.times_with_turn(h.least, h.most, way.turn_rate, view_.bends[j]);
   }
-  [[nodiscard]] bool may_turn(const Route& way, std::size_t j, const Range& h) const {
-    return turn_times(way, j, h).may_be(t_);
+  [[nodiscard]] bool may_turn(const Route& way, std::size_t node, std::size_t j, const Range& h) const {
+    return view_.turn_times.may_take(t_, node, above_, j, h.most, view_.low[j], false) &&
+           turn_times(way, j, h).may_be(t_);
   }
   [[nodiscard]] bool may_turn_from_state(const Route& way, std::size_t j, std::size_t k,
                                          const Range& h) const {
+    if (!view_.turn_times.may_take(t_, k + 1, above_, j, h.most, view_.low[j], true)) return false;
     auto times = turn_times(way, j, h);
     times.most += most_from_state(k, h);
     return times.may_be(t_);
@@ -141,7 +170,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     s.h = start.h;
     s.qm2 = range.qa2 + range.kappa * start.lost;
     s.qm = sqrt(s.qm2);
-    add_route(route, s);
+    add_route(view_, route, s);
     const bool up = range.leaves == Leaves::upwards;
     const Scalar& exit = up ? view_.high[k] : view_.low[k];
     const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
@@ -210,7 +239,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     if (s.qm2 < 0) return;
     using std::sqrt;
     s.qm = sqrt(s.qm2);
-    add_route(route, s);
+    add_route(view_, route, s);
     if (!(s.T <= late_)) return;
     const Scalar left = std::max(Scalar(0), Scalar(t_ - s.T)), speed = r * q0;
     Scalar d = left * speed;

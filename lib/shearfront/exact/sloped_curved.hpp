@@ -158,7 +158,7 @@ template <Real Scalar>
   }
   s.qm2 = (route.least - h) / route.least;
   s.qm = sqrt(s.qm2);
-  add_route(route, s);
+  add_route(view, route, s);
   const Scalar& exit = leaves_up ? view.high[k] : view.low[k];
   const Scalar d = leaves_up ? view.x[k + 1] - y : y - view.x[k];
   const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "shearfront/exact/arc.hpp"
-#include "shearfront/exact/arc_derivatives.hpp"
+#include "shearfront/exact/arc_gradient.hpp"
 #include "shearfront/exact/medium.hpp"
+#include "shearfront/exact/piece_numbers.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
 #include "shearfront/exact/sloped_calculus.hpp"
 #include "shearfront/exact/sloped_route.hpp"
@@ -17,9 +17,6 @@ namespace shearfront::exact {
 
 /// Derivatives along a path through sloped pieces, the rates at both ends of each piece as its numbers; a boundary moves with
 /// them. Cost: O(pieces touched).
-///
-/// Moving a boundary between the slopes b_- and b_+ changes r next to it as changing the rates there by -b_- and -b_+
-/// does, and moves the jump with it.
 template <Real Scalar, class Calculus>
 class SlopedGradient {
  public:
@@ -49,8 +46,8 @@ class SlopedGradient {
         is_state ? cells_.layer[path_.source] : cells_.layer[is_set_up_ ? path_.source : path_.source - 1];
     if constexpr (kKnowsPieces) {
       if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
-        pieces_.form[end_] == RateForm::linear ? in_linear_piece() : in_exponential_piece();
-        move_boundaries();
+        ArcGradient<Scalar>(pieces_, cells_, path_, end_, z_, t_, numbers_, out_).run();
+        numbers_.move_boundaries();
         return std::move(out_);
       }
     }
@@ -66,7 +63,7 @@ class SlopedGradient {
       phi_of_state();
     else
       phi_of_fan();
-    move_boundaries();
+    numbers_.move_boundaries();
     return std::move(out_);
   }
 
@@ -77,27 +74,6 @@ class SlopedGradient {
   static constexpr bool kKnowsPieces = std::is_same_v<Calculus, ParabolaCalculus<Scalar>>;
 
   [[nodiscard]] Scalar at(std::size_t k, const Scalar& z) const { return pieces_.rate(k, z); }
-  /// Derivatives of the rate at z by the rates at both ends of its piece, which has the rate `rate` there.
-  struct EndParts {
-    Scalar low, high;
-  };
-  [[nodiscard]] EndParts parts(std::size_t k, const Scalar& z) const {
-    const Scalar high = (z - pieces_.boundaries[k]) / pieces_.width(k), low = Scalar(1) - high;
-    if (pieces_.form[k] == RateForm::linear) return {low, high};
-    const Scalar rate = at(k, z);
-    return {low * (rate / pieces_.low[k]), high * (rate / pieces_.high[k])};
-  }
-  [[nodiscard]] Pair& number(std::size_t k, bool is_high) {
-    return out_.pieces[2 * (k - out_.first) + (is_high ? 1 : 0)];
-  }
-  /// Adds to the numbers of piece k what the rate at z does.
-  void add_at(std::size_t k, const Scalar& z, const Scalar& M, const Scalar& phi) {
-    const auto [low, high] = parts(k, z);
-    number(k, false).M += low * M;
-    number(k, false).phi += low * phi;
-    number(k, true).M += high * M;
-    number(k, true).phi += high * phi;
-  }
   [[nodiscard]] StartMomentum<Scalar> momentum(std::size_t k, const Scalar& z, bool upward) const {
     const Scalar less = calculus_.less(k, at(k, z), upward);
     return upward ? StartMomentum<Scalar>{Scalar(1) - less, less}
@@ -107,16 +83,12 @@ class SlopedGradient {
   void make_room() {
     std::size_t lowest = std::min(end_, pieces_.piece_at(path_.foot)),
                 highest = std::max(end_, pieces_.piece_at(path_.foot));
-    const auto touch = [&](std::size_t k) {
+    if (path_.turned || path_.kind == PathKind::waiting) {
+      const std::size_t k = cells_.layer[path_.interface];
       lowest = std::min(lowest, k);
       highest = std::max(highest, k);
-    };
-    if (path_.turned) touch(cells_.layer[path_.interface]);
-    if (path_.kind == PathKind::waiting) touch(cells_.layer[path_.interface]);
-    out_.first = lowest > 0 ? lowest - 1 : 0;
-    highest = std::min(highest + 1, pieces_.size() - 1);
-    out_.pieces.resize(2 * (highest - out_.first + 1));
-    out_.boundaries.resize(highest - out_.first + 1);
+    }
+    numbers_.make_room(lowest, highest);
   }
 
   /// The run from one height to another.
@@ -125,19 +97,21 @@ class SlopedGradient {
     for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
       const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
       if (!(b > a)) continue;
-      const RunParts<Scalar> by = calculus_.run(k, from < to, Scalar(b - a), at(k, a), at(k, b));
+      const bool is_at_low = a == pieces_.boundaries[k], is_at_high = b == pieces_.boundaries[k + 1];
+      const Scalar r1 = is_at_low ? pieces_.low[k] : at(k, a), r2 = is_at_high ? pieces_.high[k] : at(k, b);
+      const RunParts<Scalar> by = calculus_.run(k, from < to, Scalar(b - a), r1, r2);
       T_h_ += by.T_h;
       time_ += by.T;
-      const Scalar gain = h_ / Scalar(4);
-      add_at(k, a, gain * by.J1, by.T1);
-      add_at(k, b, gain * by.J2, by.T2);
+      const Scalar gain = h_ / Scalar(4), M1 = gain * by.J1, M2 = gain * by.J2;
+      is_at_low ? numbers_.add_at_end(k, false, M1, by.T1) : numbers_.add_at(k, a, M1, by.T1);
+      is_at_high ? numbers_.add_at_end(k, true, M2, by.T2) : numbers_.add_at(k, b, M2, by.T2);
     }
   }
   /// The jump at a boundary, passed upwards or downwards.
   void add_jump(std::size_t boundary, bool is_up) {
     const std::size_t below = boundary - 1;
     if (!calculus_.is_jump(below, boundary)) return;
-    Pair& by = out_.boundaries[boundary - out_.first];
+    Pair& by = numbers_.boundary(boundary);
     by.M += calculus_.change(below, boundary, is_up);
     by.phi += calculus_.slowness(below, pieces_.high[below], is_up) -
               calculus_.slowness(boundary, pieces_.low[boundary], is_up);
@@ -158,10 +132,10 @@ class SlopedGradient {
     const TurnParts<Scalar> by = calculus_.turn(j, is_set_up_, at(j, from), from);
     time_ += by.T;
     T_h_ += by.T_h;
-    Pair &by_near = number(j, !is_set_up_), &by_far = number(j, is_set_up_);
+    Pair &by_near = numbers_.number(j, !is_set_up_), &by_far = numbers_.number(j, is_set_up_);
     by_far.M += by.M_far;
     by_near.M += by.M_near;
-    add_at(j, from, Scalar(0), by.T_A);
+    numbers_.add_at(j, from, Scalar(0), by.T_A);
     by_far.phi += by.T_far;
     by_near.phi += by.T_near;
   }
@@ -197,12 +171,11 @@ class SlopedGradient {
 
   void phi_of_fan() {
     const Scalar by_h = phi_by_h(), turn = -by_h / T_h_;  // dh = -dT / T_h
-    for (Pair& pair : out_.pieces) pair.phi *= turn;
-    for (Pair& pair : out_.boundaries) pair.phi *= turn;
+    numbers_.multiply_phi(turn);
     const Scalar slowness = calculus_.slowness(start_, at(start_, path_.foot), is_set_up_);
     out_.phi_start = turn * (is_set_up_ ? Scalar(-slowness) : slowness);
     out_.phi_log_scale = by_h * t_ / T_h_;
-    add_at(end_, z_, Scalar(0), phi_by_rate());
+    numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
   /// h = 4 g r(y) and T(y, h) = t with y free.
@@ -213,19 +186,17 @@ class SlopedGradient {
     const Scalar b = is_set_up_ ? slope : Scalar(-slope);
     const Scalar all = one - G * b * (speed * T_h_), by_h = phi_by_h();
     const Scalar turn = by_h * G * b * speed / all;
-    for (Pair& pair : out_.pieces) pair.phi *= turn;
-    for (Pair& pair : out_.boundaries) pair.phi *= turn;
-    add_at(start_, path_.foot, Scalar(0), by_h * G / all);
+    numbers_.multiply_phi(turn);
+    numbers_.add_at(start_, path_.foot, Scalar(0), by_h * G / all);
     out_.phi_state = by_h * r * calculus_.height_slope(start_, p0, is_set_up_) / all;
     out_.phi_log_scale = -turn * t_;
-    add_at(end_, z_, Scalar(0), phi_by_rate());
+    numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
   /// A state that has not left its piece: of a linear one with the slope b int dp / G rises by b t / 4, of an exponential one with
   /// r' / r = k, p by k r(z) G(p) t / 4.
   void phi_of_state_inside() {
-    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
-    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
+    numbers_.clear_phi();
     const Scalar &p0 = cells_.phi[path_.source], &bend = pieces_.bend[end_], one(1),
                  width = pieces_.width(end_);
     const Scalar r = at(end_, z_), G = h_ / r, unit = t_ / Scalar(4);
@@ -233,109 +204,33 @@ class SlopedGradient {
       const Scalar G0 = calculus_.height(start_, p0);
       out_.phi_state = G0 > 0 ? Scalar(G / G0) : Scalar(r / at(end_, path_.foot));
       out_.phi_log_scale = unit * bend * G;
-      number(end_, true).phi += unit * G / width;
-      number(end_, false).phi -= unit * G / width;
+      numbers_.number(end_, true).phi += unit * G / width;
+      numbers_.number(end_, false).phi -= unit * G / width;
       return;
     }
     const Scalar slope = calculus_.height_slope(end_, path_.p, path_.upward),
                  all = one / (one - unit * bend * r * slope), by_rate = unit * bend * G * all;
     out_.phi_state = all;
     out_.phi_log_scale = by_rate * r;
-    add_at(end_, z_, Scalar(0), by_rate);
+    numbers_.add_at(end_, z_, Scalar(0), by_rate);
     // k = log(r_high / r_low) / width.
     const Scalar by_bend = unit * r * G * all / width;
-    number(end_, true).phi += by_bend / pieces_.high[end_];
-    number(end_, false).phi -= by_bend / pieces_.low[end_];
+    numbers_.number(end_, true).phi += by_bend / pieces_.high[end_];
+    numbers_.number(end_, false).phi -= by_bend / pieces_.low[end_];
   }
 
   /// H is the least capacity on the way, where a path through a flux with a kink spends the time that is left.
   void rest_on_the_way() {
-    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
-    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
-    add_at(end_, z_, Scalar(0), phi_by_rate());
+    numbers_.clear_phi();
+    numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
     const std::size_t lowest = std::min(start_, end_), highest = std::max(start_, end_);
     for (std::size_t k = lowest; k <= highest; ++k)
       for (const bool is_high : {false, true}) {
         if ((is_high ? pieces_.high[k] : pieces_.low[k]) != path_.r_reference) continue;
-        number(k, is_high).M += (t_ - time_) / Scalar(4);
-        number(k, is_high).phi += phi_by_h();
+        numbers_.number(k, is_high).M += (t_ - time_) / Scalar(4);
+        numbers_.number(k, is_high).phi += phi_by_h();
         return;
       }
-  }
-
-  /// A path that does not leave a linear piece: by r at its start or end and by the slope. Of a state logit phi = logit p0 + b t.
-  void in_linear_piece() {
-    const Scalar one(1), &slope = pieces_.bend[end_], width = pieces_.width(end_);
-    const LinearDrift<Scalar> drift(slope, t_);
-    StartMomentum<Scalar> start;
-    Scalar by_slope;
-    if (path_.kind == PathKind::constant) {
-      start = {cells_.phi[path_.source], one - cells_.phi[path_.source]};
-      const Scalar D = start.p * drift.u + start.missing * drift.v;
-      out_.phi_state = drift.u / D * (drift.v / D);
-      by_slope = out_.phi_state * start.p * start.missing * t_;
-      out_.phi_log_scale = by_slope * slope;
-    } else {
-      const Scalar r = at(end_, z_), d = z_ - path_.foot;
-      const auto arc = arc_from_point(RateForm::linear, slope, t_, d, at(start_, path_.foot), r);
-      const auto by = linear_fan_derivatives(arc, drift, slope, t_, d, r);
-      const Scalar p = arc.p * drift.v, missing = arc.missing * drift.u;
-      start = {p / (p + missing), missing / (p + missing)};
-      out_.start = start;
-      out_.phi_start = by.by_start;
-      out_.phi_log_scale = by.by_log_scale;
-      by_slope = by.by_slope;
-      add_at(end_, z_, Scalar(0), by.by_rate);
-    }
-    number(end_, true).phi += by_slope / width;
-    number(end_, false).phi -= by_slope / width;
-    if (!(h_ > 0)) return;
-    const LinearArcIntegrals<Scalar> integrals(path_.H, drift, slope, t_, start.p, start.missing);
-    add_at(end_, path_.foot, integrals.level, Scalar(0));
-    number(end_, true).M += integrals.height / width;
-    number(end_, false).M -= integrals.height / width;
-  }
-
-  /// A path that does not leave an exponential piece: by log r at its start or end and by kappa = |r'/r|, which are
-  ///   log r(z) = w_low log r_low + w_high log r_high,   kappa = log(near / far) / width,
-  /// near the end with the larger rate. Where r rises all is turned upside down.
-  void in_exponential_piece() {
-    using std::expm1;
-    const Scalar one(1), &bend = pieces_.bend[end_];
-    const bool is_rising = bend > 0;
-    const Scalar kappa = is_rising ? bend : Scalar(-bend), sign(is_rising ? -1 : 1);
-    const Scalar r0 = at(start_, path_.foot), d = sign * (z_ - path_.foot);
-    ExponentialFanDerivatives<Scalar> phi;
-    StartMomentum<Scalar> start;  // in the orientation in which r falls
-    if (path_.kind == PathKind::constant) {
-      const Scalar& p0 = cells_.phi[path_.source];
-      start = is_rising ? StartMomentum<Scalar>{one - p0, p0} : StartMomentum<Scalar>{p0, one - p0};
-      const Scalar b = at(end_, z_) * t_ * kappa;
-      const FootRoot<Scalar> root(b, start.p);
-      out_.phi_state = root.phi_by_state(b, start.p);
-      phi.by_log_rate = root.phi_by_log_b(b, start.p);
-      phi.by_kappa = phi.by_log_rate / kappa;
-    } else {
-      const Scalar log_E = kappa * d, e = expm1(log_E), way = r0 * t_;
-      const FanMomenta<Scalar> fan(Scalar(way * kappa), log_E, e);
-      start = {fan.p0, fan.one_minus_p0};
-      out_.start = is_rising ? StartMomentum<Scalar>{fan.one_minus_p0, fan.p0} : start;
-      phi = exponential_fan_derivatives<Scalar>(fan, kappa, way, d, e);
-      out_.phi_start = phi.by_start;
-    }
-    out_.phi_log_scale = sign * phi.by_log_rate;
-    const Scalar gain = path_.H * t_, width = pieces_.width(end_);
-    const Scalar& from = path_.kind == PathKind::constant ? z_ : path_.foot;
-    // log r falls by kappa times the way from the start.
-    const Scalar by_kappa =
-        -gain * mean_height_in_exponential<Scalar>(Scalar(r0 * t_), kappa, start.p, start.missing);
-    for (const bool is_high : {false, true}) {
-      const Scalar& beyond = pieces_.boundaries[is_high ? end_ : end_ + 1];
-      const Scalar unit =
-          Scalar(is_high ? 1 : -1) / (width * (is_high ? pieces_.high[end_] : pieces_.low[end_]));
-      number(end_, is_high).M += unit * (gain * (path_.foot - beyond) - sign * by_kappa);
-      number(end_, is_high).phi += unit * (out_.phi_log_scale * (from - beyond) - phi.by_kappa);
-    }
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
@@ -347,7 +242,8 @@ class SlopedGradient {
 
   /// A jump or a state at the peak in a flat piece, seen from its place: the path rests there.
   PathGradient<Scalar> at_its_place(bool is_state) {
-    add_at(end_, z_, is_state ? Scalar(path_.H * t_ / at(end_, z_)) : Scalar(t_ / Scalar(4)), Scalar(0));
+    numbers_.add_at(end_, z_, is_state ? Scalar(path_.H * t_ / at(end_, z_)) : Scalar(t_ / Scalar(4)),
+                    Scalar(0));
     if (is_state && start_ == end_)
       phi_of_state_inside();
     else if (is_state)
@@ -355,16 +251,6 @@ class SlopedGradient {
     else
       out_.phi_start = calculus_.at_source(end_) / (at(end_, z_) * t_);
     return std::move(out_);
-  }
-
-  void move_boundaries() {
-    for (std::size_t n = 1; n < out_.boundaries.size(); ++n) {
-      const std::size_t k = out_.first + n;
-      const Pair &below = number(k - 1, true), &above = number(k, false);
-      const Scalar slope_below = pieces_.end_slope(k - 1, true), slope_above = pieces_.end_slope(k, false);
-      out_.boundaries[n].M -= slope_below * below.M + slope_above * above.M;
-      out_.boundaries[n].phi -= slope_below * below.phi + slope_above * above.phi;
-    }
   }
 
   void waiting() {
@@ -375,14 +261,13 @@ class SlopedGradient {
     add_jumps(path_.foot, z_w);
     add_run(z_w, z_);
     add_jumps(z_w, z_);
-    for (Pair& pair : out_.pieces) pair.phi = Scalar(0);
-    for (Pair& pair : out_.boundaries) pair.phi = Scalar(0);
+    numbers_.clear_phi();
     const bool is_still = calculus_.is_at_peak(end_, at(end_, z_), path_.upward);  // at the place of rest
-    if (!is_still) add_at(end_, z_, Scalar(0), phi_by_rate());
-    move_boundaries();
+    if (!is_still) numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
+    numbers_.move_boundaries();
     // What limits the throat; at rest it moves with the boundary.
     const bool is_above = low_side < high_side;
-    Pair& limit = number(is_above ? w : w - 1, !is_above);
+    Pair& limit = numbers_.number(is_above ? w : w - 1, !is_above);
     limit.M += (t_ - time_) / Scalar(4);
     if (!is_still) limit.phi += phi_by_h();
     const bool comes = path_.foot != z_w, goes = z_ != z_w, from_below = path_.foot < z_w, goes_up = z_w < z_;
@@ -394,8 +279,8 @@ class SlopedGradient {
       out_.start = momentum(k, path_.foot, from_below);
       if (goes) {
         const auto in = beside(!from_below, from_below), back = beside(goes_up, goes_up);
-        out_.boundaries[w - out_.first].M += from_below ? Scalar((Scalar(1) - back.p) - in.missing)
-                                                        : Scalar((in.p - Scalar(1)) + back.missing);
+        numbers_.boundary(w).M += from_below ? Scalar((Scalar(1) - back.p) - in.missing)
+                                             : Scalar((in.p - Scalar(1)) + back.missing);
       }
     } else if (goes) {
       out_.start = beside(goes_up, goes_up);
@@ -411,6 +296,7 @@ class SlopedGradient {
   bool is_set_up_ = true;
   Scalar T_h_{0}, time_{0};
   PathGradient<Scalar> out_;
+  PieceNumbers<Scalar> numbers_{pieces_, out_};
 };
 
 }  // namespace shearfront::exact

@@ -43,18 +43,25 @@ Path<Scalar> SlopedMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t)
 template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                           bool moving_only) const {
-  using std::sqrt;
   if (fluxes_) return search_for_law(SlopedPlace<Scalar>(up_, z), t, upper, moving_only);
   if (pieces_.size() == 1 && !cells_.shape)
     return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);
-  const std::size_t above = place.above;
   SlopedSearch<Scalar, SlopedCandidates<Scalar>>(up_, place, t, upper, moving_only, best).run();
   SlopedSearch<Scalar, SlopedCandidates<Scalar>>(down_, place.turned_over(up_), t, upper, moving_only, best)
       .run();
   throats_.search(up_, place, t, upper, best);
-  if (best.kind == PathKind::none) return best;
+  settle(place, t, best);
+  return best;
+}
+
+template <Real Scalar>
+void SlopedMedium<Scalar>::settle(const SlopedPlace<Scalar>& place, const Scalar& t,
+                                  Path<Scalar>& best) const {
+  using std::sqrt;
+  if (best.kind == PathKind::none) return;
+  const std::size_t above = place.above;
   // The momentum next to z on its upper side. A path that sets out within rounding of a jump may bring a flux that only
   // the lower side can carry.
   const Scalar& r = place.rate_above;
@@ -71,7 +78,67 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
   } else if (is_inside) {
     best.p = arc_from_state(up_.form[above], up_.bend[above], t, up_.p[above], up_.missing[above], r).p;
   }
+}
+
+template <Real Scalar>
+Path<Scalar> SlopedMedium<Scalar>::path_between(const Path<Scalar>& low, const Path<Scalar>& high,
+                                                const Scalar& part, const Scalar& z, const Scalar& t) const {
+  if (low.kind == PathKind::bottom_wall) return this->bottom_path(z);
+  if (low.kind == PathKind::top_wall) return this->top_path();
+  Path<Scalar> best;
+  if (low.kind != PathKind::fan || fluxes_) return best;
+  const SlopedPlace<Scalar> place(up_, z);
+  // What does not leave its piece has a closed form.
+  const std::size_t source = low.source, n = up_.n_cells();
+  const bool is_set_up = low.upward != low.turned;
+  const std::size_t first = is_set_up ? source : source - 1;
+  for (const std::size_t cell : {place.below, place.above})
+    if (up_.piece[cell] == up_.piece[first]) return best;
+  // h as it is at both, and some more.
+  const Scalar four(4), a = four * low.H, b = four * high.H, apart = b > a ? Scalar(b - a) : Scalar(a - b);
+  const Scalar h = a + (b - a) * part, least = std::min(a, b) - apart, most = std::max(a, b) + apart;
+  const SlopedView<Scalar>& side = view(!is_set_up);
+  const std::size_t node = is_set_up ? source : n - source,
+                    j = is_set_up ? low.interface : n - 1 - low.interface;
+  SlopedSearch<Scalar, SlopedCandidates<Scalar>> search(side, is_set_up ? place : place.turned_over(up_), t,
+                                                        infinity<Scalar>(), false, best);
+  if (!search.run_near(node, low.turned, j, h, std::max(Scalar(0), least), most)) return {};
+  settle(place, t, best);
   return best;
+}
+
+template <Real Scalar>
+std::vector<Path<Scalar>> SlopedMedium<Scalar>::best_paths(const std::vector<Scalar>& z,
+                                                           const Scalar& t) const {
+  // So close together that paths in between are of one branch: a path along a given route may turn at several h.
+  constexpr std::size_t kBlock = 8;
+  std::vector<Path<Scalar>> paths(z.size());
+  if (z.empty()) return paths;
+  const auto is_wall = [](const Path<Scalar>& path) {
+    return path.kind == PathKind::bottom_wall || path.kind == PathKind::top_wall;
+  };
+  const auto fill = [&](const auto& self, std::size_t lo, std::size_t hi) -> void {
+    if (hi < lo + 2) return;
+    const Path<Scalar>&low = paths[lo], &high = paths[hi];
+    const bool is_one = low.kind == high.kind && low.upward == high.upward && low.source == high.source &&
+                        low.turned == high.turned && low.interface == high.interface;
+    if (is_one && (is_wall(low) || (low.kind == PathKind::fan && hi - lo <= kBlock))) {
+      for (std::size_t i = lo + 1; i < hi; ++i) {
+        const Scalar part = z[hi] > z[lo] ? Scalar((z[i] - z[lo]) / (z[hi] - z[lo])) : Scalar(0);
+        paths[i] = path_between(low, high, part, z[i], t);
+        if (paths[i].kind == PathKind::none) paths[i] = this->best_path(z[i], t);
+      }
+      return;
+    }
+    const std::size_t middle = lo + (hi - lo) / 2;
+    paths[middle] = this->best_path(z[middle], t);
+    self(self, lo, middle);
+    self(self, middle, hi);
+  };
+  paths.front() = this->best_path(z.front(), t);
+  paths.back() = this->best_path(z.back(), t);
+  fill(fill, 0, z.size() - 1);
+  return paths;
 }
 
 template <Real Scalar>
@@ -190,6 +257,18 @@ Scalar SlopedMedium<Scalar>::pure_travel_time(const Scalar& from, const Scalar& 
   for (; k < pieces_.size() && z[k] < hi; ++k)
     all += pure_time_inside(k, std::max(lo, z[k]), std::min(hi, z[k + 1]), is_up);
   return all;
+}
+
+/// By the ends of the piece of z, where they tell.
+template <Real Scalar>
+bool SlopedMedium<Scalar>::is_reached_from(bool is_bottom, const Scalar& z, const Scalar& t) const {
+  const std::size_t k = pieces_.piece_at(z);
+  const Scalar &earliest = is_bottom ? from_bottom_[k] : from_top_[k + 1],
+               &latest = is_bottom ? from_bottom_[k + 1] : from_top_[k];
+  if (earliest > t) return false;
+  // By more than rounding: at the end itself the time is that of the end.
+  if (latest * (Scalar(1) + Scalar(64) * unit_roundoff<Scalar>()) < t) return true;
+  return pure_travel_time(is_bottom ? this->bottom() : this->top(), z) <= t;
 }
 
 template <Real Scalar>

@@ -35,7 +35,12 @@ class SlopedMedium final : public Medium<Scalar> {
   [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
+  /// Optimal paths do not cross: between two heights served by one source in one way all are. Blocks of heights between such
+  /// two take one root from what its neighbours found; walls take none.
+  [[nodiscard]] std::vector<Path<Scalar>> best_paths(const std::vector<Scalar>& z,
+                                                     const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override;
+  [[nodiscard]] bool is_reached_from(bool is_bottom, const Scalar& z, const Scalar& t) const override;
   /// To a few u H t where paths lose little (and turn in linear pieces): amounts and heights are added up in twice the digits.
   [[nodiscard]] Scalar shortfall(const Path<Scalar>& path, const Scalar& z, const Scalar& t,
                                  FinalAmount amount) const override;
@@ -57,6 +62,11 @@ class SlopedMedium final : public Medium<Scalar> {
 
  private:
   using Medium<Scalar>::cells_;
+  /// The momentum of a path at its end.
+  void settle(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const;
+  /// The path to z between two paths of one family; kind none where it is not found at once.
+  [[nodiscard]] Path<Scalar> path_between(const Path<Scalar>& low, const Path<Scalar>& high,
+                                          const Scalar& part, const Scalar& z, const Scalar& t) const;
   [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper,
                                     bool moving_only) const;
   /// Fluxes that are no parabolas.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -17,14 +16,14 @@ namespace shearfront::exact {
 /// rate `least` is the largest h that can pass; with m the node that has it, h = least (1 - q_m^2).
 template <Real Scalar>
 struct SlopedRoute {
-  struct Run {
-    Scalar d, r1, r2;
-    RateForm form;
-    Passes passes;
-    std::size_t cell;
-    bool is_upwards;  ///< from r1 to r2
+  /// Runs one after the other: over d to the end of a cell from where the rate is r1, and through whole cells beyond it.
+  struct Leg {
+    Passes passes = Passes::both;
+    bool is_upwards = true;  ///< away from r1
+    std::size_t cell = 0, n_cells = 0;
+    Scalar d{0}, r1{0};
   };
-  boost::container::small_vector<Run, 24> runs;
+  Leg once, twice;
   SlopedStretches<Scalar> stretches;  ///< of the runs
   Scalar least = infinity<Scalar>();
   Scalar turn_bend{0};  ///< |bend| of the piece in which it turns; 0: it does not
@@ -36,16 +35,39 @@ struct SlopedRoute {
 
   void add_bounds(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
                   const Scalar& r2, Passes passes) {
+    if (stretches.is_off()) return;
     const bool is_same_flux = !view.fluxes || stretches.all().empty() ||
                               view.fluxes->of_piece[view.piece[cell]] ==
                                   view.fluxes->of_piece[view.piece[stretches.all().back().cell]];
     stretches.add(view.bends[cell], d, r1, r2, passes, cell, is_same_flux);
   }
+  /// The next cell of what is passed once.
   void add(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
            const Scalar& r2, Passes passes, bool is_upwards) {
     least = std::min({least, r1, r2});
-    if (d > 0) runs.push_back({d, r1, r2, view.form[cell], passes, cell, is_upwards});
+    if (once.n_cells++ == 0) {
+      once.passes = passes;
+      once.is_upwards = is_upwards;
+      once.cell = cell;
+      once.d = d;
+      once.r1 = r1;
+    }
     add_bounds(view, cell, d, r1, r2, passes);
+  }
+  /// Calls visit(leg, cell, run, is_whole) for every run.
+  template <class Visit>
+  void for_each_run(const SlopedView<Scalar>& view, const Visit& visit) const {
+    for (const Leg* leg : {&once, &twice}) {
+      if (leg->n_cells == 0) continue;
+      if (leg->d > 0) {
+        const Scalar& end = leg->is_upwards ? view.high[leg->cell] : view.low[leg->cell];
+        visit(*leg, leg->cell, RunEnds<Scalar>(view.form[leg->cell], leg->d, leg->r1, end));
+      }
+      for (std::size_t n = 1; n < leg->n_cells; ++n) {
+        const std::size_t cell = leg->is_upwards ? leg->cell + n : leg->cell - n;
+        visit(*leg, cell, leg->is_upwards ? view.upwards[cell] : view.downwards[cell]);
+      }
+    }
   }
 };
 
@@ -69,28 +91,34 @@ struct SlopedSample {
 
 /// q at a node of rate r.
 template <Real Scalar>
-[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& least, const Scalar& qm2) {
+[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& inverse, const Scalar& least, const Scalar& qm2) {
   using std::sqrt;
-  const Scalar q2 = ((r - least) + least * qm2) / r;
+  const Scalar q2 = ((r - least) + least * qm2) * inverse;
   return q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0);
+}
+template <Real Scalar>
+[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& least, const Scalar& qm2) {
+  return q_at<Scalar>(r, Scalar(1) / r, least, qm2);
 }
 
 /// Adds all runs and the turn of a route to a sample that has h, qm2, qm.
 template <Real Scalar>
-void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
+void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
   const Scalar& least = route.least;
   Scalar r_last(-1), q_last(0);
-  for (const auto& run : route.runs) {
-    const Scalar q1 = run.r1 == r_last ? q_last : run.r1 == least ? s.qm : q_at(run.r1, least, s.qm2);
-    const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, least, s.qm2);
+  route.for_each_run(view, [&](const auto& leg, std::size_t, const RunEnds<Scalar>& run) {
+    const Scalar q1 = run.r1 == r_last  ? q_last
+                      : run.r1 == least ? s.qm
+                                        : q_at(run.r1, run.inverse1, least, s.qm2);
+    const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, run.inverse2, least, s.qm2);
     r_last = run.r2;
     q_last = q2;
-    const Crossing<Scalar> c(run.form, run.d, run.r1, q1, run.r2, q2, s.h);
-    const Scalar n(run.passes == Passes::both ? 2 : 1);
+    const Crossing<Scalar> c(run, q1, q2, s.h);
+    const Scalar n(leg.passes == Passes::both ? 2 : 1);
     s.T_rising += n * c.T;
     s.X += n * c.X;
     if (run.form == RateForm::linear) {
-      const Scalar by = n * run.d * (s.h / run.r1) / run.r2 / (q1 + q2);
+      const Scalar by = n * run.d * (s.h * run.inverse1) * run.inverse2 / (q1 + q2);
       if (run.r1 == least)
         s.rising += by / q2;
       else if (run.r2 == least)
@@ -101,13 +129,13 @@ void add_route(const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
       // T = 2 sigma / (q1 + q2); with q_m at one end the product does not decrease either.
       const Scalar by = n * c.T / (Scalar(2) * (q1 + q2));
       if (run.r1 == least)
-        s.rising += by * (s.h / run.r1 + s.h / run.r2 * (q1 / q2));
+        s.rising += by * (s.h * run.inverse1 + s.h * run.inverse2 * (q1 / q2));
       else if (run.r2 == least)
-        s.rising += by * (s.h / run.r2 + s.h / run.r1 * (q2 / q1));
+        s.rising += by * (s.h * run.inverse2 + s.h * run.inverse1 * (q2 / q1));
       else
-        s.steep += by * (s.h / run.r1 / q1 + s.h / run.r2 / q2);
+        s.steep += by * (s.h * run.inverse1 / q1 + s.h * run.inverse2 / q2);
     }
-  }
+  });
   if (route.turn_bend > 0) {
     const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.qm2);
     const Turn<Scalar> turn(route.turn_form, route.turn_bend, route.turn_rate, q, s.h);

@@ -25,6 +25,44 @@ class SlopedSearch : private Candidates {
     from_above();
   }
 
+  /// The same among fans of one node of the view that go straight, or turn in cell j, with an h close to `h`: false where that is not
+  /// found at once.
+  [[nodiscard]] bool run_near(std::size_t node, bool turned, std::size_t j, const Scalar& h,
+                              const Scalar& h_least, const Scalar& h_most) {
+    const bool is_below = node <= below_;
+    if (turned ? j < std::max(node, above_) : !is_below) return false;
+    Route way(false);
+    if (is_below) {
+      way.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
+      for (std::size_t k = below_; k-- > node;)
+        way.add(view_, k, view_.x[k + 1] - view_.x[k], view_.high[k], view_.low[k], Passes::upwards, false);
+    } else {
+      for (std::size_t k = above_; k < node; ++k) {
+        const Entrance from = k == above_ ? at_z() : at_node(k);
+        way.add(view_, k, view_.x[k + 1] - from.z, from.rate, view_.high[k], Passes::downwards, true);
+      }
+    }
+    Scalar top = z_, least = h_least, most = h_most;
+    if (turned) {
+      const Entrance from = node > above_ ? at_node(node) : at_z();
+      way.twice.cell = from.cell;
+      way.twice.n_cells = j - from.cell;
+      way.twice.d = view_.x[from.cell + 1] - from.z;
+      way.twice.r1 = from.rate;
+      way.least = std::min(way.least, from.rate);
+      for (std::size_t k = from.cell; k < j; ++k)
+        way.least = std::min({way.least, view_.high[k], view_.low[k + 1]});
+      top = j == from.cell ? from.z : view_.x[j];
+      way.turn_form = view_.form[j];
+      way.turn_cell = j;
+      way.turn_bend = -view_.bend[j];
+      way.turn_rate = j == from.cell ? from.rate : view_.low[j];
+      least = std::max(least, view_.high[j]);
+    }
+    most = std::min(most, way.least);
+    return least < most && this->fan_near(way, node, turned, j, top, std::clamp(h, least, most), least, most);
+  }
+
  private:
   using Base = Candidates;
   using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::rate_above_,
@@ -59,7 +97,14 @@ class SlopedSearch : private Candidates {
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
       const bool is_pure = !is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
-      if (!view_.is_mirror && !(moving_only_ && is_pure)) state_inside(cell, k, first, last);
+      if (view_.is_mirror || (moving_only_ && is_pure)) return;
+      // A pure state of the cell of z comes from its end at the latest.
+      if (is_pure && k == cell) {
+        const Scalar& from_end = view_.missing[k] == 0 ? (cell == below_ ? time_below_ : view_.pure_time[k])
+                                                       : (cell == above_ ? time_above_ : view_.pure_time[k]);
+        if (from_end < t_ - (late_ - t_)) return;
+      }
+      state_inside(cell, k, first, last);
     };
     const auto fan = [&](std::size_t k) {
       if (k > 0 && view_.emits[k]) fan_inside(cell, k, first, last);
@@ -160,7 +205,7 @@ class SlopedSearch : private Candidates {
     }
     route.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
     Scalar time = time_below_;
-    for (std::size_t k = below_; k-- > 0; time += view_.pure_time[k]) {
+    for (std::size_t k = below_; k-- > view_.first_start; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
       if (time > late_) return;
@@ -180,7 +225,8 @@ class SlopedSearch : private Candidates {
     if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
       turned_fans(route, above_, Scalar(0), at_z());
     Scalar time(0);
-    for (std::size_t k = above_; k < n_; ++k) {
+    const std::size_t end = std::min(view_.end_of_starts, view_.end_of_falls);
+    for (std::size_t k = above_; k < end; ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
       if (!is_known(k, above_)) state_that_turns_at_once(route, k);
       const Entrance from = k == above_ ? at_z() : at_node(k);
@@ -193,29 +239,19 @@ class SlopedSearch : private Candidates {
     }
   }
 
-  [[nodiscard]] bool has_moving_state(std::size_t k) const {
-    if (is_curved(k)) return std::max(view_.p[k], view_.p_high[k]) > Scalar(0.5);
-    return view_.p[k] > 0 && view_.missing[k] > 0 &&
-           (view_.q0[k] > 0 || (view_.q0[k] == 0 && view_.bend[k] > 0));
-  }
-
   void turned_fans(const Route& once, std::size_t node, const Scalar& time, const Entrance& from) {
     turns(once, time, view_.M[node], node, node, from, {Scalar(0), infinity<Scalar>()},
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
-              const auto& fill) {
-            if (!this->may_turn(way, j, {lo, hi})) return;
-            fill();
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
+            if (!this->may_turn(way, node, j, {lo, hi})) return;
             turned_fan(way, node, j, lo, hi, top);
           });
   }
   void turned_states(const Route& once, std::size_t k, const Scalar& time, const Entrance& from) {
-    if (!has_moving_state(k)) return;
+    if (!view_.has_moving_state(k)) return;
     turns(once, time, view_.least_amount(k), k, k + 1, from, h_of_cell(k),
-          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top,
-              const auto& fill) {
+          [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
             const Range h = h_of_cell(k);
             if (!this->may_turn_from_state(way, j, k, {std::max(lo, h.least), std::min(hi, h.most)})) return;
-            fill();
             turned_state(way, k, j, lo, hi, top);
           });
   }
@@ -228,25 +264,28 @@ class SlopedSearch : private Candidates {
             view_.h(k, std::max(view_.low[k], view_.high[k]))};
   }
 
-  /// Calls found(route, j, least h, largest h, height above which it turns, fill) for every cell j, that of `from` and above, in which
+  /// Calls found(route, j, least h, largest h, height above which it turns) for every cell j, that of `from` and above, in which
   /// paths from cell `start` can turn that pass `node` upwards with an h within `range` and M0 at their start, and have `once` to pass
   /// besides, which takes pure states the time `time`.
-  /// fill() gives the route its runs: most are ruled out without them.
   template <class Found>
   void turns(const Route& once, Scalar time, const Scalar& M0, std::size_t start, std::size_t node,
              const Entrance& from, const Range& range, const Found& found) {
     Route& way = scratch_;
     const std::size_t first = from.cell;
-    way.stretches = once.stretches;
+    if (first >= view_.end_of_falls) return;
+    way.once = once.once;
+    way.twice.cell = first;
+    way.twice.n_cells = 0;
+    way.twice.d = view_.x[first + 1] - from.z;
+    way.twice.r1 = from.rate;
+    if (!once.stretches.is_off()) way.stretches = once.stretches;
     way.least = once.least;
     way.turn_bend = Scalar(0);
-    bool is_filled = false;
-    std::size_t filled = first;
     const auto entry_of = [&](std::size_t j) -> const Scalar& {
       return j == first ? from.rate : view_.low[j];
     };
     const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from.z : view_.x[j]; };
-    for (std::size_t j = first; j < n_; ++j) {
+    for (std::size_t j = first; j < view_.end_of_falls; ++j) {
       const Scalar &entry = entry_of(j), &height = height_of(j);
       // Out of reach, or dearer than what there is: the height is gained, on one of both ways.
       if (time > late_) return;
@@ -261,17 +300,8 @@ class SlopedSearch : private Candidates {
         way.turn_cell = j;
         way.turn_bend = -view_.bend[j];
         way.turn_rate = entry;
-        const auto fill = [&] {
-          if (!is_filled) way.runs.assign(once.runs.begin(), once.runs.end());
-          is_filled = true;
-          for (; filled < j; ++filled) {
-            const Scalar d = view_.x[filled + 1] - height_of(filled);
-            if (d > 0)
-              way.runs.push_back(
-                  {d, entry_of(filled), view_.high[filled], view_.form[filled], Passes::both, filled, true});
-          }
-        };
-        found(way, j, view_.high[j], least, height, fill);
+        way.twice.n_cells = j - first;
+        found(way, j, view_.high[j], least, height);
         way.least = kept;
         way.turn_bend = Scalar(0);
       }
@@ -284,7 +314,7 @@ class SlopedSearch : private Candidates {
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
     if (!is_curved(k) && view_.missing[k] == 0) return this->pure_state(k, time);
-    if (!has_moving_state(k)) return;
+    if (!view_.has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
     if (h.least > route.least) return;
@@ -319,7 +349,7 @@ class SlopedSearch : private Candidates {
 
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
-    if (!has_moving_state(k) || !(view_.bend[k] < 0)) return;
+    if (!view_.has_moving_state(k) || !(view_.bend[k] < 0)) return;
     if (h_of_cell(k).most < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;

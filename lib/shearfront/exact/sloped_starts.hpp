@@ -27,16 +27,11 @@ class SlopedStarts {
         below_(place.below),
         above_(place.above),
         rate_below_(place.rate_below),
-        rate_above_(place.rate_above) {
+        rate_above_(place.rate_above),
+        time_below_(place.time_below),
+        time_above_(place.time_above),
+        back_above_(place.back_above) {
     slack_ = Scalar(64) * unit_roundoff<Scalar>() * (view.x.back() - view.x.front());
-    const auto time = [&](std::size_t cell, const Scalar& d, const Scalar& r1, const Scalar& r2, bool is_up) {
-      return view.pure_way(cell, d, r1, r2, is_up);
-    };
-    time_below_ = time(below_, Scalar(z_ - view.x[below_]), view.low[below_], rate_below_, true);
-    time_above_ = time(above_, Scalar(view.x[above_ + 1] - z_), rate_above_, view.high[above_], true);
-    back_above_ = view.fluxes
-                      ? time(above_, Scalar(view.x[above_ + 1] - z_), rate_above_, view.high[above_], false)
-                      : time_above_;
     late_ = t * (Scalar(1) + Scalar(256) * unit_roundoff<Scalar>());
   }
 
@@ -227,8 +222,9 @@ class SlopedStarts {
   bool moving_only_;
   Path<Scalar>& best_;
   std::size_t n_, below_, above_;
-  Scalar rate_below_, rate_above_, slack_{0}, late_{0};
+  Scalar rate_below_, rate_above_;
   Scalar time_below_, time_above_, back_above_;  ///< of pure states from z to the ends of its cells
+  Scalar slack_{0}, late_{0};
 };
 
 }  // namespace shearfront::exact

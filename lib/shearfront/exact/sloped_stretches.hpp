@@ -77,6 +77,7 @@ class SlopedStretches {
     last->bends.most = std::max(last->bends.most, bends.most);
   }
 
+  [[nodiscard]] bool is_off() const { return is_off_; }
   /// Whether there are no bounds.
   [[nodiscard]] bool is_full() const { return is_off_ || all_.size() > kMost; }
   [[nodiscard]] const auto& all() const { return all_; }

@@ -86,7 +86,8 @@ class SlopedThroats {
   /// The best path to a place that rests.
   void search(const SlopedView<Scalar>& up, const SlopedPlace<Scalar>& place, const Scalar& t,
               const Scalar& upper, Path<Scalar>& best) const {
-    const auto& [z, cell_below, cell_above, rate_below, rate_above] = place;
+    const Scalar &z = place.z, &rate_below = place.rate_below, &rate_above = place.rate_above;
+    const std::size_t cell_below = place.below, cell_above = place.above;
     for (const Throat& throat : all_) {
       const Scalar& z_i = up.x[throat.node];
       const bool is_above = z > z_i;

@@ -2,6 +2,8 @@
 #include "shearfront/exact/solver.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "shearfront/exact/derivatives.hpp"
@@ -27,6 +29,25 @@ class ExactField final : public Field {
     worst_M = std::max(worst_M, value.M_error);
     worst_phi = std::max(worst_phi, value.phi_error);
     return {value.phi, value.M};
+  }
+  /// In ascending order: neighbours are found from each other.
+  [[nodiscard]] std::vector<Sample> at(const std::vector<double>& heights) const override {
+    std::vector<std::size_t> order(heights.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return heights[a] < heights[b]; });
+    std::vector<double> ascending;
+    ascending.reserve(heights.size());
+    for (const std::size_t i : order) ascending.push_back(heights[i]);
+    const auto values = solution_.at(ascending, t);
+    std::vector<Sample> samples(heights.size());
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      samples[order[n]] = {values[n].phi, values[n].M};
+      has_values = true;
+      worst_M = std::max(worst_M, values[n].M_error);
+      worst_phi = std::max(worst_phi, values[n].phi_error);
+    }
+    return samples;
   }
   [[nodiscard]] double integral(const ShareFunction& g) const override {
     return share_integral(solution_, t, g);
@@ -128,17 +149,35 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
   if (!wanted.empty()) derivatives.emplace(solution);
   Linearisation result;
   result.summary.status = Status::ok;
-  result.samples.reserve(places.size());
-  result.derivatives.reserve(places.size() * wanted.size());
-  for (const Place& place : places) {
+  result.samples.resize(places.size());
+  result.derivatives.resize(places.size() * wanted.size());
+  // By time and height: neighbours are found from each other.
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!std::is_sorted(places.begin(), places.end()))
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+  Derivatives<double>::At at;
+  std::vector<double> heights;
+  for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
+    const double t = places[order[from]].t;
+    heights.clear();
+    for (; to < order.size() && places[order[to]].t == t; ++to) heights.push_back(places[order[to]].z);
     if (!derivatives) {
-      const auto value = solution.at(place.z, place.t);
-      result.samples.push_back({value.phi, value.M});
+      const auto values = solution.at(heights, t);
+      for (std::size_t n = 0; n < values.size(); ++n)
+        result.samples[order[from + n]] = {values[n].phi, values[n].M};
       continue;
     }
-    const auto at = derivatives->at(place.z, place.t);
-    result.samples.push_back({at.value.phi, at.value.M});
-    for (const std::size_t i : wanted) result.derivatives.push_back({at.phi[i], at.M[i]});
+    const bool is_many = heights.size() > 1 && t > 0 && std::isfinite(t);
+    const auto paths = is_many ? solution.paths(heights, t) : std::vector<exact::Path<double>>{};
+    for (std::size_t n = 0; n < heights.size(); ++n) {
+      is_many ? derivatives->along(paths[n], heights[n], t, at) : derivatives->at(heights[n], t, at);
+      const std::size_t i = order[from + n];
+      result.samples[i] = {at.value.phi, at.value.M};
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        result.derivatives[i * wanted.size() + k] = {at.phi[wanted[k]], at.M[wanted[k]]};
+    }
   }
   return result;
 }

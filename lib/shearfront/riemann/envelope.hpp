@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
+#include <string>
 
+#include "shearfront/numeric/contract.hpp"
 #include "shearfront/riemann/state.hpp"
 
 namespace shearfront {
@@ -17,7 +19,7 @@ namespace shearfront {
 /// which a point lies changes once, so the point is found by doubling steps from the outer end of the run and
 /// halving: a shock that takes up the next step of a fan costs a few slopes, whatever the number of states.
 /// Guaranteed: the envelope of all states, up to the rounding of speed(). Cost: O(fronts) for what is
-/// emitted, and O(log^2 states) per run. Source: the monotone chain of Andrew (1979), Inf. Process. Lett. 9,
+/// emitted, and O(log^2 states) per run. Errors: ContractViolation for states beyond those of the layer. Source: the monotone chain of Andrew (1979), Inf. Process. Lett. 9,
 /// 216-219, with runs instead of points.
 template <StateGrid Grid>
 class Envelope {
@@ -27,9 +29,11 @@ class Envelope {
     const State highest = std::max(l, r);
     const Bend with = is_lower_ ? Bend::convex : Bend::concave;
     const Bend against = is_lower_ ? Bend::concave : Bend::convex;
+    if (lowest_ < 0 || !(highest < grid.n_states(layer))) refuse(l, r);
     while (end() < highest) {
       const State chord = std::min(grid.run_end(layer, end(), against), highest);
       const State run = std::min(grid.run_end(layer, end(), with), highest);
+      if (!(std::max(run, chord) > end())) refuse(l, r);
       if (run > chord)
         add_run(run);
       else
@@ -59,6 +63,12 @@ class Envelope {
   }
 
  private:
+  /// Between states that the layer does not have the loop would not come to its end.
+  [[noreturn]] void refuse(State l, State r) const {
+    throw ContractViolation("an envelope of states " + std::to_string(l) + " | " + std::to_string(r) +
+                            " that layer " + std::to_string(layer_) + " does not have");
+  }
+
   struct Part {
     State from, to;
     bool is_run;

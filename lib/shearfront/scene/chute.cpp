@@ -122,7 +122,7 @@ Scene<S> SteadyChute<S>::make_bed() {
                                         : diffusion.variation        ? &*spec_->diffusion->variation
                                                                      : nullptr;
     if (diffusion.D > 0 && !is_uniform_flow<S>(velocity_)) {
-      diffusion.variation = carried_diffusivity(variation);
+      diffusion.variation = carried_diffusivity(variation, spec_->diffusion->follows_shear_rate);
       diffusion.follows_shear_rate = false;
     }
   }
@@ -205,21 +205,27 @@ DepthFunction<S> SteadyChute<S>::carried(const DepthFunction<S>& function) {
 }
 
 template <Real S>
-DepthFunction<S> SteadyChute<S>::carried_diffusivity(const DepthFunction<S>* function) {
+DepthFunction<S> SteadyChute<S>::carried_diffusivity(const DepthFunction<S>* function,
+                                                     bool follows_shear_rate) {
   Table<S> table;
   const auto with_u = [&](const S& z, const S& a) { return S(a * velocity(z) / mean_velocity_); };
   if (function) {
     std::visit(
         [&](const auto& model) {
+          const auto at = [&](const S& z) {
+            return S(follows_shear_rate ? S(shear_rate_of(model, z)) : S(model.value(z)));
+          };
           sample(
               model.knots(),
               [&](const S& lo, const S& hi) {
-                // Of a function that is constant in pieces the value above a knot counts below the next one, too.
-                const S low = model.value(lo),
-                        high = model.kIsLayered ? low : S(end_values(model, lo, hi).high);
+                // Right below a jump the value is that of the piece: of the shear rate a scaling starts from, as much less.
+                const S low = at(lo), above = model.value(hi);
+                const S high = model.kIsLayered ? low
+                               : above > 0      ? S(at(hi) * (end_values(model, lo, hi).high / above))
+                                                : at(hi);
                 return EndValues<S>{with_u(lo, low), with_u(hi, high)};
               },
-              [&](const S& z) { return with_u(z, S(model.value(z))); }, table.z, table.values);
+              [&](const S& z) { return with_u(z, at(z)); }, table.z, table.values);
         },
         *function);
   } else {

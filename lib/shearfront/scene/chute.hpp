@@ -45,7 +45,8 @@ class SteadyChute {
   [[nodiscard]] Scene<Scalar> make_bed();
   [[nodiscard]] DepthFunction<Scalar> carried(const DepthFunction<Scalar>& function);
   /// u / U, times the function if there is one.
-  [[nodiscard]] DepthFunction<Scalar> carried_diffusivity(const DepthFunction<Scalar>* function);
+  [[nodiscard]] DepthFunction<Scalar> carried_diffusivity(const DepthFunction<Scalar>* function,
+                                                          bool follows_shear_rate);
   [[nodiscard]] InitialState<Scalar> carried(const InitialState<Scalar>& start);
   [[nodiscard]] std::vector<Scalar> cuts(std::vector<Scalar> knots) const;
   [[nodiscard]] Scalar velocity(const Scalar& z) const;

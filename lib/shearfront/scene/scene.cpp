@@ -85,6 +85,7 @@ S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S&
 
 template <Real S>
 Scene<S>::Scene(SceneSpec<S> spec) : spec_(std::move(spec)) {
+  prepare(spec_);
   if (Complaints complaints = find_complaints(spec_); !complaints.empty())
     throw InputError(std::move(complaints));
   complete();
@@ -110,6 +111,7 @@ void Scene<S>::complete() {
 
 template <Real S>
 std::variant<Scene<S>, Complaints> Scene<S>::make(SceneSpec<S> spec) {
+  prepare(spec);
   if (Complaints complaints = find_complaints(spec); !complaints.empty()) return complaints;
   return Scene(std::move(spec), Checked{});
 }
@@ -136,7 +138,10 @@ template <Real S>
 S Scene<S>::diffusivity_at(const S& z) const {
   if (!has_diffusion()) return S(0);
   const Diffusion<S>& d = *spec_.diffusion;
-  return d.D * (d.follows_shear_rate ? shear_rate_at(z) : d.variation ? value(*d.variation, z) : S(1));
+  const auto shear_rate = [&] {
+    return std::visit([&](const auto& model) { return shear_rate_of(model, z); }, spec_.shear_rate);
+  };
+  return d.D * (d.follows_shear_rate ? shear_rate() : d.variation ? value(*d.variation, z) : S(1));
 }
 
 template <Real S>

@@ -13,7 +13,8 @@
 
 namespace shearfront {
 
-/// All that is wrong with a specification, in the order of the entries of a scene file; empty if nothing is.
+/// All that is wrong with a specification, in the order of the entries of a scene file; empty if nothing is. Its models are those of a
+/// prepared one (prepare(), scene/scene_spec.hpp), as a Scene has it, or take the ends of the domain for 0 and 1 where they ask for them.
 template <Real Scalar>
 [[nodiscard]] Complaints find_complaints(const SceneSpec<Scalar>& spec);
 

@@ -213,10 +213,15 @@ class Checker {
       Scalar scaled = spec_.scale * a;
       if (spec_.temperature) scaled *= sqrt(value(*spec_.temperature, z));
       if (scaled > 0 && is_finite(scaled)) continue;
+      if (scaled == 0 && a == 0 && vanishes_at_end(z)) continue;
       return add("shear_rate.scale", number_text(spec_.scale),
                  "must keep s a(z) a positive finite number on the whole domain (a(" + number_text(z) +
                      ") = " + number_text(a) + ")");
     }
+  }
+  [[nodiscard]] bool vanishes_at_end(const Scalar& z) const {
+    return (z == spec_.bottom || z == spec_.top) &&
+           std::visit([&](const auto& model) { return may_vanish_at(model, z); }, spec_.shear_rate);
   }
   /// c(z) times the height, and times the rate, must stay numbers too.
   void scaled_solid_fraction() {
@@ -225,7 +230,8 @@ class Checker {
     for (const Scalar& z : heights()) {
       const Scalar c = value(*spec_.solid_fraction, z);
       const Scalar flux = c * (spec_.scale * value(spec_.shear_rate, z));
-      if (is_finite(Scalar(c * height)) && is_finite(flux) && flux > 0) continue;
+      const bool is_flux = flux > 0 || (flux == 0 && c > 0 && vanishes_at_end(z));
+      if (is_finite(Scalar(c * height)) && is_finite(flux) && is_flux) continue;
       return add(
           "solid_fraction", number_text(c),
           "must keep c(z) s a(z) a positive finite number on the whole domain (z = " + number_text(z) + ")");

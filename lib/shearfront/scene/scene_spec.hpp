@@ -29,7 +29,8 @@ template <Real Scalar>
 struct Diffusion {
   Scalar D{0};                                     ///< 0: none
   std::optional<DepthFunction<Scalar>> variation;  ///< 1 if not given
-  bool follows_shear_rate = false;                 ///< variation(z) = a(z), without the scale s
+  bool follows_shear_rate =
+      false;  ///< variation(z) = a(z), without the scale s, or the shear rate it is made of
 };
 
 /// The units in which the numbers of a scene are, empty where its file does not say: carried to axes, tables and files,
@@ -100,6 +101,18 @@ template <Real Scalar>
   if (spec.temperature) take(*spec.temperature);
   if (spec.diffusion && spec.diffusion->variation) take(*spec.diffusion->variation);
   return all;
+}
+
+/// Tells all models of a scene its ends (model/depth/model.hpp).
+template <Real Scalar>
+void prepare(SceneSpec<Scalar>& spec) {
+  const auto with = [&](DepthFunction<Scalar>& function) {
+    std::visit([&](auto& model) { prepare(model, spec.bottom, spec.top); }, function);
+  };
+  with(spec.shear_rate);
+  if (spec.solid_fraction) with(*spec.solid_fraction);
+  if (spec.temperature) with(*spec.temperature);
+  if (spec.diffusion && spec.diffusion->variation) with(*spec.diffusion->variation);
 }
 
 /// "flux." or, where there are several, "flux[1].".

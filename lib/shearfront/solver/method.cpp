@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/chute.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/chute_run.hpp"
@@ -27,6 +28,24 @@ std::string kind_refusal(const Guarantees& guarantees, const Scene<double>& scen
 }
 
 }  // namespace
+
+void check_places(const Scene<double>& scene, const std::vector<Place>& places) {
+  constexpr std::size_t kMost = 10;  // of a million places one line each is no help
+  Complaints complaints;
+  for (std::size_t i = 0; i < places.size() && complaints.size() < kMost; ++i) {
+    const auto& [t, z] = places[i];
+    const auto complain = [&](const char* which, double value, std::string constraint) {
+      complaints.push_back(
+          {"places[" + std::to_string(i) + "]." + which, number_text(value), std::move(constraint)});
+    };
+    if (!(t >= 0)) complain("t", t, "must be >= 0");
+    if (!(z >= scene.bottom() && z <= scene.top()))
+      complain("z", z,
+               "must be inside the domain [" + number_text(scene.bottom()) + ", " + number_text(scene.top()) +
+                   "]");
+  }
+  if (!complaints.empty()) throw InputError(std::move(complaints));
+}
 
 Method::Method() : Method(names().front()) {}
 

@@ -30,6 +30,7 @@ class AnySolver {
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> smooth(const Scene<double>&) const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnySolver> amounts() const = 0;
   [[nodiscard]] virtual std::string refusal(const Scene<double>&) const = 0;
+  [[nodiscard]] virtual std::string forewarning(const Scene<double>&) const = 0;
   [[nodiscard]] virtual std::unique_ptr<Run> start(const Scene<double>&, const Watch&) const = 0;
   [[nodiscard]] virtual bool has_derivative(const Scene<double>&, const Entry&) const = 0;
   [[nodiscard]] virtual Linearisation linearise(const Scene<double>&, const std::vector<Place>&,
@@ -82,6 +83,10 @@ class Configured final : public AnySolver {
   [[nodiscard]] std::string refusal(const Scene<double>& scene) const override {
     return S::refusal(scene, options_);
   }
+  [[nodiscard]] std::string forewarning(const Scene<double>& scene) const override {
+    if constexpr (requires { S::forewarning(scene, options_); }) return S::forewarning(scene, options_);
+    return {};
+  }
   [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const override {
     return S::start(scene, options_, watch);
   }
@@ -114,6 +119,9 @@ class Configured final : public AnySolver {
 };
 
 }  // namespace method_detail
+
+/// Errors: InputError (keys "places[i].t" and ".z", the first few) for places before t = 0 or outside the bed.
+void check_places(const Scene<double>& scene, const std::vector<Place>& places);
 
 /// A solver with its options: what --method, [forward] and `compare` choose. A value. A steady chute is solved here as the
 /// bed it amounts to (scene/chute.hpp), so that no solver knows of chutes.
@@ -157,6 +165,11 @@ class Method {
 
   /// Why the method cannot solve the scene, and which can; empty if it can.
   [[nodiscard]] std::string refusal(const Scene<double>& scene) const;
+  /// What is known before a run of the work it may become, in one clause; empty if that is little, and where there is a
+  /// refusal.
+  [[nodiscard]] std::string forewarning(const Scene<double>& scene) const {
+    return solver_->forewarning(scene);
+  }
   /// Precondition: refusal(scene) is empty. The scene must outlive the run.
   [[nodiscard]] std::unique_ptr<Run> start(const Scene<double>& scene, const Watch& watch) const;
 
@@ -165,9 +178,10 @@ class Method {
     return !scene.is_chute() && !scene.is_slab() && solver_->has_derivative(scene, entry);
   }
   /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at
-  /// least one if `entries` is empty.
+  /// least one if `entries` is empty. Errors: as check_places().
   [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
                                         const std::vector<std::size_t>& entries, std::any& memory) const {
+    check_places(scene, places);
     return solver_->linearise(scene, places, entries, memory);
   }
 

@@ -113,6 +113,7 @@ Timeline<double> event_times(const Scene<double>& scene) {
 PlaceSamples sample(const Scene<double>& scene, const Method& method, const std::vector<Place>& places,
                     const Progress& progress) {
   const auto begin = Clock::now();
+  check_places(scene, places);
   PlaceSamples result;
   if (std::string why = method.refusal(scene); !why.empty()) {
     result.summary = unsupported(std::move(why));

@@ -54,8 +54,8 @@ template <Solver S>
 [[nodiscard]] Timeline<double> event_times(const Scene<double>& scene);
 [[nodiscard]] Timeline<double> event_times(const Scene<double>& scene, const Method& method);
 
-/// Samples at places in any order, by one run. Not usable(): no samples. Cost: one run, memory linear in the
-/// places.
+/// Samples at places in any order, by one run. Not usable(): no samples. Errors: as check_places(). Cost: one run,
+/// memory linear in the places.
 struct PlaceSamples {
   std::vector<Sample> samples;
   Summary summary;

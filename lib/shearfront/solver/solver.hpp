@@ -98,6 +98,8 @@ struct Linearisation {
 ///   refusal   why it cannot solve the scene with these options, in one clause; empty if it can. It names no other
 ///             solver: what can solve the scene instead is found by asking all (solver/method.hpp)
 ///   start     precondition: refusal is empty. The scene must outlive the run
+///   forewarning  optional: what is known before a run of the work it may become, in one clause; empty if that is little,
+///             and where there is a refusal
 template <class S>
 concept Solver = requires(const Scene<double>& scene, const typename S::Options& options,
                           const Watch& watch) {

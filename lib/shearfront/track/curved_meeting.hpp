@@ -106,28 +106,43 @@ class CurvedMeetings {
       has_bracket = has_bracket || now.d.t < 0;
       (now.d.t < 0 ? beyond : positive) = z;
       if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
+      const double newton = z - now.d.t / now.d.slope;
       double next = interpolated(last, now);
-      if (!is_inside(next)) next = z - now.d.t / now.d.slope;
+      if (!is_inside(next)) next = newton;
       bool is_guess = is_inside(next);
       if (is_guess && has_bracket && n > kPatience && n % 3 == 0) is_guess = false;
       if (!is_guess) next = has_bracket ? positive + (beyond - positive) / 2 : to;
       const double step = std::abs(next - z);
       if (has_bracket && (next == positive || next == beyond)) return meeting(both, next);
       if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
-      if (is_guess && step < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
+      // Where one front stands for a while the cubic may stay at a place that is no root.
+      if (is_guess && std::max(step, std::abs(newton - z)) < kLastStep * std::abs(beyond - positive))
+        return meeting(both, next);
       last = now;
       z = next;
     }
   }
 
-  /// f rises, g sinks.
+  /// What rounding makes of two times that are equal, some events later.
+  [[nodiscard]] double tie(const Pair& at) const {
+    constexpr double kTie = 1e-12, kRoundings = 64 * 0x1p-53;
+    return kTie * std::max(at.f.t, at.g.t) +
+           kRoundings * (uncertainty(f_, at.f, at.z) + uncertainty(g_, at.g, at.z));
+  }
+  /// f rises, g sinks. Where one turns when the other comes it turns first: then it is faster than any other, and they part.
   [[nodiscard]] std::optional<CurvedMeeting> opposite() const {
     const double lo = std::max(f_.z, g_.end), hi = std::min(g_.z, f_.end);
     if (!(lo < hi)) {
       if (f_.z < g_.z) return std::nullopt;  // they turn before
       return CurvedMeeting{std::max(f_.t, g_.t), f_.z};
     }
-    const Passage at_lo = difference(g_, f_, lo);
+    const Pair both = pair_at(lo);
+    const Passage at_lo{both.g.t - both.f.t, both.g.slope - both.f.slope};
+    if (g_.turns && lo == g_.end && lo > f_.z && at_lo.t <= tie(both)) return std::nullopt;
+    if (f_.turns && hi == f_.end && hi < g_.z) {
+      const Pair at_hi = pair_at(hi);
+      if (at_hi.f.t - at_hi.g.t <= tie(at_hi)) return std::nullopt;
+    }
     if (at_lo.t < 0) {
       if (lo == f_.z) return at(lo);
       return std::nullopt;
@@ -161,20 +176,17 @@ class CurvedMeetings {
       if (!(at_from.t > 0)) return at(from);
       return first_zero(s, from, at_from, hi);
     }
-    const Passage at_lo = difference(rear, lead, lo);
-    const bool touches = at_lo.t <= 0 && leaves(rear, lead, at_lo, s);
+    const Pair both = pair_at(lo);
+    const int sign = &rear == &f_ ? 1 : -1;
+    const Passage at_lo{sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)};
+    // A front that has just turned is faster than any other: where another is then they touch and separate.
+    const bool touches = s * at_lo.slope > 0 && std::abs(at_lo.t) <= tie(both);
     if (at_lo.t <= 0 && !touches) return at(lo);
     const bool may_part = gets_smaller && ahead(hi, dead);
     if (!touches && !may_part) return first_zero(s, lo, at_lo, hi);
     if (lag(rear, lead, hi) <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
     if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
-  }
-  /// Whether they touch where one of them begins and then separate: a front that has just turned is faster than any other.
-  [[nodiscard]] bool leaves(const CurvedNode& rear, const CurvedNode& lead, const Passage& at_lo,
-                            int s) const {
-    constexpr double kTie = 1e-12;  // what rounding makes of times that are equal, some events later
-    return s * at_lo.slope > 0 && at_lo.t >= -kTie * std::max(rear.t, lead.t);
   }
   /// The difference is positive at lo and hi and has its minimum beyond `from`, if anywhere.
   [[nodiscard]] std::optional<CurvedMeeting> touching(const CurvedNode& rear, const CurvedNode& lead,

@@ -71,8 +71,8 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
     node.z = middle.z;
     node.u = middle.u;
   } else {
-    const State lower = i < j ? front.below : front.above;
-    node.u = grid.u_of(grid.is_high(lower), h, rate, std::sqrt(std::max(0.0, (rate - h) / rate)));
+    node.u = (below + above) / 2;
+    node.h = rate * relative_flux(grid.flux(), node.u);
   }
   node.room = std::abs(above - below) / 2;
   return node;

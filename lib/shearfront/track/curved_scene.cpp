@@ -79,6 +79,39 @@ std::vector<StartSegment> start_of(const Scene<double>& scene, const std::vector
   return start;
 }
 
+/// phi / c = offset + slope u of a smooth start, y the height.
+std::shared_ptr<const StartShape> shape_of(const Scene<double>& scene, const CurvedScene& curved) {
+  StartShape shape;
+  shape.u = [scene, heights = curved.heights, offset = curved.offset, slope = curved.slope](double y) {
+    return std::clamp((scene.initial_share(heights.z_of(y)) - offset) / slope, 0.0, 1.0);
+  };
+  shape.amount = [scene, heights = curved.heights, offset = curved.offset, slope = curved.slope](double lo,
+                                                                                                 double hi) {
+    return (scene.initial_amount(heights.z_of(lo), heights.z_of(hi)) - offset * (hi - lo)) / slope;
+  };
+  return std::make_shared<const StartShape>(std::move(shape));
+}
+
+std::vector<StartSegment> smooth_start_of(const Scene<double>& scene, const CurvedScene& curved,
+                                          const FluxBranches* flux) {
+  const auto shape = shape_of(scene, curved);
+  std::vector<double> knots;
+  for (const double z : scene.initial_knots()) knots.push_back(curved.heights.y_of(z));
+  std::vector<StartSegment> start;
+  auto knot = knots.begin();
+  for (std::size_t p = 0; p < curved.problem.pieces.size(); ++p) {
+    const RatePiece& piece = curved.problem.pieces[p];
+    double from = piece.z_low;
+    for (; knot != knots.end() && *knot < piece.z_high; ++knot) {
+      if (!(*knot > from)) continue;
+      add_smooth_segments(start, piece, p, from, *knot, shape, flux);
+      from = *knot;
+    }
+    add_smooth_segments(start, piece, p, from, piece.z_high, shape, flux);
+  }
+  return start;
+}
+
 CurvedScene scene_with(const Scene<double>& scene, std::shared_ptr<const FluxBranches> branches) {
   const Flux<double>& flux = scene.fluxes().front();
   const StateRange<double> range = flux.range();
@@ -99,7 +132,8 @@ CurvedScene scene_with(const Scene<double>& scene, std::shared_ptr<const FluxBra
   CurvedProblem& problem = curved.problem;
   problem.pieces =
       pieces_of(scene, ends, curved.heights, *curve_of(scene.shear_rate()), 4 * std::abs(extremum) / width);
-  problem.start = start_of(scene, problem.pieces, curved.heights, state_of);
+  problem.start = scene.has_smooth_start() ? smooth_start_of(scene, curved, branches.get())
+                                           : start_of(scene, problem.pieces, curved.heights, state_of);
   problem.ends.is_periodic = scene.spec().is_periodic;
   const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
   for (std::size_t end = 0; end < 2; ++end) {
@@ -147,8 +181,7 @@ Profile<double> CurvedScene::profile_of(const Lines& lines) const {
 }
 
 bool has_curved_fronts(const Scene<double>& scene) {
-  if (scene.is_layered() || scene.fluxes().size() != 1 || scene.has_diffusion() || scene.spec().is_neumann ||
-      scene.spec().initial_state)
+  if (scene.is_layered() || scene.fluxes().size() != 1 || scene.has_diffusion() || scene.spec().is_neumann)
     return false;
   const Flux<double>& flux = scene.fluxes().front();
   const std::optional<RateCurve> curve = curve_of(scene.shear_rate());

@@ -2,7 +2,9 @@
 #include "shearfront/track/curved_start.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <utility>
 
 #include "shearfront/track/curved_front.hpp"
 
@@ -34,12 +36,12 @@ double largest_capacity(const CurvedProblem& problem) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    const double share = relative_flux(flux, s.u);
-    most = std::max({most, piece.rate(s.z_low) * share, piece.rate(s.z_high) * share});
+    most = std::max({most, capacity_of(flux, piece.rate(s.z_low), s.u_low),
+                     capacity_of(flux, piece.rate(s.z_high), s.u_high)});
     if (i + 1 == start.size()) break;
     const double rate =
         std::min(pieces[s.piece].rate(s.z_high), pieces[start[i + 1].piece].rate(start[i + 1].z_low));
-    most = std::max(most, sent(flux, rate, s.u, start[i + 1].u));
+    most = std::max(most, sent(flux, rate, s.u_high, start[i + 1].u_low));
   }
   return most;
 }
@@ -104,13 +106,13 @@ std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    if (piece.is_constant())
-      add(capacity_of(flux, piece.low, s.u), s.piece, flux ? flux->root_of(s.u) : std::abs(2 * s.u - 1),
-          true);
-    if (!piece.is_constant())
-      for (const double z : {s.z_low, s.z_high})
-        add(capacity_of(flux, piece.rate(z), s.u), s.piece, z, s.u == top);
-    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u <= top && start[i + 1].u >= top)
+    for (const auto& [z, u] : {std::pair(s.z_low, s.u_low), std::pair(s.z_high, s.u_high)}) {
+      if (piece.is_constant())
+        add(capacity_of(flux, piece.low, u), s.piece, flux ? flux->root_of(u) : std::abs(2 * u - 1), true);
+      else
+        add(capacity_of(flux, piece.rate(z), u), s.piece, z, u == top);
+    }
+    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u_high <= top && start[i + 1].u_low >= top)
       add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
   }
   for (std::size_t end = 0; end < 2; ++end)
@@ -142,7 +144,8 @@ std::vector<double> refined_capacities(const CurvedProblem& problem, const Spaci
     if (is_throat) add(std::min(piece.high, next.low));
   }
   for (std::size_t i = 0; i + 1 < start.size(); ++i)
-    if (start[i].u < top && start[i + 1].u > top)
+    if ((start[i].shape && start[i].u_high == top) || (start[i].u_high <= top && start[i + 1].u_low >= top &&
+                                                       (start[i].u_low < top || start[i + 1].u_high > top)))
       add(std::min(pieces[start[i].piece].rate(start[i].z_high),
                    pieces[start[i + 1].piece].rate(start[i + 1].z_low)));
   std::sort(all.begin(), all.end());
@@ -199,15 +202,34 @@ double step_height(const LevelCurves& grid, std::size_t p, State below, State ab
   return std::clamp(bracketed_root(falls ? b : a, falls ? a : b, a + (b - a) / 2, excess), a, b);
 }
 
+/// Where `value`, which rises or falls from lo to hi, is 0: by bisection and secants.
+template <class Value>
+double crossing(double lo, double hi, bool rises, const Value& value) {
+  constexpr int kMostHalvings = 200;
+  double at_lo = value(lo), at_hi = value(hi);
+  if ((at_lo >= 0) == rises) return lo;
+  if ((at_hi <= 0) == rises) return hi;
+  for (int n = 0; n < kMostHalvings; ++n) {
+    const double middle = lo + (hi - lo) / 2, secant = lo - at_lo / (at_hi - at_lo) * (hi - lo);
+    const double z = n % 3 < 2 && secant > lo && secant < hi ? secant : middle;
+    if (!(z > lo && z < hi)) break;
+    const double here = value(z);
+    if (here == 0) return z;
+    ((here < 0) == rises ? lo : hi) = z;
+    ((here < 0) == rises ? at_lo : at_hi) = here;
+  }
+  return hi;
+}
+
 /// A state of a constant piece. Where rounding of its capacity makes it the top of the flux, a little of the next level at its top
 /// keeps the amount.
 StartSegmentLevels constant_state(const LevelCurves& grid, const StartSegment& segment, State state) {
   constexpr double kLeast = 1e-13;
   const double u = grid.phi(segment.piece, state, segment.z_low), width = segment.z_high - segment.z_low;
   const std::size_t level = grid.level(state);
-  if (level == 0 || std::abs(segment.u - u) < kLeast) return {state, state, {}};
-  const State next = segment.u > u ? grid.high(level - 1) : grid.low(level - 1);
-  const double share = (segment.u - u) / (grid.phi(segment.piece, next, segment.z_low) - u);
+  if (level == 0 || std::abs(segment.u_low - u) < kLeast) return {state, state, {}};
+  const State next = segment.u_low > u ? grid.high(level - 1) : grid.low(level - 1);
+  const double share = (segment.u_low - u) / (grid.phi(segment.piece, next, segment.z_low) - u);
   return {state, next, {{segment.z_high - share * width, state, next}}};
 }
 
@@ -224,6 +246,45 @@ State outside_state(const LevelCurves& grid, std::size_t end, double u) {
   return u > grid.top() ? grid.high(level) : grid.low(level);
 }
 
+void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& rate, std::size_t piece,
+                         double low, double high, const std::shared_ptr<const StartShape>& course,
+                         const FluxBranches* flux) {
+  const double top = top_of(flux), above_low = course->u(low) - top, above_high = course->u(high) - top;
+  std::vector<double> cuts{low, high};
+  double at_top = low;
+  if (above_low * above_high < 0) {
+    at_top = crossing(low, high, above_low < 0, [&](double z) { return course->u(z) - top; });
+    cuts.push_back(at_top);
+  }
+  const auto carried = [&](double z) { return capacity_of(flux, rate.rate(z), course->u(z)); };
+  // Extrema next to the ends too: what is missed at 1e-6 of the stretch holds 1e-18 of it.
+  std::vector<double> parts{0, 1e-6, 1e-4, 1e-2};
+  constexpr int kHeights = 32;
+  for (int i = 1; i < kHeights; ++i) parts.push_back(static_cast<double>(i) / kHeights);
+  parts.insert(parts.end(), {1 - 1e-2, 1 - 1e-4, 1 - 1e-6, 1});
+  std::vector<double> heights;
+  for (const double part : parts) heights.push_back(part == 1 ? high : low + (high - low) * part);
+  for (std::size_t i = 1; i + 1 < heights.size(); ++i) {
+    const double before = carried(heights[i - 1]), here = carried(heights[i]),
+                 after = carried(heights[i + 1]);
+    for (const double sign : {1.0, -1.0}) {
+      if (!(sign * here >= sign * before && sign * here > sign * after)) continue;
+      constexpr int kMostBits = 50;
+      cuts.push_back(boost::math::tools::brent_find_minima([&](double z) { return -sign * carried(z); },
+                                                           heights[i - 1], heights[i + 1], kMostBits)
+                         .first);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (!(cuts[i + 1] > cuts[i])) continue;
+    StartSegment& segment = segments.emplace_back(piece, cuts[i], cuts[i + 1], course);
+    if (above_low * above_high >= 0) continue;
+    if (segment.z_low == at_top) segment.u_low = top;
+    if (segment.z_high == at_top) segment.u_high = top;
+  }
+}
+
 LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
   LevelPlan plan{{0}, {true}, {}};
   const double most = largest_capacity(problem);
@@ -232,35 +293,35 @@ LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
   const Spacing spacing = spacing_of(problem, most, resolution);
   const std::vector<double> ordinary =
       ordinary_levels(spacing, most, refined_capacities(problem, spacing, most));
-  constexpr double kRoom = 0.3;  // of the spacing, that a special level keeps free around it
-  // Of the nearest levels: where they are refined it is less.
-  const auto room_at = [&](double h) {
-    const auto it = std::upper_bound(ordinary.begin(), ordinary.end(), h);
-    const double above = it == ordinary.end() ? most * (1 + spacing.ratio) : *it;
-    const double below = it == ordinary.begin() ? 0 : *std::prev(it);
-    return kRoom * std::min(std::min(spacing.ratio, 0.5) * (h + spacing.offset), above - below);
+  constexpr double kRoom =
+      0.3;  // of the distance to the next ordinary one, that a special level keeps free on each side
+  const auto room = [&](double h, double gap) {
+    return kRoom * std::min(std::min(spacing.ratio, 0.5) * (h + spacing.offset), gap);
   };
   auto next = ordinary.begin();
-  const auto add_up_to = [&](double end) {
-    for (; next != ordinary.end() && *next < end; ++next)
-      if (*next > plan.capacities.back() + (plan.is_plateau.back() ? room_at(*next) : 0)) {
-        plan.capacities.push_back(*next);
-        plan.is_plateau.push_back(false);
-      }
+  const auto add_up_to = [&](double h) {
+    for (; next != ordinary.end() && *next < h; ++next) {
+      const double below = next == ordinary.begin() ? *next : *next - *std::prev(next);
+      const double above = next + 1 == ordinary.end() ? INFINITY : *std::next(next) - *next;
+      if (h - *next <= room(h, below)) continue;
+      if (*next <= plan.capacities.back() + (plan.is_plateau.back() ? room(*next, above) : 0)) continue;
+      plan.capacities.push_back(*next);
+      plan.is_plateau.push_back(false);
+    }
   };
   for (const Special& special : specials) {
     const double h = special.capacity;
     const bool is_known = plan.is_plateau.back() && plan.capacities.size() > 1 &&
                           h <= plan.capacities.back() * (1 + kSameLevel);
     if (!is_known) {
-      add_up_to(h - room_at(h));
+      add_up_to(h);
       plan.capacities.push_back(h);
       plan.is_plateau.push_back(true);
     }
     if (special.is_known) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.value});
   }
   if (plan.capacities.back() < most * (1 - kSameLevel)) {
-    add_up_to(most * (1 - room_at(most) / most));
+    add_up_to(most);
     plan.capacities.push_back(most);
     plan.is_plateau.push_back(true);
   }
@@ -270,15 +331,19 @@ LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
 StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment) {
   const std::size_t p = segment.piece;
   const RatePiece& piece = grid.piece(p);
-  const bool is_top = segment.u == grid.top();
-  const bool is_high = segment.u > grid.top() || (is_top && !piece.is_constant() && !piece.falls());
+  const StartShape* shape = segment.shape.get();
+  const double inside =
+      shape ? shape->u(segment.z_low + (segment.z_high - segment.z_low) / 2) : segment.u_low;
+  const bool is_top = !shape && inside == grid.top();
+  const bool is_high = inside > grid.top() || (is_top && !piece.is_constant() && !piece.falls());
   const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
-  if (segment.u == 0 || segment.u == 1) return {state(0), state(0), {}};
-  const auto level_at = [&](double z) {
-    return grid.cap(capacity_of(grid.flux(), piece.rate(z), segment.u));
+  const auto level_at = [&](double z, double u) {
+    return u == 0 || u == 1 ? 0 : grid.cap(capacity_of(grid.flux(), piece.rate(z), u));
   };
-  const std::size_t from = level_at(segment.z_low), to = level_at(segment.z_high);
-  if (from == to && piece.is_constant()) return constant_state(grid, segment, state(from));
+  const std::size_t from = level_at(segment.z_low, segment.u_low),
+                    to = level_at(segment.z_high, segment.u_high);
+  if (from == to && !shape && from > 0 && piece.is_constant())
+    return constant_state(grid, segment, state(from));
   if (from == to) return {state(from), state(to), {}};
   StartSegmentLevels levels{state(from), state(to), {}};
   const int s = from < to ? 1 : -1;
@@ -291,15 +356,24 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
       levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
     return levels;
   }
-  const double spread = relative_flux(grid.flux(), segment.u),
-               lack = 2 * (is_high ? 1 - segment.u : segment.u);
+  const double spread = relative_flux(grid.flux(), segment.u_low);
+  const auto height_of = [&](double h, double lo) {
+    if (!shape) return piece.height_of(h / spread);
+    return crossing(lo, segment.z_high, s > 0,
+                    [&](double z) { return capacity_of(grid.flux(), piece.rate(z), shape->u(z)) - h; });
+  };
+  const auto lack = [&](double lo, double hi) {
+    const double width = hi - lo;
+    if (!shape) return 2 * (is_high ? 1 - segment.u_low : segment.u_low) * width;
+    const double amount = shape->amount(lo, hi);
+    return 2 * (is_high ? width - amount : amount);
+  };
   double low_end = segment.z_low;
   for (std::size_t k = from; k != to; k = next(k)) {
     const std::size_t above = next(k);
-    double high_end = above == to ? segment.z_high : piece.height_of(grid.capacity(above) / spread);
+    double high_end = above == to ? segment.z_high : height_of(grid.capacity(above), low_end);
     high_end = std::clamp(high_end, low_end, segment.z_high);
-    const double z =
-        step_height(grid, p, state(k), state(above), low_end, high_end, lack * (high_end - low_end));
+    const double z = step_height(grid, p, state(k), state(above), low_end, high_end, lack(low_end, high_end));
     levels.steps.push_back({z, state(k), state(above)});
     low_end = high_end;
   }

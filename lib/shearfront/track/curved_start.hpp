@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -9,11 +10,25 @@
 
 namespace shearfront {
 
-/// A part of one piece in which u(z, 0) is constant, bottom to top.
+/// u(z, 0) where it varies.
+struct StartShape {
+  std::function<double(double z)> u;
+  std::function<double(double lo, double hi)> amount;  ///< int u dz
+};
+
+/// A part of one piece in which u(z, 0) is constant, or continuous, on one side of the top of the flux, and r g(u) monotone.
 struct StartSegment {
   std::size_t piece;
   double z_low, z_high;
-  double u;
+  double u_low, u_high;                       ///< at its ends
+  std::shared_ptr<const StartShape> shape{};  ///< none where u is constant
+
+  StartSegment(std::size_t in, double low, double high, double u)
+      : piece(in), z_low(low), z_high(high), u_low(u), u_high(u) {}
+  StartSegment(std::size_t in, double low, double high, std::shared_ptr<const StartShape> course)
+      : piece(in), z_low(low), z_high(high), u_low(course->u(low)), u_high(course->u(high)) {
+    if (u_low != u_high || course->u(low + (high - low) / 2) != u_low) shape = std::move(course);
+  }
 };
 
 /// What lies beyond the ends of a bed: walls, states in the course of time, or the other end.
@@ -42,6 +57,12 @@ struct StartSegmentLevels {
   std::vector<Step> steps;  ///< between them, ascending
 };
 
+/// Appends [low, high] of a piece, where `course` and its slope are monotone, cut where it passes the top of the flux and where
+/// r g(u) has its extrema, which are looked for between 38 heights.
+void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& rate, std::size_t piece,
+                         double low, double high, const std::shared_ptr<const StartShape>& course,
+                         const FluxBranches* flux);
+
 /// What the levels must know of a start: which capacities are met exactly, and where levels turn.
 struct LevelPlan {
   std::vector<double> capacities;  ///< 4 H, ascending from 0
@@ -59,8 +80,8 @@ struct LevelPlan {
 /// The state u beyond an end, where the rate is that of the piece there: a level to the bit if it is one of the problem.
 [[nodiscard]] State outside_state(const LevelCurves& grid, std::size_t end, double u);
 
-/// A segment of constant u in levels. Where the rate varies it is no steady state: between the heights at which r g(u) is
-/// a level there is one step, where it keeps the amount; the top of the flux is a level beyond its turning height. Cost: O(levels crossed).
+/// A segment in levels. Where the rate or u varies it is no steady state: between the heights at which r g(u) is
+/// a level there is one step, where it keeps the amount; the top of the flux, all along, is a level beyond its turning height. Cost: O(levels crossed).
 [[nodiscard]] StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segment);
 
 }  // namespace shearfront

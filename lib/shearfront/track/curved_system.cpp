@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shearfront/track/curved_meeting.hpp"
+#include "shearfront/track/curved_riemann.hpp"
 
 namespace shearfront {
 
@@ -98,15 +99,6 @@ FrontIndex CurvedSystem<Observer>::emit(FrontIndex under, std::size_t piece, Sta
   return i;
 }
 
-/// The level of the flux through a place between l and r that can carry so much on its two sides.
-template <class Observer>
-std::size_t CurvedSystem<Observer>::flux_level(State l, State r, std::size_t cap_below,
-                                               std::size_t cap_above) const {
-  const std::size_t demand = grid_->is_high(l) ? std::min(grid_->level(l), cap_below) : cap_below;
-  const std::size_t supply = grid_->is_high(r) ? cap_above : std::min(grid_->level(r), cap_above);
-  return std::min(demand, supply);
-}
-
 /// Front i, put in now, is the edge of a fan next to a state that was there before, whose characteristic left its place at t.
 template <class Observer>
 void CurvedSystem<Observer>::set_edge(FrontIndex i, double t) {
@@ -124,40 +116,21 @@ double CurvedSystem<Observer>::arrival_of_edge(const Node& f, double z) const {
 template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_left(FrontIndex under, std::size_t piece, State l, std::size_t level,
                                              double z, State& at, double edge_t) {
-  at = grid_->low(level);
-  if (l == grid_->high(level)) at = l;
-  if (l == at) return under;
-  if (!grid_->is_high(l) && grid_->level(l) < level) {
-    for (std::size_t k = grid_->level(l); k < level; ++k) {
-      under = emit(under, piece, grid_->low(k), grid_->low(k + 1), z);
-      if (k == grid_->level(l)) set_edge(under, edge_t);
-    }
-    return under;
-  }
-  return emit(under, piece, l, at, z);
+  at = curved_riemann::waves_down(*grid_, l, level, [&](State below, State above, bool is_edge) {
+    under = emit(under, piece, below, above, z);
+    if (is_edge) set_edge(under, edge_t);
+  });
+  return under;
 }
 /// The waves that go up.
 template <class Observer>
 FrontIndex CurvedSystem<Observer>::emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level,
                                               double z, State& at, double edge_t) {
-  at = grid_->high(level);
-  if (r == grid_->low(level)) at = r;
-  if (r == at) return under;
-  if (grid_->is_high(r) && grid_->level(r) < level) {
-    for (std::size_t k = level; k > grid_->level(r); --k)
-      under = emit(under, piece, grid_->high(k), grid_->high(k - 1), z);
-    set_edge(under, edge_t);
-    return under;
-  }
-  return emit(under, piece, at, r, z);
-}
-
-/// The label of a level beyond its turning height, where both of its states are one: that of the side on which it lives, so
-/// that the region may go on there.
-template <class Observer>
-State CurvedSystem<Observer>::dead_label(std::size_t piece, State l, State r, std::size_t level) const {
-  if (grid_->piece(piece).bend > 0) return grid_->level(r) == level ? r : grid_->high(level);
-  return grid_->level(l) == level ? l : grid_->low(level);
+  at = curved_riemann::waves_up(*grid_, r, level, [&](State below, State above, bool is_edge) {
+    under = emit(under, piece, below, above, z);
+    if (is_edge) set_edge(under, edge_t);
+  });
+  return under;
 }
 
 /// The Riemann problem of l | r at a height inside a piece, at the start. Returns the topmost new node; r is another name of
@@ -167,7 +140,7 @@ FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t pie
                                                double z) {
   if (l == r) return under;
   const double rate = grid_->piece(piece).rate(z);
-  const std::size_t cap = grid_->cap(rate), level = flux_level(l, r, cap, cap);
+  const std::size_t cap = grid_->cap(rate), level = curved_riemann::flux_level(*grid_, l, r, cap, cap);
   State below, above;
   const FrontIndex left = emit_left(under, piece, l, level, z, below, now_);
   const bool is_dead = !(grid_->q(piece, level, z, rate) > 0);
@@ -176,7 +149,7 @@ FrontIndex CurvedSystem<Observer>::emit_inside(FrontIndex under, std::size_t pie
   if (stands) middle = emit(left, piece, below, r == grid_->low(level) ? r : grid_->high(level), z);
   const FrontIndex right = emit_right(middle, piece, r, level, z, above, now_);
   if (!is_dead || below == above) return right;
-  const State label = dead_label(piece, l, r, level);
+  const State label = curved_riemann::dead_label(*grid_, piece, l, r, level);
   fronts_[left].above = label;
   if (right != left)
     fronts_[fronts_[left].next].below = label;
@@ -195,7 +168,7 @@ FrontIndex CurvedSystem<Observer>::emit_at_boundary(FrontIndex b, State l, State
   std::size_t cap_below = 0, cap_above = 0;
   if (b > 0 || outside_[0]) cap_below = b > 0 ? grid_->cap_high(b - 1) : grid_->cap_low(0);
   if (b < n || outside_[1]) cap_above = b < n ? grid_->cap_low(b) : grid_->cap_high(n - 1);
-  const std::size_t level = flux_level(l, r, cap_below, cap_above);
+  const std::size_t level = curved_riemann::flux_level(*grid_, l, r, cap_below, cap_above);
   State below = l, above = r;
   if (b > 0) emit_left(fronts_[b].prev, b - 1, l, level, z, below, edge_t);
   FrontIndex top = b;
@@ -214,7 +187,8 @@ FrontIndex CurvedSystem<Observer>::emit_at_seam(FrontIndex b, State l, State r, 
     l = fronts_[top].below;
   else
     r = fronts_[0].above;
-  const std::size_t level = flux_level(l, r, grid_->cap_high(last), grid_->cap_low(0));
+  const std::size_t level =
+      curved_riemann::flux_level(*grid_, l, r, grid_->cap_high(last), grid_->cap_low(0));
   const FrontIndex under = fronts_[top].prev;
   const double z_top = fronts_[top].z, z_bottom = fronts_[0].z;
   State below, above;
@@ -326,7 +300,7 @@ void CurvedSystem<Observer>::merge(FrontIndex f, FrontIndex g) {
     const FrontIndex over = fronts_[f].next;
     remove(f);
     if (l != r) {
-      const State label = dead_label(piece, l, r, level);
+      const State label = curved_riemann::dead_label(*grid_, piece, l, r, level);
       if (label != l) set_above(under, label);
       if (label != r) set_below(over, label);
       if (label != l && fronts_[under].prev != kNoFront) schedule(fronts_[under].prev);

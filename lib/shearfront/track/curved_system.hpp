@@ -68,7 +68,6 @@ class CurvedSystem {
                        double edge_t);
   FrontIndex emit_right(FrontIndex under, std::size_t piece, State r, std::size_t level, double z, State& at,
                         double edge_t);
-  [[nodiscard]] std::size_t flux_level(State l, State r, std::size_t cap_below, std::size_t cap_above) const;
   FrontIndex emit_inside(FrontIndex under, std::size_t piece, State l, State& r, double z);
   FrontIndex emit_at_boundary(FrontIndex b, State l, State r, double edge_t);
   FrontIndex emit_at_seam(FrontIndex b, State l, State r, double edge_t);
@@ -76,7 +75,6 @@ class CurvedSystem {
   void reach_boundary(FrontIndex mover, FrontIndex b);
   void merge(FrontIndex f, FrontIndex g);
   void turn(FrontIndex f);
-  [[nodiscard]] State dead_label(std::size_t piece, State l, State r, std::size_t level) const;
   void set_below(FrontIndex i, State state);
   void set_above(FrontIndex i, State state);
   void anchor_beyond(Node& f, std::size_t level);

@@ -3,8 +3,11 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/track/curved_scene.hpp"
+#include "shearfront/track/curved_tracking.hpp"
 
 namespace shearfront {
 namespace {
@@ -42,6 +45,22 @@ void FrontTrackingSolver::prefer_smooth(const Scene<double>& scene, Options& opt
   Options smooth = options;
   smooth.reconstruct = Reconstruction::linear;
   if (refusal(scene, smooth).empty()) options = smooth;
+}
+
+std::string FrontTrackingSolver::forewarning(const Scene<double>& scene, const Options& options) {
+  constexpr double kMany = 1e8;
+  // Few layers need no count: each front crosses each of them in no time.
+  constexpr std::size_t kFewLayers = 100;
+  const bool has_stairs = !scene.is_layered() && !track_detail::wants_curves(scene, options);
+  if (!has_stairs && scene.knots().size() < kFewLayers) return {};
+  if (!refusal(scene, options).empty()) return {};
+  const Summary at_start = Tracking(scene, options).summary();
+  if (at_start.fronts_max > options.max_fronts) return {};  // does not begin
+  const double n = static_cast<double>(at_start.fronts_max) * static_cast<double>(at_start.layers);
+  if (n < kMany) return {};
+  return "up to " + number_text(n, 2) + " collisions, if each of " + std::to_string(at_start.fronts_max) +
+         " fronts crosses each of " + std::to_string(at_start.layers) +
+         " layers, at a minute or less per 1e8; a coarser resolution has fewer";
 }
 
 std::unique_ptr<Run> FrontTrackingSolver::start(const Scene<double>& scene, const Options& options,

@@ -39,6 +39,8 @@ struct FrontTrackingSolver {
   static std::string refusal(const Scene<double>& scene, const Options& options) {
     return Tracking::refusal(scene, options);
   }
+  /// Where every front may cross every layer: how many collisions that may be, from 1e8 on, which take a minute.
+  static std::string forewarning(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<FrontTrackingSolver>);

@@ -60,6 +60,10 @@ struct Exponential {
     add(0, mean / amplitude);
     add(1, mean * (lo / decay + h * exponential_mean_place(h)) / decay);
   }
+  /// Where in [lo, hi], as a part of it, the slowness 1 / a has its centre of mass.
+  [[nodiscard]] Scalar slowness_place(const Scalar& lo, const Scalar& hi) const {
+    return exponential_mean_place(Scalar((hi - lo) / decay));
+  }
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
   template <class AddLow, class AddHigh>
   void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {

@@ -54,6 +54,31 @@ template <class Model, class Scalar>
     return {model.value(lo), model.value(hi)};
 }
 
+/// Whether a(z) is 0 at an end of the domain, and only there: vanishes_at() of the model if it has it. It must then reach 0 no
+/// faster than a power below 1 of the distance, so that grains reach that end.
+template <class Model, class Scalar>
+[[nodiscard]] bool may_vanish_at(const Model& model, const Scalar& end) {
+  if constexpr (requires { model.vanishes_at(end); })
+    return model.vanishes_at(end);
+  else
+    return false;
+}
+
+/// Tells a model that has prepare() the ends of the domain: what depends on them, or takes long, is found once there, and shared by copies.
+template <class Model, class Scalar>
+void prepare(Model& model, const Scalar& bottom, const Scalar& top) {
+  if constexpr (requires { model.prepare(bottom, top); }) model.prepare(bottom, top);
+}
+
+/// The shear rate that a model makes a(z) of, where that is another one: shear_rate() of the model if it has it.
+template <class Model, class Scalar>
+[[nodiscard]] Scalar shear_rate_of(const Model& model, const Scalar& z) {
+  if constexpr (requires { model.shear_rate(z); })
+    return model.shear_rate(z);
+  else
+    return model.value(z);
+}
+
 /// Derivatives of end_values, the ends held fixed: calls add_low(entry, derivative) and add_high(entry, derivative), entries in
 /// the order of fields(); a knot at an end moves out of the interval. Models that are linear or exponential between knots have
 /// it.

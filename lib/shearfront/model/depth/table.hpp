@@ -86,6 +86,14 @@ struct Table {
     const Scalar a_lo = at(lo), x = (at(hi) - a_lo) / a_lo;  // relative rise over [lo, hi], > -1
     return x == 0 ? a_lo : a_lo * (x / log1p(x));
   }
+  /// Where in [lo, hi], as a part of it, the slowness 1 / a has its centre of mass; no knot inside.
+  [[nodiscard]] Scalar slowness_place(const Scalar& lo, const Scalar& hi) const {
+    using std::log;
+    const EndValues<Scalar> a = end_values(lo, hi);
+    const Scalar fall = log(Scalar(a.low / a.high));
+    return fall < 0 ? Scalar(Scalar(1) - exponential_mean_place(Scalar(-fall)))
+                    : exponential_mean_place(fall);
+  }
   /// By the values of a at both ends, which the two points around the interval determine: with y = log(other end /
   /// this end) the mean changes with the value at an end by (e^y - 1 - y) / y^2.
   template <class Add>

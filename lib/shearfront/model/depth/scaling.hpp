@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "shearfront/model/depth/model.hpp"
+#include "shearfront/model/field.hpp"
+#include "shearfront/model/rheology/shear.hpp"
+#include "shearfront/numeric/scalar.hpp"
+
+namespace shearfront {
+
+/// Names and formulas of the laws, made of those of their shear rates.
+template <class Shear>
+class ScalingText {
+  template <std::size_t n_prefix, std::size_t n>
+  static constexpr std::array<char, n_prefix + n> joined(std::string_view prefix, std::string_view text) {
+    std::array<char, n_prefix + n> all{};
+    std::copy(text.begin(), text.end(), std::copy(prefix.begin(), prefix.end(), all.begin()));
+    return all;
+  }
+  static constexpr std::string_view kPrefix = "scaling-", kLaw = "B S d^2 F(R) / (C d + p), S = ";
+  static constexpr auto kNameText = joined<kPrefix.size(), Shear::kName.size()>(kPrefix, Shear::kName);
+  static constexpr auto kFormulaText = joined<kLaw.size(), Shear::kFormula.size()>(kLaw, Shear::kFormula);
+
+ public:
+  static constexpr std::string_view kName{kNameText.data(), kNameText.size()};
+  static constexpr std::string_view kFormula{kFormulaText.data(), kFormulaText.size()};
+};
+
+/// Segregation rate of a flow from what a laboratory knows of it: its shear rate du/dz and the grains,
+///
+///     a(z) = B du/dz d^2 ((R - 1) + E (1 - share) (R - 1)^2) / (C d + packing depth(z)),
+///     d = small_diameter (share + (1 - share) R),   R = size_ratio,
+///
+/// the speed at which a pair of pure states segregates, in the unit of height over that of time. packing depth is the pressure over density
+/// times gravity: depth(z) = pressure / (packing density gravity) + lid - z, or what the shear rate knows itself (the load of `kinetic`,
+/// the surface of `bagnold`). The grain size and the ratio are those of a mixture with the mean share of small grains: how the rate depends
+/// on the share itself is the flux's business (cubic).
+/// Domain: lengths, density and gravity in the units of the scene (SI is safe), all > 0, size_ratio > 1, 0 <= share <= 1, pressure >= 0,
+/// lid not below the top of the domain (the top itself if not given). Defaults: packing 0.6, share 1/2, density 2500, gravity 9.81,
+/// B = 0.3744, C = 0.2712, E = 2.0957. Source: Trewhela, Ancey & Gray (2021), J. Fluid Mech. 916, A55, whose law is fitted to
+/// single intruders in a shear cell of refractive-index matched grains; their remixing is D = 0.108 du/dz d^2 (Utter & Behringer
+/// 2004). Outside of dense flow of moderate inertial number it overestimates (arXiv 2507.01248).
+template <class Shear>
+struct Scaling {
+  using Scalar = std::remove_cvref_t<decltype(Shear{}.value({}))>;
+  static constexpr std::string_view kName = ScalingText<Shear>::kName;
+  static constexpr std::string_view kFormula = ScalingText<Shear>::kFormula;
+  static constexpr bool kIsLayered = false;
+  /// Whether the shear rate knows how much bed there is above a height.
+  static constexpr bool kKnowsDepth = requires(const Shear& shear, Scalar z) { shear.depth(z); };
+
+  Shear shear;
+  Scalar small_diameter{0}, size_ratio{0}, share{0.5}, packing{0.6};
+  Scalar pressure{0}, density{2500}, gravity{9.81}, lid{0};
+  Scalar B{0.3744}, C{0.2712}, E{2.0957};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    Shear::fields(self.shear, visit);
+    visit(FieldInfo{"small_diameter", Range::positive}, self.small_diameter);
+    visit(FieldInfo{"size_ratio", Range::positive}, self.size_ratio);
+    visit(FieldInfo{"share", Range::any, true}, self.share);
+    visit(FieldInfo{"packing", Range::positive, true}, self.packing);
+    if constexpr (!kKnowsDepth) {
+      visit(FieldInfo{"pressure", Range::any, true}, self.pressure);
+      visit(FieldInfo{"density", Range::positive, true}, self.density);
+      visit(FieldInfo{"gravity", Range::positive, true}, self.gravity);
+      visit(FieldInfo{"lid", Range::any, true, Measure::height}, self.lid);
+    }
+    visit(FieldInfo{"B", Range::positive, true}, self.B);
+    visit(FieldInfo{"C", Range::positive, true}, self.C);
+    visit(FieldInfo{"E", Range::positive, true}, self.E);
+  }
+  void prepare(const Scalar& bottom, const Scalar& top) {
+    top_ = top;
+    if constexpr (requires { shear.prepare(bottom, top); }) shear.prepare(bottom, top);
+  }
+  void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
+             Complaints& complaints) const {
+    shear.check(prefix, bottom, top, complaints);
+    const auto add = [&](const char* key, const Scalar& x, const std::string& constraint) {
+      complaints.push_back({prefix + key, number_text(x), constraint});
+    };
+    if (is_finite(size_ratio) && size_ratio > 0 && !(size_ratio > 1))
+      add("size_ratio", size_ratio, "must be > 1: diameter of the large grains over that of the small ones");
+    if (is_finite(share) && !(share >= 0 && share <= 1)) add("share", share, "must be between 0 and 1");
+    if (is_finite(pressure) && !(pressure >= 0)) add("pressure", pressure, "must be >= 0");
+    if (!kKnowsDepth && is_finite(lid) && lid != 0 && lid < top)
+      add("lid", lid, "must not lie below the top of the domain (" + number_text(top) + ")");
+  }
+
+  [[nodiscard]] Scalar value(const Scalar& z) const { return shear.value(z) * strength() / resistance(z); }
+  /// What diffusion proportional to the shear rate is proportional to.
+  [[nodiscard]] Scalar shear_rate(const Scalar& z) const { return shear.value(z); }
+  /// The resistance is linear in z: its mean over the slowness of the shear rate is its value at the centre of mass of that.
+  [[nodiscard]] Scalar harmonic_mean(const Scalar& lo, const Scalar& hi) const {
+    const Scalar centre = (hi - lo) * (Scalar(1) - Scalar(shear.slowness_place(lo, hi)));
+    return shear.harmonic_mean(lo, hi) * strength() / (resistance(hi) + packing * centre);
+  }
+  [[nodiscard]] std::vector<Scalar> knots() const { return shear.knots(); }
+  [[nodiscard]] std::vector<std::size_t> knot_entries() const { return shearfront::knot_entries(shear); }
+  [[nodiscard]] bool jumps_at(const Scalar& z) const { return may_jump_at_knot(z); }
+  [[nodiscard]] bool vanishes_at(const Scalar& z) const {
+    if constexpr (requires { shear.vanishes_at(z); })
+      return shear.vanishes_at(z);
+    else
+      return false;
+  }
+  [[nodiscard]] EndValues<Scalar> end_values(const Scalar& lo, const Scalar& hi) const {
+    const EndValues<Scalar> ends = shearfront::end_values(shear, lo, hi);
+    return {ends.low * strength() / resistance(lo), ends.high * strength() / resistance(hi)};
+  }
+  template <class AddLow, class AddHigh>
+  void end_value_derivatives(const Scalar& lo, const Scalar& hi, AddLow&& add_low, AddHigh&& add_high) const {
+    const EndValues<Scalar> ends = end_values(lo, hi);
+    const auto scaled = [&](const Scalar& z, auto& add) {
+      return [&add, factor = Scalar(strength() / resistance(z))](std::size_t entry, const Scalar& by) {
+        add(entry, Scalar(factor * by));
+      };
+    };
+    shear.end_value_derivatives(lo, hi, scaled(lo, add_low), scaled(hi, add_high));
+    add_own(lo, ends.low, add_low);
+    add_own(hi, ends.high, add_high);
+  }
+
+  static std::vector<Scaling> samples() {
+    std::vector<Scaling> all;
+    for (const Shear& shear : Shear::samples()) {
+      Scaling a;
+      a.shear = shear;
+      a.small_diameter = Scalar(0.05), a.size_ratio = Scalar(2), a.pressure = Scalar(3000);
+      all.push_back(a);
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] bool may_jump_at_knot(const Scalar& z) const {
+    if constexpr (requires { shear.jumps_at(z); })
+      return shear.jumps_at(z);
+    else
+      return false;
+  }
+  [[nodiscard]] Scalar diameter() const {
+    return small_diameter * (share + (Scalar(1) - share) * size_ratio);
+  }
+  /// (R - 1) + E (1 - share) (R - 1)^2.
+  [[nodiscard]] Scalar disparity() const {
+    const Scalar excess = size_ratio - Scalar(1);
+    return excess * (Scalar(1) + E * (Scalar(1) - share) * excess);
+  }
+  [[nodiscard]] Scalar strength() const { return B * diameter() * diameter() * disparity(); }
+  [[nodiscard]] Scalar depth(const Scalar& z) const {
+    if constexpr (kKnowsDepth)
+      return shear.depth(z);
+    else
+      return ((lid != 0 ? lid : top_) - z) + pressure / (packing * density * gravity);
+  }
+  [[nodiscard]] Scalar resistance(const Scalar& z) const { return C * diameter() + packing * depth(z); }
+
+  template <class Add>
+  void add_own(const Scalar& z, const Scalar& a, Add& add) const {
+    const Scalar one(1), d = diameter(), F = disparity(), L = resistance(z), excess = size_ratio - one,
+                         by_d = Scalar(2) / d - C / L;
+    std::size_t e = model_size(shear);
+    add(e++, Scalar(a * by_d * d / small_diameter));
+    add(e++, Scalar(a * (by_d * small_diameter * (one - share) +
+                         (one + Scalar(2) * E * (one - share) * excess) / F)));
+    add(e++, Scalar(-a * (by_d * small_diameter * excess + E * excess * excess / F)));
+    if constexpr (kKnowsDepth) {
+      shear.add_depth(
+          [&](std::size_t entry, const Scalar& by) { add(entry, Scalar(-a * packing * by / L)); });
+      add(e++, Scalar(-a * depth(z) / L));
+    } else {
+      const Scalar load = pressure / (density * gravity);
+      add(e++, Scalar(-a * ((lid != 0 ? lid : top_) - z) / L));
+      add(e++, Scalar(-a / (density * gravity) / L));
+      add(e++, Scalar(a * load / density / L));
+      add(e++, Scalar(a * load / gravity / L));
+      if (lid != 0) add(e, Scalar(-a * packing / L));
+      ++e;
+    }
+    add(e++, Scalar(a / B));
+    add(e++, Scalar(-a * d / L));
+    add(e++, Scalar(a * (one - share) * excess * excess / F));
+  }
+  /// How many numbers the shear rate has.
+  [[nodiscard]] static std::size_t model_size(const Shear& of) {
+    std::size_t n = 0;
+    Shear::fields(of, [&](const FieldInfo&, const auto& member) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member)>, Scalar>)
+        ++n;
+      else
+        n += member.size();
+    });
+    return n;
+  }
+
+  Scalar top_{1};
+};
+
+}  // namespace shearfront

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Posteriors: coordinates and gradients against differences, samples against quadrature."""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+import pickle
+import socket
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import shearfront as sf
+from shearfront._unbounded import Unbounded
+
+BED = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+TIMES = [0.2, 0.5, 1, 2, 3]
+EDGES = np.linspace(0.1, 0.9, 9)
+
+
+def seen(noise: float = 0.02, seed: int = 1, quantity: str = "cumulative") -> sf.Observations:
+    return BED.observe(TIMES, EDGES, quantity=quantity, noise=noise, seed=seed)
+
+
+def without_sigma(observations: sf.Observations) -> sf.Observations:
+    columns = {"t": observations.t, "z": observations.z, "M": observations.value}
+    return sf.data(BED, columns)
+
+
+COORDINATES = {
+    "wide positive": Unbounded(["a", "b"], np.array([1e-3, 1e-2]), np.array([1e3, 1e2]), "none"),
+    "narrow": Unbounded(["a", "b"], np.array([-1.0, 0.2]), np.array([1.0, 0.4]), "none"),
+    "one end": Unbounded(["a", "b"], np.array([0.5, -math.inf]), np.array([math.inf, 2.0]), "none"),
+    "no end": Unbounded(["a", "b"], np.array([-math.inf] * 2), np.array([math.inf] * 2), "none"),
+    "breaks": Unbounded(["shear_rate.breaks[0]", "shear_rate.breaks[1]"], np.array([0.0, 0.0]), np.array([1.0, 1.0]), "none"),
+    "decreasing": Unbounded([f"shear_rate.values[{i}]" for i in range(3)], np.full(3, 0.01), np.full(3, 10.0), "decreasing"),
+    "convex": Unbounded([f"shear_rate.values[{i}]" for i in range(4)], np.full(4, 0.01), np.full(4, 1e3), "convex"),
+}
+
+
+@pytest.mark.parametrize("kind", COORDINATES)
+@settings(max_examples=30, deadline=None)
+@given(st.data())
+def test_coordinates_against_differences(kind: str, data: Any) -> None:
+    to = COORDINATES[kind]
+    x = np.array(data.draw(st.lists(st.floats(-2, 2), min_size=len(to), max_size=len(to))))
+    if kind == "convex":
+        x -= 5  # room above
+    at = to.at(x)
+    assert at is not None
+    assert at.log_volume == pytest.approx(np.linalg.slogdet(at.derivative)[1], abs=1e-10)
+    for j in range(len(x)):
+        h = 1e-6 * np.eye(len(x))[j]
+        above, below = to.at(x + h), to.at(x - h)
+        assert above is not None
+        assert below is not None
+        assert at.derivative[:, j] == pytest.approx((above.p - below.p) / 2e-6, rel=1e-6, abs=1e-7)
+        assert at.slope[j] == pytest.approx((above.log_volume - below.log_volume) / 2e-6, rel=1e-5, abs=1e-6)
+    assert to.coordinates(at.p) == pytest.approx(x, abs=1e-7)
+    p = at.p
+    if kind == "breaks":
+        assert p[0] < p[1]
+    if kind in ("decreasing", "convex"):
+        assert np.all(np.diff(p) < 0)
+    if kind == "convex":
+        assert np.all(np.diff(p, 2) > 0)
+
+
+@pytest.mark.parametrize("has_sigma", [True, False])
+def test_gradient_against_differences(has_sigma: bool) -> None:
+    observations = seen() if has_sigma else without_sigma(seen())
+    priors = {"shear_rate.values": sf.LogNormal(1.0, 2.0), "initial.breaks[0]": sf.Normal(0.5, 0.02)}
+    problem = sf.problem(BED, observations, ["shear_rate.values", "initial.breaks"])
+    posterior = problem.posterior(priors)
+    x = posterior.coordinates([2.3, 0.32, 0.51])
+    value, gradient = posterior.unbounded(x)
+    p = posterior.values(x)
+    assert value == pytest.approx(posterior.log_density(p) + posterior._unbounded.at(x).log_volume, rel=1e-12)
+    for j in range(3):
+        h = 1e-6 * np.eye(3)[j]
+        difference = (posterior.unbounded(x + h)[0] - posterior.unbounded(x - h)[0]) / 2e-6
+        assert gradient[j] == pytest.approx(difference, rel=1e-4, abs=1e-3)
+        assert posterior.gradient(p)[j] == pytest.approx(
+            (posterior.log_density(p + h) - posterior.log_density(p - h)) / 2e-6, rel=1e-4, abs=1e-3
+        )
+
+
+def test_what_a_posterior_says_of_itself() -> None:
+    posterior = sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.values[1]": sf.Uniform(0.2, 0.4)})
+    assert posterior.log_density([2.4, 0.5]) == -math.inf
+    assert posterior.log_density([2.4, 0.3]) > -math.inf
+    assert posterior.priors["shear_rate.values[0]"] == sf.Uniform()
+    again = pickle.loads(pickle.dumps(posterior))
+    assert again.log_density([2.4, 0.3]) == posterior.log_density([2.4, 0.3])
+    with pytest.raises(sf.InputError, match="must be an unknown of the fit"):
+        sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.scale": sf.Normal(1, 1)})
+    with pytest.raises(sf.InputError, match="must leave room"):
+        sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.values": sf.Uniform(1e9, 2e9)})
+    with pytest.raises(sf.InputError, match="points next to shocks"):
+        sf.problem(BED, seen(quantity="point"), "shear_rate.values").posterior().sample()
+
+
+def moments_by_quadrature(posterior: Any, centre: Any, errors: Any) -> tuple[Any, Any]:
+    """Mean and standard deviation over a grid, even in the logarithms, of eight standard errors to each side."""
+    axes = [c * np.exp(np.linspace(-8 * e / c, 8 * e / c, 81)) for c, e in zip(centre, errors, strict=True)]
+    log_density = np.array([[posterior.log_density([a, b]) + math.log(a * b) for b in axes[1]] for a in axes[0]])
+    edge = max(log_density[:, [0, -1]].max(), log_density[[0, -1]].max())
+    assert edge < log_density.max() - 12  # nothing is cut off
+    weight = np.exp(log_density - log_density.max())
+    weight /= weight.sum()
+    grid = np.meshgrid(*axes, indexing="ij")
+    mean = np.array([(weight * g).sum() for g in grid])
+    return mean, np.sqrt([(weight * (g - m) ** 2).sum() for g, m in zip(grid, mean, strict=True)])
+
+
+@pytest.mark.parametrize("sampler", ["nutpie", "emcee"])
+def test_samples_against_quadrature(sampler: str) -> None:
+    pytest.importorskip(sampler)
+    pytest.importorskip("arviz")
+    found = sf.fit(BED, seen(0.005), "shear_rate.values")
+    posterior = found.posterior({"shear_rate.values": sf.LogNormal(1.0, 1.0)})
+    mean, std = moments_by_quadrature(posterior, found.estimates, found.std_errors)
+    draws = posterior.sample(600, 2, 300, sampler=sampler, seed=3).posterior["shear_rate.values"].values.reshape(-1, 2)
+    # Some 300 independent draws at the least: five standard errors of theirs.
+    assert np.abs(draws.mean(axis=0) - mean) / std == pytest.approx([0, 0], abs=5 / math.sqrt(300))
+    assert draws.std(axis=0) / std == pytest.approx([1, 1], abs=5 / math.sqrt(600))
+
+
+def test_sigma_is_drawn_where_it_is_not_given() -> None:
+    pytest.importorskip("nutpie")
+    pytest.importorskip("arviz")
+    posterior = sf.problem(BED, without_sigma(seen(0.02)), "shear_rate.values").posterior()
+    samples = posterior.sample(300, 2, 200)
+    sigma = samples.posterior["sigma"].values
+    assert sigma.shape == (2, 300)
+    # 45 residuals know it to a tenth.
+    assert sigma.mean() == pytest.approx(0.02, rel=0.35)
+    assert samples.log_likelihood["residuals"].shape == (2, 300, 45)
+
+
+def test_umbridge_client_gets_what_the_fit_has() -> None:
+    bridge = pytest.importorskip("umbridge")
+    problem = sf.problem(BED, seen(), "shear_rate.values")
+    port = free_port()
+    server = multiprocessing.get_context("spawn").Process(target=serve, args=(problem, port), daemon=True)
+    server.start()
+    try:
+        url = f"http://localhost:{port}"
+        for _ in range(200):
+            try:
+                client = bridge.HTTPModel(url, "forward")
+                break
+            except Exception:
+                time.sleep(0.1)
+        p, misfit = [2.3, 0.33], problem.misfit
+        assert client.get_input_sizes() == [2]
+        assert client([p])[0] == pytest.approx(misfit.residuals(p), rel=1e-15)
+        assert client.apply_jacobian(0, 0, [p], [1.0, 0.0]) == pytest.approx(misfit.jacobian(p)[:, 0], rel=1e-15)
+        density = bridge.HTTPModel(url, "posterior")
+        posterior = problem.posterior()
+        assert density([p])[0][0] == posterior.log_density(p)
+        assert density.gradient(0, 0, [p], [1.0]) == pytest.approx(posterior.gradient(p), rel=1e-15)
+    finally:
+        server.kill()
+        server.join()
+
+
+def serve(problem: sf.Problem, port: int) -> None:
+    import umbridge
+
+    umbridge.serve_models(sf.umbridge(problem), port)
+
+
+def free_port() -> int:
+    with socket.socket() as free:
+        free.bind(("localhost", 0))
+        return int(free.getsockname()[1])

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "shearfront/scene/scene_spec.hpp"
+#include "soak/findings.hpp"
+
+/// The laws of curved fronts on random beds.
+namespace shearfront::soak {
+
+/// Of tests/support/curved_scenes.hpp.
+enum class CurvedKind { parabola, any_flux, hostile };
+
+struct CurvedTrial {
+  CurvedKind kind;
+  std::uint64_t seed;
+  SceneSpec<double> spec;
+  double resolution;
+};
+/// A bed of one kind, or with two fifths each parabolas and other fluxes, a fifth hostile; R from 0.01 to 0.5.
+[[nodiscard]] CurvedTrial draw_curved(CurvedKind kind, std::uint64_t seed);
+[[nodiscard]] CurvedTrial draw_curved(std::uint64_t seed);
+[[nodiscard]] std::string text_of(const CurvedTrial& trial);
+
+/// Worst of what is measured, for tables.
+struct CurvedWorst {
+  double mass = 0, order = 0, mirror = 0;
+};
+/// Mass, order of fronts, range, an end at pure states, restart = direct and scaling by two to the bit, the mirror image.
+[[nodiscard]] Findings check_curved(const CurvedTrial& trial, CurvedWorst* worst = nullptr);
+
+}  // namespace shearfront::soak
