@@ -36,6 +36,7 @@ gallery_areas = {
     "Waves": ["fronts-two-layers", "film", "profiles", "fronts-exponential", "bottleneck", "smooth-start", "bed-height"],
     "Measurements": ["fit-laboratory", "prediction", "bootstrap", "sensitivity", "real-grains", "study"],
     "Other fluxes, diffusion": ["traffic-light", "speed-limit", "settling", "oil-and-water", "diffusion"],
+    "Chutes and slabs": ["steady-chute", "slab"],
     "Methods": ["error-against-time", "convergence", "packing"],
 }
 

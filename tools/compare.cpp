@@ -20,6 +20,7 @@
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/scene/chute.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -195,7 +196,12 @@ int compare(CompareArguments& arguments) {
     refuse("-o", arguments.output, "must not be standard output, which --json takes");
   check_outputs(arguments.scene.file(),
                 {{"", is_csv ? "" : "-"}, {"-o", arguments.output}, {"--plot", arguments.plot}});
-  const auto scene = arguments.scene.read();
+  const Scene<double> read = arguments.scene.read();
+  // Errors in a steady chute are those in the bed it amounts to.
+  const Scene<double> scene = read.is_chute() ? SteadyChute<double>(read).bed() : read;
+  if (scene.is_slab())
+    throw InputError(printable(arguments.scene.file()), "",
+                     "has no exact solution to compare with: phi depends on x (table slab)");
   if (const std::string reason = exact::refusal(scene); !reason.empty())
     throw InputError(printable(arguments.scene.file()), "",
                      "has no exact solution to compare with: " + reason);

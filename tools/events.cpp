@@ -23,6 +23,7 @@
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
+#include "shearfront/scene/chute.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -64,9 +65,12 @@ struct EventTable {
   int digits = 0;  ///< of times by another road; 0: the shortest text that reads back
   const fit::PredictedEvents* bands = nullptr;  ///< of a fitted scene
   SceneUnits units;
-  TextTable table{{"event", "meaning", units.t.empty() ? "time" : "time [" + printable(units.t, 20) + "]",
-                   bands ? "+-" : "", bands ? "95 %" : "", exact ? "exact" : "",
-                   exact ? "relative difference" : "", "closed form"}};
+  std::string along = units.symbol();
+  TextTable table{{"event", "meaning",
+                   std::string(units.is_chute ? "distance" : "time") +
+                       (units.t.empty() ? "" : " [" + printable(units.t, 20) + "]"),
+                   bands ? "95 %" : "", exact ? "exact" : "", exact ? "relative difference" : "",
+                   "closed form"}};
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
@@ -81,7 +85,7 @@ struct EventTable {
                band.band ? band_text(*band.band) : "", exact_time, difference, form ? form->formula : ""});
   }
   /// `member` of TimelineText::InterfaceTimes and of its numbers.
-  void add_interfaces(const char* event, const char* meaning,
+  void add_interfaces(const std::string& event, const char* meaning,
                       std::optional<double> Timeline<double>::InterfaceTimes::*member,
                       std::optional<std::string> TimelineText::InterfaceTimes::*text_member,
                       const std::optional<ClosedForm>& form,
@@ -112,13 +116,13 @@ struct EventTable {
     using Texts = TimelineText::InterfaceTimes;
     using Bands = fit::PredictedEvents::AtInterface;
     const fit::PredictedEvents none, &band = bands ? *bands : none;
-    add_interfaces("t_c", "first wave at the interface z = ", &Times::first, &Texts::first,
+    add_interfaces(along + "_c", "first wave at the interface z = ", &Times::first, &Texts::first,
                    forms.first_interface, &Bands::first);
-    add("t_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other.t0, band.t0);
-    add("t_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other.t1, band.t1);
-    add_interfaces("t^_c", "last change at the interface z = ", &Times::last, &Texts::last,
+    add(along + "_0", "first wave at the bottom", timeline.t0, text.t0, forms.t0, other.t0, band.t0);
+    add(along + "_1", "first wave at the top", timeline.t1, text.t1, forms.t1, other.t1, band.t1);
+    add_interfaces(along + "^_c", "last change at the interface z = ", &Times::last, &Texts::last,
                    forms.last_interface, &Bands::last);
-    add("t*", "steady state", timeline.t_star, text.t_star, forms.t_star, other.t_star, band.t_star);
+    add(along + "*", "steady state", timeline.t_star, text.t_star, forms.t_star, other.t_star, band.t_star);
     return table.text();
   }
 };
@@ -211,7 +215,8 @@ void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>
   ExactSolution<double>::Options settings;
   settings.layers = static_cast<std::size_t>(number_of(method, "layers"));
   if (const double tolerance = number_of(method, "tolerance"); tolerance > 0) settings.tolerance = tolerance;
-  const ExactSolution<double> solution(scene, settings);
+  const Scene<double> bed = scene.is_chute() ? SteadyChute<double>(scene).bed() : scene;
+  const ExactSolution<double> solution(bed, settings);
   if (!solution.is_exact() && solution.form().is_exact())
     refuse("--digits", arguments.digits,
            "must be left out for a smooth start where a(z) is not constant in pieces: its times are those of "

@@ -124,6 +124,11 @@ std::string unknowns() {
     for (const char* prefix : {"solid_fraction.", "temperature.", "diffusion."})
       visit(spec, prefix, A::kName);
   });
+  VelocityList<double>::for_each([&]<class U>() {
+    SceneSpec<double> spec;
+    spec.velocity = U{};
+    visit(spec, "velocity.", U::kName);
+  });
   SceneSpec<double> plain;
   plain.outside_bottom.emplace();
   plain.outside_top.emplace();
@@ -152,7 +157,12 @@ int list() {
   InitialStateList<double>::for_each([&]<class P>() {
     initial.add({std::string(P::kName), std::string(P::kFormula), entries<P>()});
   });
-  all += indented(initial.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";
+  all += indented(initial.text()) + "\nVelocities of steady chutes and slabs (velocity.model)\n";
+  TextTable velocities({"name", "u(z)", "entries"});
+  VelocityList<double>::for_each([&]<class U>() {
+    velocities.add({std::string(U::kName), std::string(U::kFormula), entries<U>()});
+  });
+  all += indented(velocities.text()) + "\nRandom close packings of mixtures (close_packing.model)\n";
   TextTable packings({"name", "c(x), x the share of small grains", "entries"});
   ClosePackingList<double>::for_each([&]<class C>() {
     packings.add({std::string(C::kName), std::string(C::kFormula), entries<C>()});

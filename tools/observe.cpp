@@ -19,6 +19,7 @@
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
+#include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
 namespace shearfront::tools {
@@ -165,6 +166,9 @@ int observe_scene(ObserveArguments& arguments) {
   check_arguments(arguments);
   const Method method = arguments.method.method();
   const auto scene = arguments.scene.read();
+  if (scene.is_slab())
+    throw InputError(printable(arguments.scene.file()), "",
+                     "has a table slab: `solve --method slab` gives phi(x, z, t)");
   const Experiment experiment = experiment_of(arguments, scene);
   const SolverRequest request = request_of(experiment.plan, scene);
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);

@@ -18,6 +18,7 @@
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/bed_height.hpp"
+#include "slab.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -28,7 +29,7 @@ constexpr double kMostSamples = 1e8;  // times x depths
 struct SolveArguments {
   PictureOptions pictures;
   SceneArgument scene;
-  std::string times, depths, quantity, output, fronts, plot, map, contours, riemann;
+  std::string times, positions, depths, quantity, output, fronts, plot, map, contours, riemann;
   bool json = false;
   MethodArguments method;
 };
@@ -168,7 +169,9 @@ void note_size(std::size_t n_fronts) {
 
 /// Numbers of the whole bed instead of concentrations.
 int solve_bed(const SolveArguments& arguments, const Task& task) {
-  if (const std::string reason = BedHeight::refusal(task.scene); !reason.empty())
+  const bool is_mixed_flow =
+      task.scene.is_chute() && quantity_of(arguments) == SolvedQuantity::mixing;  // of what passes
+  if (const std::string reason = BedHeight::refusal(task.scene); !reason.empty() && !is_mixed_flow)
     refuse("--quantity", arguments.quantity, "must suit the scene: " + reason);
   if (static_cast<double>(task.times.size()) > kMostSamples)
     refuse("--times", arguments.times, "must give at most 1e8 times");
@@ -260,6 +263,12 @@ int solve_scene(SolveArguments& arguments) {
   if (!arguments.riemann.empty()) return draw_riemann(arguments.riemann, scene);
   const Task task{scene, method, times_of(arguments, scene, method), std::move(methods),
                   contours_of(arguments, scene)};
+  if (!arguments.positions.empty() && !scene.is_slab())
+    refuse("--positions", arguments.positions, "must not be given: the scene has no table slab");
+  if (scene.is_slab() && quantity_of(arguments) == SolvedQuantity::concentration && arguments.plot.empty()) {
+    return solve_slab({task.scene, task.method, task.times, depths_of(arguments, task.scene),
+                       arguments.positions, arguments.output, arguments.map, arguments.json});
+  }
   const bool is_of_bed = quantity_of(arguments) != SolvedQuantity::concentration;
   return is_of_bed ? solve_bed(arguments, task) : solve_concentration(arguments, task);
 }
@@ -276,6 +285,9 @@ Command add_solve(CLI::App& program) {
   app->add_option("--heights,--depths", arguments->depths,
                   "heights z: as --times; default 101 over the whole domain")
       ->type_name("LIST");
+  app->add_option("--positions", arguments->positions,
+                  "places x along a slab: as --times; default the middles of its cells")
+      ->type_name("LIST");
   app->add_option("--quantity", arguments->quantity,
                   "phi and M at depths, or of the whole bed: entropy and mixing parameter, height; default "
                   "concentration")
@@ -287,8 +299,10 @@ Command add_solve(CLI::App& program) {
   app->add_option("--plot", arguments->plot,
                   "picture of the profiles, with --fronts of the (t, z) plane: FILE.svg, .png or .pdf")
       ->type_name("FILE");
-  app->add_option("--map", arguments->map,
-                  "picture of phi over time and height, up to the last time: FILE.svg, .png or .pdf")
+  app->add_option(
+         "--map", arguments->map,
+         "picture of phi over time and height, up to the last time, of a slab over x and z at the times: "
+         "FILE.svg, .png or .pdf")
       ->type_name("FILE");
   app->add_option("--contours", arguments->contours,
                   "of --map: states such as 0.25,0.5 or none; default round ones")

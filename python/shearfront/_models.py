@@ -14,12 +14,13 @@ import numpy as np
 from . import _core
 
 #: What the classes of a list are called beside the names of their models.
-_PREFIX = {"depth": "", "flux": "", "start": "", "close_packing": "Packing"}
-_SUFFIX = {"depth": "", "flux": "", "start": "Initial", "close_packing": ""}
+_PREFIX = {"depth": "", "flux": "", "start": "", "velocity": "", "close_packing": "Packing"}
+_SUFFIX = {"depth": "", "flux": "", "start": "Initial", "velocity": "Velocity", "close_packing": ""}
 _WHAT = {
     "depth": "a function of height, for shear_rate, solid_fraction, temperature or the variation of diffusion",
     "flux": "a flux f(phi)",
     "start": "a smooth initial state phi(z, 0) / c(z)",
+    "velocity": "a velocity u(z) along the slope, of a steady chute or a slab",
     "close_packing": "a law of random close packing, for the height of the bed",
 }
 _MEASURE = {"number": "", "height": ", in the unit of z", "state": ", in the unit of phi", "flux": ", a value of f"}

@@ -29,6 +29,17 @@ class Bagnold(Model):
     surface: float
     def __init__(self, angle: float, grain: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., surface: float = ...) -> None: ...
 
+class BagnoldVelocity(Model):
+    angle: float
+    grain: float
+    surface: float
+    static_friction: float
+    friction_range: float
+    inertial_number: float
+    gravity: float
+    ground: float
+    def __init__(self, angle: float, grain: float, surface: float, static_friction: float = ..., friction_range: float = ..., inertial_number: float = ..., gravity: float = ..., ground: float = ...) -> None: ...
+
 class BuckleyLeverett(Model):
     viscosity_ratio: float
     def __init__(self, viscosity_ratio: float) -> None: ...
@@ -73,6 +84,11 @@ class KinkInitial(Model):
     centre: float
     width: float
     def __init__(self, below: float, above: float, centre: float, width: float) -> None: ...
+
+class LinearVelocity(Model):
+    slope: float
+    slip: float
+    def __init__(self, slope: float, slip: float = ...) -> None: ...
 
 class Lwr(Model):
     jam: float
@@ -205,10 +221,19 @@ class TableInitial(Model):
     values: tuple[float, ...]
     def __init__(self, z: ArrayLike, values: ArrayLike) -> None: ...
 
+class TableVelocity(Model):
+    z: tuple[float, ...]
+    values: tuple[float, ...]
+    def __init__(self, z: ArrayLike, values: ArrayLike) -> None: ...
+
 class Triangular(Model):
     critical: float
     jam: float
     def __init__(self, critical: float, jam: float = ...) -> None: ...
+
+class UniformVelocity(Model):
+    value: float
+    def __init__(self, value: float) -> None: ...
 
 MODELS: dict[str, type[Model]]
 
@@ -221,6 +246,7 @@ __all__ = [
     "Pieces",
     "Step",
     "Bagnold",
+    "BagnoldVelocity",
     "BuckleyLeverett",
     "Burgers",
     "Chute",
@@ -229,6 +255,7 @@ __all__ = [
     "FluxTable",
     "Kinetic",
     "KinkInitial",
+    "LinearVelocity",
     "Lwr",
     "LwrCubic",
     "PackingPolynomial",
@@ -245,5 +272,7 @@ __all__ = [
     "SineInitial",
     "Table",
     "TableInitial",
+    "TableVelocity",
     "Triangular",
+    "UniformVelocity",
 ]

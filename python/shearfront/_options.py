@@ -33,7 +33,9 @@ class Options(TypedDict, total=False):
     cells: int
     """number of cells, from 1 to 100000000 (engquist-osher, godunov, muscl, classical-godunov, upwind)
 
-    number of cells, from 2 to 10000000 (crank-nicolson)."""
+    number of cells, from 2 to 10000000 (crank-nicolson)
+
+    number of cells over the height, from 2 to 10000 (slab)."""
     cfl: float
     """time step over the largest for which the bounds of phi are proved (Courant number 1, muscl 1/2), > 0 and <= 1 (engquist-osher, godunov, muscl, classical-godunov, upwind)."""
     align_cells: bool
@@ -43,8 +45,14 @@ class Options(TypedDict, total=False):
     limiter: Literal["minmod", "mc", "van-leer"]
     """what bounds the slopes (muscl)."""
     time_step: float
-    """fixed time step, > 0 (crank-nicolson)."""
+    """fixed time step, > 0 (crank-nicolson)
+
+    longest time step, > 0 (slab)."""
     cell_tolerance: float
     """halve cells, beginning with the number given, where phi bends by more than this from one to the next, >= 1e-06 and <= 0.1 (crank-nicolson)."""
     monotone: bool
     """fitted fluxes, which do not wiggle where cells are coarse (first order there) (crank-nicolson)."""
+    cells_x: int
+    """number of cells along x, from 3 to 10000 (slab)."""
+    threads: int
+    """cores to use; results do not depend on it, from 1 to 1024 (slab)."""

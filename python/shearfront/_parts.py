@@ -54,6 +54,20 @@ def depth_table(key: str, part: Any, ends: tuple[float, float]) -> Any:
     return {"model": "piecewise", "breaks": [], "values": [value]}
 
 
+def velocity_table(part: Any) -> Any:
+    """The table of a velocity; a number is the same at every height."""
+    if part is None or isinstance(part, (Model, Mapping)):
+        return table_of_part(part)
+    return {"model": "uniform", "value": _number("velocity", part, "a model such as LinearVelocity, a table or a number")}
+
+
+def slab_table(part: Any) -> Any:
+    """The table of a slab; a number is its length."""
+    if part is None or isinstance(part, Mapping):
+        return part
+    return {"length": _number("slab", part, "a number, its length, or a table")}
+
+
 def diffusion_table(part: Any) -> Any:
     """The table of diffusion; a number is D."""
     if part is None or isinstance(part, Mapping):
@@ -122,11 +136,16 @@ def shown_parts(tables: Table) -> list[tuple[str, str]]:
         if key == "shear_rate" and tables[key].get("scale", 1) != 1:
             shown.append(("scale", short_number(tables[key]["scale"])))
     initial = tables["initial"]
-    start = model_of("start", initial) if "model" in initial else Pieces(**initial)
-    shown.append(("initial", repr(start)))
+    if initial.get("model") == "block":
+        shown.append(("initial", repr(initial)))
+    else:
+        start = model_of("start", initial) if "model" in initial else Pieces(**initial)
+        shown.append(("initial", repr(start)))
+    if "velocity" in tables:
+        shown.append(("velocity", repr(model_of("velocity", tables["velocity"]))))
     if "close_packing" in tables:
         shown.append(("close_packing", repr(model_of("close_packing", tables["close_packing"]))))
     if tables["domain"] != {"bottom": 0, "top": 1}:
         shown.append(("domain", f"({', '.join(short_number(x) for x in tables['domain'].values())})"))
-    shown += [(key, repr(tables[key])) for key in ("diffusion", "boundary", "units") if key in tables]
+    shown += [(key, repr(tables[key])) for key in ("diffusion", "slab", "boundary", "units") if key in tables]
     return shown

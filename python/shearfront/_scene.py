@@ -23,7 +23,9 @@ from ._parts import (
     initial_part,
     replace_entry,
     shown_parts,
+    slab_table,
     table_of_part,
+    velocity_table,
 )
 from ._solution import FRONT, Events, Interface, Jacobian, Solution
 from ._toml import Table, canonical_tables, toml_text
@@ -64,6 +66,10 @@ class Scene:
         How closely mixtures pack, for the height of the bed.
     diffusion : float or mapping, optional
         D, or a table with D, proportional_to or a depth function.
+    velocity : Model, mapping or float, optional
+        u(z) of a steady chute: times are then distances x along it, and M is what passes below z.
+    slab : float or mapping, optional
+        The length over which a slab with this velocity repeats along x; the method is then ``"slab"``, which gives means over x.
     domain : pair of float, optional
         bottom and top; 0 and 1 unless given.
     boundary : mapping, optional
@@ -105,6 +111,8 @@ class Scene:
         temperature: Any = None,
         close_packing: Any = None,
         diffusion: Any = None,
+        velocity: Any = None,
+        slab: Any = None,
         domain: Any = None,
         boundary: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
@@ -119,6 +127,8 @@ class Scene:
             "temperature": depth_table("temperature", temperature, ends),
             "close_packing": table_of_part(close_packing),
             "diffusion": diffusion_table(diffusion),
+            "velocity": velocity_table(velocity),
+            "slab": slab_table(slab),
             "initial": initial_part(initial, ends),
             "domain": None if domain is None else {"bottom": ends[0], "top": ends[1]},
             "boundary": boundary,
@@ -415,6 +425,10 @@ class Scene:
                 tables[key] = value if value is None else {**scale, **(depth_table(key, value, ends) or {})}
             elif key == "diffusion":
                 tables[key] = diffusion_table(value)
+            elif key == "velocity":
+                tables[key] = velocity_table(value)
+            elif key == "slab":
+                tables[key] = slab_table(value)
             elif key == "domain":
                 tables[key] = dict(zip(("bottom", "top"), ends_of(value), strict=True))
             elif key == "initial":

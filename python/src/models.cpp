@@ -72,6 +72,7 @@ nb::dict models() {
   lists["flux"] = models_in<FluxList<double>>();
   lists["depth"] = models_in<DepthFunctionList<double>>();
   lists["start"] = models_in<InitialStateList<double>>();
+  lists["velocity"] = models_in<VelocityList<double>>();
   lists["close_packing"] = models_in<ClosePackingList<double>>();
   return lists;
 }

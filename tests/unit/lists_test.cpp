@@ -52,6 +52,7 @@ void expect_good_names() {
 
 TEST(Lists, FluxNamesAreDistinctAndPlain) { expect_good_names<FluxList<double>>(); }
 TEST(Lists, ShearRateNamesAreDistinctAndPlain) { expect_good_names<DepthFunctionList<double>>(); }
+TEST(Lists, VelocityNamesAreDistinctAndPlain) { expect_good_names<VelocityList<double>>(); }
 TEST(Lists, SolverNamesAreDistinctAndPlain) { expect_good_names<SolverList>(); }
 TEST(Lists, MisfitNamesAreDistinctAndPlain) { expect_good_names<fit::MisfitList>(); }
 TEST(Lists, LossNamesAreDistinctAndPlain) { expect_good_names<fit::LossList>(); }

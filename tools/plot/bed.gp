@@ -19,7 +19,7 @@ if (!exists("has_points")) has_points = 0
 if (!exists("t_lowest")) t_lowest = 0
 
 set title title noenhanced offset 0,0.2
-set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set xlabel label(along_name, unit_t) offset 0,0.3
 set xrange [0:t_end]
 set xtics steps_of(t_end)
 if (quantity eq 'H') {

@@ -67,7 +67,7 @@ do for [k=1:n_times] {
   i_row = (k - 1) / n_columns
   set size 1.0/n_columns,1.0*panel_height/height
   set origin 1.0*i_column/n_columns,1.0*(legend_height+(n_rows-1-i_row)*panel_height)/height
-  set title sprintf('{/:Italic t} = %s', word(times, k)) offset 0,-0.6
+  set title sprintf('{/:Italic '.along.'} = %s', word(times, k)) offset 0,-0.6
   # The first method on top.
   plot for [i=n_methods:1:-1] 'comparison.csv' \
     using (strcol("method") eq word(methods, i) && column("t") == t ? column("wall_s") : NaN):(place(column("l1_error"))) \

@@ -14,7 +14,7 @@ stats 'residuals.csv' using (column("t")) nooutput
 n_points = STATS_records
 t_end = STATS_max > 0 ? STATS_max : 1
 has_bars = has_sigma && n_points <= 60  # more of them hide the points
-set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set xlabel label(along_name, unit_t) offset 0,0.3
 set ylabel label('height of the bed {/:Italic H}', unit_value) offset 0.5,0
 set xrange [0:t_end]
 set xtics tic_step(0, t_end, right - left)

@@ -37,7 +37,7 @@ do for [k=1:3] {
   top = 0.885
   eval place
   set title word('observed fitted', k) . (k < 3 ? ' ' . label(symbol, unit_value) : 'observed − fitted') offset 0,-0.6
-  set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+  set xlabel label(along_name, unit_t) offset 0,0.3
   set xrange [t_low:t_high]
   set xtics tic_step(t_low, t_high, panel_width)
   eval height_axis

@@ -31,7 +31,7 @@ do for [k=1:n_times] {
   stats 'residuals.csv' using (column("t") == t ? column("observed") : NaN) nooutput
   n_points = STATS_records
   has_bars = has_sigma && n_points <= most_error_bars
-  set title sprintf('{/:Italic t} = %.5g', t) . (unit_t eq '' ? '' : ' ' . unit_t) offset 0,-0.6
+  set title sprintf('{/:Italic '.along.'} = %.5g', t) . (unit_t eq '' ? '' : ' ' . unit_t) offset 0,-0.6
   set xlabel label(symbol, unit_value) offset 0,0.3
   set xrange [low-margin:high+margin]
   set xtics tic_step(low - margin, high + margin, panel_width)

@@ -14,7 +14,7 @@ size = clamp(7 / sqrt(STATS_records + 1.0), 0.15, 0.5)
 largest = 1.05 * max(max(abs(STATS_min), abs(STATS_max)), 1e-300)
 set title 'observed − fitted' offset 0,-0.6
 if (data eq 'heights') {
-  set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+  set xlabel label(along_name, unit_t) offset 0,0.3
   set yrange [-largest:largest]
   set ytics round_up(largest / 2)
   set xzeroaxis lw 0.8 dt (8,6) lc rgb '#8c8c8c'
@@ -22,7 +22,7 @@ if (data eq 'heights') {
 } else {
   stats 'residuals.csv' using (column("t")) nooutput
   set cbrange [STATS_min:STATS_max > STATS_min ? STATS_max : STATS_min + 1]
-  set cblabel label('time {/:Italic t}', unit_t) offset 0.3,0
+  set cblabel label(along_name, unit_t) offset 0.3,0
   set cbtics round_up(max(STATS_max - STATS_min, 1e-300) / 3) scale 0 offset -0.8,0
   set colorbox vertical noborder user origin screen right+0.01,bottom size screen 0.012,top-bottom
   eval "set palette defined (" . phi_palette . ")"

@@ -37,6 +37,7 @@ void set_common(Picture& picture, const std::string& title, const fit::FitSpec& 
                     p.estimate, p.std_error ? fmt::format("±{:.2g}", *p.std_error) : "");
   picture.set("estimates", estimate.parameters.size() > kMostEstimates ? "" : estimates);
   picture.set("symbol", is_cumulative ? "{/:Italic M}" : "{/:Italic φ}");
+  picture.set("along", spec.scene.spec().units.symbol());
   picture.set("unit_t", without_markup(data.units.t));
   picture.set("unit_z", without_markup(data.units.z));
   picture.set("unit_value", without_markup(data.units.value));

@@ -46,7 +46,7 @@ set lmargin 5.5 + max(3, strlen(sprintf('%.4g', z_high)))
 set rmargin is_narrow ? 11 : 14
 set bmargin is_narrow ? 4.4 : 5
 set tmargin 3.4 + 0.9 * (strlen(title) > longest_line ? ceil(1.1 * strlen(title) / longest_line) - 1 : 0)
-set xlabel label('time {/:Italic t}', unit_t) offset 0,-0.2
+set xlabel label(along_name, unit_t) offset 0,-0.2
 set ylabel label('height {/:Italic z}', unit_z) offset 0.3,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]

@@ -40,7 +40,7 @@ unset contour
 set surface
 
 set title title noenhanced offset 0,0.2
-set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set xlabel label(along_name, unit_t) offset 0,0.3
 set ylabel label('height {/:Italic z}', unit_z) offset 0,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]

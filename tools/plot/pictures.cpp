@@ -110,6 +110,7 @@ std::string pure_rows(const Scene<double>& scene, const Method& method, double t
 std::string event_rows(const Scene<double>& scene, const Timeline<double>& timeline, double t_end) {
   constexpr std::size_t kMostLabels = 4;
   std::string rows = "t,z,label,side\n";
+  const std::string along = scene.spec().units.symbol();
   const auto mark = [&](const std::optional<double>& t, double z, std::string_view symbol,
                         std::string_view index, std::string_view side) {
     if (!t || *t > t_end) return;
@@ -122,14 +123,14 @@ std::string event_rows(const Scene<double>& scene, const Timeline<double>& timel
     const auto& at = timeline.interfaces[i];
     const std::string index = n == 1 ? "_{c}" : fmt::format("_{{c,{}}}", i + 1);
     const bool has_room = at.first && *at.first > 0.07 * t_end;
-    mark(at.first, at.z, n <= kMostLabels && has_room ? "t" : "", index,
+    mark(at.first, at.z, n <= kMostLabels && has_room ? along : "", index,
          at.z < z_jump ? "left-below" : "left-above");
-    mark(at.last, at.z, n <= kMostLabels ? "t\u0302" : "", index,
+    mark(at.last, at.z, n <= kMostLabels ? along + "\u0302" : "", index,
          at.z < timeline.steady_height ? "right-below" : "right-above");
   }
-  mark(timeline.t0, scene.bottom(), "t", "_0", "below");
-  mark(timeline.t1, scene.top(), "t", "_1", "above");
-  mark(timeline.t_star, timeline.steady_height, "t", "*", "right");
+  mark(timeline.t0, scene.bottom(), along, "_0", "below");
+  mark(timeline.t1, scene.top(), along, "_1", "above");
+  mark(timeline.t_star, timeline.steady_height, along, "*", "right");
   return rows;
 }
 
@@ -154,6 +155,7 @@ void set_scene(Picture& picture, const Scene<double>& scene, const std::string& 
   const StateRange<double> states = states_of(scene);
   picture.set("title", scene.name());
   picture.set("subtitle", subtitle);
+  picture.set("along", scene.spec().units.symbol());
   picture.set("unit_t", without_markup(scene.spec().units.t));
   picture.set("unit_z", without_markup(scene.spec().units.z));
   picture.set("z_low", scene.bottom());
@@ -241,6 +243,25 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
   const SolverResult exact = compare ? solve(scene, Method(), request) : SolverResult{};
   picture.set("has_exact", exact.summary.usable());
   if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));
+  return picture.draw();
+}
+
+int draw_slab(const std::string& path, const Scene<double>& scene, const Method& method,
+              const SlabSamples& frames) {
+  Picture picture(path, "slab");
+  set_scene(picture, scene, described(method));
+  picture.set("times", frames.times);
+  picture.set("x_high", scene.spec().slab->length);
+  picture.add_file("slab.csv", [&](OutputFile& file) {
+    for (std::size_t i = 0; i < frames.times.size(); ++i) {
+      std::string rows = i == 0 ? "x,z,phi\n" : "\n\nx,z,phi\n";
+      for (std::size_t k = 0; k < frames.x.size(); ++k)
+        for (std::size_t j = 0; j < frames.z.size(); ++j)
+          rows += fmt::format("{:.6g},{:.6g},{:.4g}\n", frames.x[k], frames.z[j],
+                              frames.phi[i][k * frames.z.size() + j]);
+      file.write(rows);
+    }
+  });
   return picture.draw();
 }
 

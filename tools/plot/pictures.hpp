@@ -38,6 +38,10 @@ int draw_map(const std::string& path, const Scene<double>& scene, const Method& 
 /// another bed.
 int draw_riemann(const std::string& path, const Scene<double>& scene);
 
+/// phi over x and z, a panel per time (slab.gp).
+int draw_slab(const std::string& path, const Scene<double>& scene, const Method& method,
+              const SlabSamples& frames);
+
 /// Mixing or bed height against time up to the last time (bed.gp).
 int draw_bed_course(const std::string& path, const Scene<double>& scene, const Method& method,
                     const BedCourse& course);

@@ -68,7 +68,7 @@ if (n_times <= words(many_colours)) {
       with lines lw 0.8 lc rgb 'black' notitle, \
     for [j=1:n_others] for [k=1:n_times] other(j) using "phi":"z" every ::((k-1)*n)::(k*n-1) \
       with lines lw 1.3 dt dash_of(j) lc rgb dark_of(k) notitle, \
-    for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic t} = %.5g', t_of(i)).unit, \
+    for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic '.along.'} = %.5g', t_of(i)).unit, \
     for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact', \
     for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})', \
     for [j=1:n_others] keyentry with lines lw 1.3 dt dash_of(j) lc rgb 'black' title word(others, j)
@@ -81,7 +81,7 @@ if (n_times <= words(many_colours)) {
     last = max(last, real(t))
   }
   set cbrange [first:last > first ? last : first + 1]
-  set cblabel label('time {/:Italic t}', unit_t) offset 1.2,0
+  set cblabel label(along_name, unit_t) offset 1.2,0
   set colorbox noborder
   plot for [k=1:n_times] 'profiles.csv' using "phi":"z" every ::((n_times-k)*n)::((n_times-k+1)*n-1) \
       with lines lw line_width dt dash(n_times-k+1) lc palette cb t_of(n_times-k+1) notitle, \

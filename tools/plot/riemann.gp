@@ -56,7 +56,7 @@ set lmargin at screen 0.6
 set rmargin at screen 0.88
 set bmargin at screen 0.17
 set tmargin at screen 0.84
-set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set xlabel label(along_name, unit_t) offset 0,0.3
 set ylabel label('height {/:Italic z}', unit_z) offset 0.5,0
 set xrange [0:t_end]
 set yrange [z_low:z_high]

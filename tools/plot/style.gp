@@ -5,6 +5,7 @@
 #            title     above the picture
 #            subtitle  small, below it: method and resolution
 #            unit_t, unit_z   units of the scene, behind the labels of the axes
+#            along     what the solution goes on in: t, or x in a steady chute
 #            is_panels 1 for a template of several panels
 #            width_cm, height_cm   of the picture, instead of those of the template
 #            dpi       pixels per inch of a .png
@@ -67,6 +68,8 @@ residual_palette = "0 '#2166ac', 0.25 '#67a9cf', 0.5 '#f7f7f7', 0.75 '#ef8a62', 
 # Units of the scene; empty where it has none.
 if (!exists("unit_t")) unit_t = ''
 if (!exists("unit_z")) unit_z = ''
+if (!exists("along")) along = 't'
+along_name = (along eq 'x' ? 'distance' : 'time') . ' {/:Italic ' . along . '}'
 label(name, unit) = unit eq '' ? name : name . ' (' . unit . ')'
 
 clamp(x, low, high) = min(max(x, low), high)

@@ -22,6 +22,9 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
       places_(std::move(places)),
       entries_(parameters.entries()) {
   const Scene<double>& scene = parameters.start_scene();
+  if (scene.is_slab())
+    throw InputError("scene", quoted_text(scene.name()),
+                     "must have no table slab: --method slab is no forward model of a fit");
   if (observable == Observable::bed_height)
     if (const std::string reason = BedHeight::refusal(scene); !reason.empty())
       throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),

@@ -28,6 +28,10 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Param
   MisfitList::for_each([&]<class M>() {
     if (quantity != M::kName) return;
     refusal = M::refusal(spec.observations);
+    // There M is what passes below z, not an integral of phi over z alone.
+    const bool is_measured = quantity == name_of(spec.observations.quantity);
+    if (spec.scene.is_chute() && (!is_measured || spec.observations.quantity == Quantity::bin))
+      refusal = "in a steady chute observations must be phi at points, or M, and be compared as such";
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);

@@ -177,7 +177,8 @@ void StagedSearch::search_from_here(Objective& objective, double tolerance) {
 }
 
 void StagedSearch::approach() {
-  if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
+  // Sums over heights are no M of a steady chute.
+  if (!CumulativeMisfit::refusal(spec_.observations).empty() || spec_.scene.is_chute()) return;
   const bool is_point = spec_.observations.quantity == Quantity::point;
   {
     ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);

@@ -81,6 +81,17 @@ void CrankNicolson::move_to(Regrid next) {
   rest_ = std::move(rest);
 }
 
+void CrankNicolson::restart(std::span<const double> states) {
+  SHEARFRONT_EXPECTS(parameters_.empty() && states.size() == n_, "states of the grid, and no tangents");
+  std::copy(states.begin(), states.end(), phi_.begin() + 1);
+  std::fill(rest_.begin(), rest_.end(), 0.0);
+  set_ghosts(phi_);
+  scale_ = largest_magnitude(phi_.data(), n_ + 2);
+  flux_times_ = {};
+  rule_->evaluate(phi_.data(), fluxes_);
+  std::copy(fluxes_.value.begin(), fluxes_.value.end(), q_last_.begin());
+}
+
 std::vector<double> CrankNicolson::initial_rates() {
   rule_->evaluate(phi_.data(), fluxes_);
   std::vector<double> rates(n_);

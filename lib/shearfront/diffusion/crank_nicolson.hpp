@@ -87,6 +87,10 @@ class CrankNicolson {
   /// Makes the given steps (of another run), the tangents along with them.
   Status repeat(std::span<const TimeStep> steps);
 
+  /// Other states at the present time, for the steps to come; their own fluxes predict those of the next step, so that it
+  /// does not depend on what was before. Precondition: no tangents.
+  void restart(std::span<const double> states);
+
   [[nodiscard]] std::span<const double> states() const { return {phi_.data() + 1, n_}; }
   /// With the grid of states().
   [[nodiscard]] const Problem& problem() const { return problem_; }

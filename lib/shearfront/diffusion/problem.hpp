@@ -7,6 +7,12 @@
 
 namespace shearfront::diffusion {
 
+/// A part of a cell in which the solid fraction c has no knot: its heights, its coordinates, and c at its ends.
+struct SolidPiece {
+  std::size_t cell;
+  double z_below, z_above, m_below, m_above, c_below, c_above;
+};
+
 /// What holds at both ends of the bed.
 ///   no_flux   r f(phi) - D phi_z = 0: walls, the bed keeps its mass
 ///   neumann   phi_z = 0, and r f(phi) passes
@@ -20,6 +26,9 @@ enum class Ends { no_flux, neumann, periodic };
 /// Any consistent units. Cells are equal, with faces z_i = bottom + i (top - bottom) / n_cells, unless
 /// `faces` is given. Coefficients belong to the faces. Where r or D jump at a face, the harmonic mean of D and
 /// the mean of r weighted with 1 / D keep the scheme second order: phi and the flux are continuous there.
+///
+/// Where the solid fraction varies the states are shares phi / c, and z stands for the solid below (SolidHeights), whose
+/// heights are in `pieces`.
 struct Problem {
   double bottom = 0, top = 1;
   std::size_t n_cells = 0;          ///< at least 2
@@ -29,6 +38,8 @@ struct Problem {
   Ends ends = Ends::no_flux;
   Flux<double> flux = Quadratic<double>{};
   std::vector<double> initial;  ///< means of phi over the cells
+  double mean_solid_fraction = 1;
+  std::vector<SolidPiece> pieces;  ///< of all cells, bottom to top; empty: c = 1
 
   [[nodiscard]] bool has_equal_cells() const { return faces.empty(); }
   /// dz of equal cells.

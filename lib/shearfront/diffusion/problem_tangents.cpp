@@ -67,7 +67,9 @@ std::vector<Weighted> difference(const Moved& at, double h) {
 bool has_problem_tangent(const Entry& entry) {
   const std::string& field = entry.field;
   if (field.starts_with("flux")) return field.ends_with("].above");
-  return !field.starts_with("domain.") && !field.starts_with("boundary.");
+  // A solid fraction moves the heights of the cells, too.
+  return !field.starts_with("domain.") && !field.starts_with("boundary.") &&
+         !field.starts_with("solid_fraction.");
 }
 
 std::vector<Tangent> problem_tangents(const Scene<double>& scene, const std::vector<std::size_t>& wanted,

@@ -197,6 +197,12 @@ double March::end_flux(std::size_t end) const {
 
 void March::step(double dt) { muscl_ ? second_order_step(dt / unit_) : first_order_step(dt / unit_); }
 
+void March::restart(std::span<const double> shares) {
+  for (const Part& part : parts_)
+    for (std::size_t j = part.first; j < part.end; ++j)
+      amounts_[j] = whole(capacities_[j] * part.flux.state(shares[j]));
+}
+
 void March::first_order_step(double scale) {
   constexpr std::size_t kBlock = 256;  // small enough for the first cache
   // v[i + 1] belongs to cell first + i, crossing[i + 1] to the face below it; what is at 0 the last block has left.

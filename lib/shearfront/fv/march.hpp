@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "shearfront/fv/face_flux.hpp"
@@ -56,6 +57,8 @@ class March {
   /// Shares beyond the open ends from now on; NaN: none (a wall).
   void set_outside(std::array<double, 2> shares) { outside_ = shares; }
   void step(double dt);
+  /// Other means of the shares, one a cell, for the steps to come.
+  void restart(std::span<const double> shares);
 
   [[nodiscard]] CellShares shares() const;
   /// After a step of dt; the march itself stays where it is.

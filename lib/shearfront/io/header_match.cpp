@@ -85,6 +85,8 @@ HeaderMatch match(const std::vector<Heading>& headings, const ObservationFormat&
         find(c, [&](const Heading& h) { return lower_case(h.name) == usual; });
         if (result.fields[c].size() > 1) result.fields[c].resize(1);
       }
+  const auto t = static_cast<std::size_t>(Column::t);
+  if (format.is_chute && unnamed(t)) find(t, [](const Heading& h) { return h.name == "x"; });
   return result;
 }
 

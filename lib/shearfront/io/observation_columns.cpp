@@ -315,8 +315,13 @@ std::string ObservationColumns::understood() const {
 
 bool ObservationColumns::is_plain() const {
   if (layout_ != TableLayout::rows || has(Column::phi_large)) return false;
-  for (std::size_t c = 0; c < kColumnNames.size(); ++c)
-    if (at_[c] && (headings_[*at_[c]].name != kColumnNames[c] || factors_[c] != 1)) return false;
+  for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
+    if (!at_[c]) continue;
+    const std::string& name = headings_[*at_[c]].name;
+    const bool is_distance =
+        static_cast<Column>(c) == Column::t && name == "x";  // only a chute takes x for t
+    if ((name != kColumnNames[c] && !is_distance) || factors_[c] != 1) return false;
+  }
   return true;
 }
 

@@ -30,6 +30,12 @@ using detail::Position;
 using detail::SimulationCode;
 using detail::TextSource;
 
+/// The format for measurements of a steady chute, or of what may be one.
+ObservationFormat format_for(bool is_chute, ObservationFormat format) {
+  format.is_chute = is_chute;
+  return format;
+}
+
 class ObservationsReader {
  public:
   ObservationsReader(const TextSource& source, double bottom, double top, const ObservationFormat& format)
@@ -41,7 +47,7 @@ class ObservationsReader {
         bottom_(bottom),
         top_(top) {}
   ObservationsReader(const TextSource& source, const Scene<double>& scene, const ObservationFormat& format)
-      : ObservationsReader(source, scene.bottom(), scene.top(), format) {
+      : ObservationsReader(source, scene.bottom(), scene.top(), format_for(scene.is_chute(), format)) {
     phi_ = phi_range(scene);
     target_ = {scene.spec().units.z, scene.spec().units.t, phi_->lowest == 0 && phi_->highest <= 1};
   }
@@ -124,6 +130,7 @@ class ObservationsReader {
       width_ = *format_.width * columns_->factor(Column::z);
     }
     result_.units = columns_->units();
+    result_.units.is_chute = columns_->is_distance();
     // MercuryDPM writes up to 80 columns.
     const bool has_many = dialect_.is_simulated() && dialect_.code != SimulationCode::lammps;
     if (!has_many) result_.notes = columns_->notes();
@@ -379,7 +386,7 @@ class ObservationsReader {
 
 Observations read_observations(const std::string& path, double bottom, double top,
                                const ObservationFormat& format) {
-  return ObservationsReader(TextSource::read_decoded(path), bottom, top, format).read();
+  return ObservationsReader(TextSource::read_decoded(path), bottom, top, format_for(true, format)).read();
 }
 
 Observations read_observations(const std::string& path, const Scene<double>& scene,
@@ -389,7 +396,8 @@ Observations read_observations(const std::string& path, const Scene<double>& sce
 
 Observations parse_observations(std::string text, const std::string& file, double bottom, double top,
                                 const ObservationFormat& format) {
-  return ObservationsReader(TextSource::decode(file, std::move(text)), bottom, top, format).read();
+  return ObservationsReader(TextSource::decode(file, std::move(text)), bottom, top, format_for(true, format))
+      .read();
 }
 
 Observations parse_observations(std::string text, const std::string& file, const Scene<double>& scene,

@@ -56,6 +56,8 @@ struct ObservationFormat {
   Replicates replicates = Replicates::refused;
   std::optional<double> width;  ///< of the bins phi is a mean over, in the unit of z, where no column says it
   std::optional<double> time_step;  ///< of a particle simulation, whose files count steps
+  bool is_chute =
+      false;  ///< may be of a steady chute: a column x stands for t, if there is none (set by the reader)
 
   [[nodiscard]] ColumnFormat& operator[](Column column) { return columns[static_cast<std::size_t>(column)]; }
   [[nodiscard]] const ColumnFormat& operator[](Column column) const {

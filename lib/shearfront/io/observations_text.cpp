@@ -28,9 +28,9 @@ std::string observations_text(const Observations& observations) {
   std::string text;
   for (const std::string& comment : observations.comments) add_comment(text, comment);
   const auto heading = [&](std::string_view name, const std::string& unit) {
-    text += (name == "t" ? "" : ",") + detail::csv_field(detail::heading_text(name, unit));
+    text += (name == "t" || name == "x" ? "" : ",") + detail::csv_field(detail::heading_text(name, unit));
   };
-  heading("t", units.t);
+  heading(units.is_chute ? "x" : "t", units.t);
   const bool has_place = observations.quantity != Quantity::bed_height;
   if (has_place) heading("z", units.z);
   heading(!has_place ? "H" : observations.quantity == Quantity::cumulative ? "M" : "phi", units.value);

@@ -23,6 +23,17 @@ namespace shearfront {
 void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
                        const std::vector<Sample>& samples, const SceneUnits& units = {});
 
+/// phi of a slab: phi[i][k * z.size() + j] belongs to times[i], x[k], z[j].
+struct SlabSamples {
+  std::vector<double> times, x, z;
+  std::vector<std::vector<double>> phi;
+};
+/// Header t,x,z,phi, one row per time and place, z running fastest; x in the unit of z.
+void write_slab_csv(OutputFile& file, const SlabSamples& samples, const SceneUnits& units = {});
+/// {"scene","method","times","positions","depths","phi":[[[..]]],"summary"}, by time, position and depth.
+void write_slab_json(OutputFile& file, std::string_view scene, std::string_view method,
+                     const SlabSamples& samples, const Summary& summary, const SceneUnits& units = {});
+
 /// Header layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above and one row per front.
 void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts,
                       const SceneUnits& units = {});

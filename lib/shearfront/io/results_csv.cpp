@@ -13,19 +13,21 @@ constexpr std::size_t kBlock = 1 << 16;  // rows are handed on in blocks of this
 
 std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::string(); }
 
-/// What a column is measured in: times and heights by their first letter, M and H as heights.
+/// What a column is measured in: times and heights by their first letter, M and H and a slab's x as heights.
 std::string_view unit_of_column(std::string_view name, const SceneUnits& units) {
   const std::string_view quantity = name.substr(0, name.find('_'));
   if (quantity == "t") return units.t;
-  return quantity == "z" || quantity == "M" || quantity == "H" ? std::string_view(units.z)
-                                                               : std::string_view();
+  return quantity == "z" || quantity == "x" || quantity == "M" || quantity == "H" ? std::string_view(units.z)
+                                                                                  : std::string_view();
 }
 
 std::string header(const std::vector<std::string>& names, const SceneUnits& units) {
   std::string line;
   for (const std::string& name : names) {
     if (!line.empty()) line += ',';
-    line += detail::csv_field(detail::heading_text(name, unit_of_column(name, units)));
+    const bool is_time = name == "t" || name.starts_with("t_");
+    const std::string shown = is_time ? units.symbol() + name.substr(1) : name;
+    line += detail::csv_field(detail::heading_text(shown, unit_of_column(name, units)));
   }
   return line + '\n';
 }
@@ -50,6 +52,21 @@ void write_samples_csv(OutputFile& file, const std::vector<double>& times, const
       hand_on(file, rows, kBlock);
     }
   }
+  hand_on(file, rows, 0);
+}
+
+void write_slab_csv(OutputFile& file, const SlabSamples& samples, const SceneUnits& units) {
+  std::string rows = header({"t", "x", "z", "phi"}, units);
+  const std::size_t n = samples.z.size();
+  for (std::size_t i = 0; i < samples.times.size(); ++i)
+    for (std::size_t k = 0; k < samples.x.size(); ++k)
+      for (std::size_t j = 0; j < n; ++j) {
+        rows += field(samples.times[i]);
+        for (const double number : {samples.x[k], samples.z[j], samples.phi[i][k * n + j]})
+          (rows += ',') += field(number);
+        rows += '\n';
+        hand_on(file, rows, kBlock);
+      }
   hand_on(file, rows, 0);
 }
 

@@ -19,13 +19,17 @@ Json to_json(const Summary& s) {
   return all;
 }
 
-Json units_json(const SceneUnits& units) { return {{"z", units.z}, {"t", units.t}}; }
+Json units_json(const SceneUnits& units) { return {{"z", units.z}, {units.symbol(), units.t}}; }
+/// "times", or the distances of a chute.
+std::string places_key(const SceneUnits& units) { return units.is_chute ? "distances" : "times"; }
+/// "t_star", or "x_star".
+std::string event_key(const SceneUnits& units, const std::string& index) { return units.symbol() + index; }
 
 Json document(std::string_view scene, std::string_view method, const SceneUnits& units) {
   Json all;
   all["scene"] = scene;
   all["method"] = method;
-  if (!(units == SceneUnits{})) all["units"] = units_json(units);
+  if (units.are_given()) all["units"] = units_json(units);
   return all;
 }
 
@@ -47,19 +51,39 @@ void write_matrix(OutputFile& file, std::string_view name, const std::vector<Sam
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
                         const std::vector<Sample>& samples, const Summary& summary, const SceneUnits& units) {
-  const std::string in_units = units == SceneUnits{} ? "" : ",\n  \"units\": " + json_text(units_json(units));
+  const std::string in_units =
+      units.are_given() ? ",\n  \"units\": " + json_text(units_json(units)) : std::string();
   file.write("{\n  \"scene\": " + json_text(scene) + ",\n  \"method\": " + json_text(method) + in_units +
-             ",\n  \"times\": " + json_text(times) + ",\n  \"depths\": " + json_text(depths) + ",\n");
+             ",\n  " + json_text(places_key(units)) + ": " + json_text(times) +
+             ",\n  \"depths\": " + json_text(depths) + ",\n");
   write_matrix(file, "phi", samples, times.size(), &Sample::phi);
   write_matrix(file, "M", samples, times.size(), &Sample::M);
   file.write("  \"summary\": " + json_text(to_json(summary)) + "\n}\n");
+}
+
+void write_slab_json(OutputFile& file, std::string_view scene, std::string_view method,
+                     const SlabSamples& samples, const Summary& summary, const SceneUnits& units) {
+  Json all = document(scene, method, units);
+  all["times"] = samples.times;
+  all["positions"] = samples.x;
+  all["depths"] = samples.z;
+  Json& phi = all["phi"] = Json::array();
+  const auto n = static_cast<std::ptrdiff_t>(samples.z.size());
+  for (const std::vector<double>& at_time : samples.phi) {
+    Json frame = Json::array();
+    for (auto column = at_time.begin(); column != at_time.end(); column += n)
+      frame.push_back(std::vector<double>(column, column + n));
+    phi.push_back(std::move(frame));
+  }
+  all["summary"] = to_json(summary);
+  file.write(detail::json_document(all));
 }
 
 void write_time_table_json(OutputFile& file, std::string_view scene, std::string_view method,
                            const TimeTable& table, const NamedNumbers& extra, const Summary& summary,
                            const SceneUnits& units) {
   Json all = document(scene, method, units);
-  all["times"] = table.times;
+  all[places_key(units)] = table.times;
   for (std::size_t j = 0; j < table.columns.size(); ++j) {
     Json& column = all[table.columns[j]] = Json::array();
     for (const std::vector<double>& row : table.rows) column.push_back(row[j]);
@@ -76,18 +100,18 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
   Json all = document(scene, method, units);
   all["mass"] = json_digits(timeline.mass);
   all["steady_height"] = json_digits(timeline.steady_height);
-  all["t0"] = time(timeline.t0);
-  all["t1"] = time(timeline.t1);
-  all["t_star"] = time(timeline.t_star);
+  all[event_key(units, "0")] = time(timeline.t0);
+  all[event_key(units, "1")] = time(timeline.t1);
+  all[event_key(units, "_star")] = time(timeline.t_star);
   Json& interfaces = all["interfaces"] = Json::array();
   for (const auto& at : timeline.interfaces)
     interfaces.push_back({{"z", json_digits(at.z)}, {"first", time(at.first)}, {"last", time(at.last)}});
   if (bands.t_star.ends) {
     const auto add = [&](const char* name, const auto& number) {
       Json& part = all[name];
-      part = {{"t0", number(bands.t0)},
-              {"t1", number(bands.t1)},
-              {"t_star", number(bands.t_star)},
+      part = {{event_key(units, "0"), number(bands.t0)},
+              {event_key(units, "1"), number(bands.t1)},
+              {event_key(units, "_star"), number(bands.t_star)},
               {"interfaces", Json::array()}};
       for (const auto& at : bands.interfaces)
         part["interfaces"].push_back({{"first", number(at.first)}, {"last", number(at.last)}});

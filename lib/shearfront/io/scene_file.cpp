@@ -50,6 +50,11 @@ class SceneReader {
     optional_model<DepthFunctionList<S>>(root, "temperature", spec_.temperature);
     optional_model<ClosePackingList<S>>(root, "close_packing", spec_.close_packing);
     if (auto table = root.table("diffusion", Need::optional, "must be a table with D")) diffusion(*table);
+    optional_model<VelocityList<S>>(root, "velocity", spec_.velocity);
+    if (auto table = root.table("slab", Need::optional, "must be a table with length")) {
+      table->number("length", Need::required, spec_.slab.emplace().length);
+      table->finish();
+    }
     if (auto table = root.table("initial", Need::required, "must be a table with breaks and values"))
       initial(*table);
     (void)root.table("domain", Need::optional, kDomain);
@@ -83,9 +88,13 @@ class SceneReader {
       table->number("top", Need::optional, spec_.top);
       table->finish();
     }
+    const bool is_chute = root.node("velocity") && !root.node("slab");
+    spec_.units.is_chute = is_chute;
     if (auto table = root.table("units", Need::optional, kUnits)) {
       spec_.units.z = table->text("z", Need::optional, "must be the name of a unit of length").value_or("");
-      spec_.units.t = table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
+      spec_.units.t =
+          is_chute ? table->text("x", Need::optional, "must be the name of a unit of length").value_or("")
+                   : table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
       table->finish();
     }
   }
@@ -185,8 +194,16 @@ class SceneReader {
       return table.finish();
     }
     using List = InitialStateList<S>;
-    const std::string what = "must be one of: " + List::names();
+    const std::string what = "must be one of: " + List::names() + ", block";
     const auto model = table.text("model", Need::required, what);
+    if (model && *model == "block") {
+      Block<S>& block = spec_.initial_block.emplace();
+      arrays(table, {{"x", Need::required, SceneColumns::Meaning::number, &block.x},
+                     {"z", Need::required, SceneColumns::Meaning::height, &block.z}});
+      table.number("inside", Need::required, block.inside);
+      table.number("outside", Need::required, block.outside);
+      return table.finish();
+    }
     if (model && model_by_name<List>(table, *model, what, spec_.initial_state.emplace()))
       table.finish();
     else

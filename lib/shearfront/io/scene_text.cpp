@@ -46,7 +46,18 @@ class SceneWriter {
     optional_table("temperature", spec.temperature);
     optional_table("close_packing", spec.close_packing);
     if (spec.diffusion) diffusion(*spec.diffusion);
-    if (spec.initial_state) {
+    optional_table("velocity", spec.velocity);
+    if (spec.slab) {
+      text_ += "\n[slab]\n";
+      line("length", toml_value(spec.slab->length));
+    }
+    if (spec.initial_block) {
+      text_ += "\n[initial]\nmodel = \"block\"\n";
+      line("x", toml_value(spec.initial_block->x));
+      line("z", toml_value(spec.initial_block->z));
+      line("inside", toml_value(spec.initial_block->inside));
+      line("outside", toml_value(spec.initial_block->outside));
+    } else if (spec.initial_state) {
       table("initial", *spec.initial_state);
     } else {
       text_ += "\n[initial]\n";
@@ -57,10 +68,10 @@ class SceneWriter {
     line("bottom", toml_value(spec.bottom));
     line("top", toml_value(spec.top));
     ends(spec);
-    if (!(spec.units == SceneUnits{})) {
+    if (spec.units.are_given()) {
       text_ += "\n[units]\n";
       if (!spec.units.z.empty()) line("z", toml_string(spec.units.z));
-      if (!spec.units.t.empty()) line("t", toml_string(spec.units.t));
+      if (!spec.units.t.empty()) line(spec.units.symbol(), toml_string(spec.units.t));
     }
     return std::move(text_);
   }

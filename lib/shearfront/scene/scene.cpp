@@ -47,9 +47,18 @@ S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S&
   const auto bounded = [&](const S& amount, const S& room) {
     return std::clamp(amount, S(model.lowest() * room), S(model.highest() * room));
   };
-  if (!c) return bounded(S(model.integral(lo, hi)), S(hi - lo));
-  std::vector<S> cuts = std::visit([](const auto& function) { return function.knots(); }, *c);
-  const bool is_layered = is_constant_in_pieces<S>(*c);
+  const bool is_chute = scene.is_chute();
+  if (!c && !is_chute) return bounded(S(model.integral(lo, hi)), S(hi - lo));
+  std::vector<S> cuts =
+      c ? std::visit([](const auto& function) { return function.knots(); }, *c) : std::vector<S>{};
+  const bool is_layered = !is_chute && is_constant_in_pieces<S>(*c);
+  const auto u = [&](const S& z) {
+    return is_chute ? std::visit([&](const auto& v) { return S(v.value(z)); }, *scene.spec().velocity) : S(1);
+  };
+  if (is_chute) {
+    const std::vector<S> knots = std::visit([](const auto& v) { return v.knots(); }, *scene.spec().velocity);
+    cuts.insert(cuts.end(), knots.begin(), knots.end());
+  }
   if (!is_layered) {
     const std::vector<S> knots = model.knots(lo, hi);
     cuts.insert(cuts.end(), knots.begin(), knots.end());
@@ -62,7 +71,7 @@ S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S&
       sum += value(*c, from) * S(model.integral(from, to));
     else
       sum += boost::math::quadrature::gauss_kronrod<S, 15>::integrate(
-          [&](const S& z) { return S(value(*c, z) * model.value(z)); }, from, to, 12u,
+          [&](const S& z) { return S(scene.solid_fraction_at(z) * u(z) * model.value(z)); }, from, to, 12u,
           S(4) * std::numeric_limits<S>::epsilon());
     from = to;
   };
@@ -79,6 +88,25 @@ Scene<S>::Scene(SceneSpec<S> spec) : spec_(std::move(spec)) {
   prepare(spec_);
   if (Complaints complaints = find_complaints(spec_); !complaints.empty())
     throw InputError(std::move(complaints));
+  complete();
+}
+
+template <Real S>
+void Scene<S>::complete() {
+  spec_.units.is_chute = is_chute();
+  if (!spec_.initial_block) return;
+  const Block<S>& block = *spec_.initial_block;
+  const S share = (block.x[1] - block.x[0]) / spec_.slab->length,
+          mean = block.outside + share * (block.inside - block.outside);
+  spec_.initial_breaks.clear();
+  spec_.initial_values = {block.z[0] > spec_.bottom ? block.outside : mean};
+  const auto add = [&](const S& z, const S& above) {
+    if (!(z > spec_.bottom && z < spec_.top)) return;
+    spec_.initial_breaks.push_back(z);
+    spec_.initial_values.push_back(above);
+  };
+  add(block.z[0], mean);
+  add(block.z[1], block.outside);
 }
 
 template <Real S>
@@ -103,7 +131,7 @@ bool Scene<S>::counts_rising_grains() const {
 template <Real S>
 bool Scene<S>::is_plain() const {
   return fluxes().size() == 1 && unit_parabola_sign(fluxes()[0]) == 1 && !spec_.solid_fraction &&
-         !spec_.temperature && has_walls() && !has_diffusion();
+         !spec_.temperature && !spec_.velocity && !spec_.slab && has_walls() && !has_diffusion();
 }
 
 template <Real S>
@@ -254,14 +282,27 @@ S Scene<S>::amount(const S& lo, const S& hi, bool is_highest) const {
 
 template <Real S>
 S Scene<S>::solid(const S& lo, const S& hi) const {
-  if (!spec_.solid_fraction) return hi - lo;
+  if (!spec_.solid_fraction) return flow(lo, hi);
   CompensatedSum<S> sum;
   S from = lo;
   const auto add = [&](const S& to) {
-    sum += mean_solid_fraction(from, to) * (to - from);
+    const bool is_constant = !is_chute() || is_constant_in_pieces<S>(*spec_.solid_fraction);
+    const auto passing = [&](const S& z) {
+      return S(value(*spec_.solid_fraction, z) *
+               std::visit([&](const auto& u) { return S(u.value(z)); }, *spec_.velocity));
+    };
+    sum += is_constant ? S(mean_solid_fraction(from, to) * flow(from, to))
+                       : boost::math::quadrature::gauss_kronrod<S, 15>::integrate(
+                             passing, from, to, 12u, S(4) * std::numeric_limits<S>::epsilon());
     from = to;
   };
-  for (const S& z : std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction))
+  std::vector<S> cuts = std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction);
+  if (is_chute()) {
+    const std::vector<S> own = std::visit([](const auto& u) { return u.knots(); }, *spec_.velocity);
+    cuts.insert(cuts.end(), own.begin(), own.end());
+    std::sort(cuts.begin(), cuts.end());
+  }
+  for (const S& z : cuts)
     if (z > from && z < hi) add(z);
   add(hi);
   return sum.value();

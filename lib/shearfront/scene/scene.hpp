@@ -26,6 +26,13 @@ template <Real Scalar>
 /// f may differ from layer to layer; c = T = 1 unless the scene says otherwise. With diffusion the right side
 /// is (D(z) phi_z)_z. The initial phi / c is constant in pieces, or smooth. The ends are walls (no flux),
 /// open (a state outside, in the sense of Bardos, LeRoux & Nedelec 1979), or joined (periodic).
+///
+/// With a velocity u(z) the bed is a steady chute, and x, the distance along it, stands in the place of t:
+///
+///     (u phi)_x + (s a sqrt(T) c f(phi / c))_z = (D phi_z)_z,    phi(z, 0) what flows in;
+///
+/// amounts are then what passes in a unit of time, int u phi dz (see chute.hpp). With a velocity and a slab it is
+/// phi(x, z, t), periodic in x, and what is said here of phi(z, 0) holds for its mean over x.
 /// Class invariant: find_complaints(spec()) is empty. Immutable after construction, and checked there once.
 template <Real Scalar = double>
 class Scene {
@@ -63,6 +70,15 @@ class Scene {
   /// Whether no grain can leave or come in.
   [[nodiscard]] bool has_walls() const {
     return !spec_.outside_bottom && !spec_.outside_top && !spec_.is_periodic && !spec_.is_neumann;
+  }
+  /// Whether x stands in the place of t.
+  [[nodiscard]] bool is_chute() const { return spec_.velocity.has_value() && !spec_.slab; }
+  /// Whether phi depends on x as well.
+  [[nodiscard]] bool is_slab() const { return spec_.slab.has_value(); }
+  /// What a height stands for in amounts: int_lo^hi u dz in a chute, else hi - lo.
+  [[nodiscard]] Scalar flow(const Scalar& lo, const Scalar& hi) const {
+    if (!is_chute()) return hi - lo;
+    return std::visit([&](const auto& model) { return Scalar(model.flow(lo, hi)); }, *spec_.velocity);
   }
   /// Whether grains diffuse: then phi is smooth, and the engines for D = 0 do not apply.
   [[nodiscard]] bool has_diffusion() const { return spec_.diffusion && spec_.diffusion->D > 0; }
@@ -117,12 +133,13 @@ class Scene {
   [[nodiscard]] Scalar steady_height() const;
   /// int phi dz over [lo, hi] if phi is as high, or as low, as it can be. Cost: O(fluxes + knots of c).
   [[nodiscard]] Scalar amount(const Scalar& lo, const Scalar& hi, bool is_highest) const;
-  /// int_lo^hi c dz; hi - lo without solid fraction. Cost: O(knots) with one.
+  /// int_lo^hi c dz, in a chute int c u dz; flow(lo, hi) without solid fraction. Cost: O(knots) with one.
   [[nodiscard]] Scalar solid(const Scalar& lo, const Scalar& hi) const;
 
  private:
   struct Checked {};
-  Scene(SceneSpec<Scalar> spec, Checked) : spec_(std::move(spec)) {}
+  Scene(SceneSpec<Scalar> spec, Checked) : spec_(std::move(spec)) { complete(); }
+  void complete();
 
   SceneSpec<Scalar> spec_;
 };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -35,7 +36,13 @@ class Checker {
     if (complaints_.empty()) scaled_rate();
     if (complaints_.empty()) scaled_solid_fraction();
     if (spec_.diffusion) diffusion();
+    if (spec_.velocity) velocity();
+    if (spec_.slab) check_number("slab.length", Range::positive, spec_.slab->length, complaints_);
     if (spec_.initial_state) initial_state();
+    if (spec_.initial_block) {
+      block(*spec_.initial_block);
+      return std::move(complaints_);
+    }
     check_number("initial.breaks", Range::any, spec_.initial_breaks, complaints_);
     if (domain_ok_)
       check_breaks("initial.breaks", spec_.initial_breaks, spec_.bottom, spec_.top, complaints_);
@@ -108,6 +115,56 @@ class Checker {
     check_number("diffusion.D", spec_.diffusion->D == 0 ? Range::any : Range::positive, spec_.diffusion->D,
                  complaints_);
     if (spec_.diffusion->variation) depth_function("diffusion.", *spec_.diffusion->variation);
+  }
+  /// Not upstream, and not at rest but on the ground: x has to go on.
+  void velocity() {
+    const std::size_t before = complaints_.size();
+    std::visit(
+        [&](const auto& model) {
+          model.fields(model, field("velocity."));
+          if (domain_ok_) model.check("velocity.", spec_.bottom, spec_.top, complaints_);
+          if (complaints_.size() > before || !domain_ok_ || spec_.slab) return;
+          std::vector<Scalar> all = model.knots();
+          all.insert(all.begin(), {spec_.bottom, spec_.top});
+          for (const Scalar& z : all) {
+            if (z < spec_.bottom || z > spec_.top) continue;
+            const Scalar u = model.value(z);
+            if (u > 0 || (u == 0 && z == spec_.bottom)) continue;
+            return add("velocity.model", '"' + std::string(model.kName) + '"',
+                       "must give u > 0, or u = 0 at the bottom alone (u(" + number_text(z) +
+                           ") = " + number_text(u) + "): nothing is carried downstream there");
+          }
+        },
+        *spec_.velocity);
+    if (spec_.is_periodic && !spec_.slab)
+      add("boundary.periodic", "true", "must not be given with a velocity: top and bottom differ");
+  }
+  /// The rectangle of another state that a slab may start with.
+  void block(const Block<Scalar>& start) {
+    if (!spec_.slab) return add("initial.model", "\"block\"", "must not be given without a table slab");
+    if (spec_.solid_fraction)
+      return add("solid_fraction", "", "must not be given with a block, whose states are phi");
+    for (const auto& [key, ends, lowest, highest] :
+         {std::tuple("initial.x", &start.x, Scalar(0), spec_.slab->length),
+          std::tuple("initial.z", &start.z, spec_.bottom, spec_.top)}) {
+      check_number(key, Range::any, *ends, complaints_);
+      if (ends->size() != 2) {
+        complaints_.push_back(
+            wrong_length(key, ends->size(), "must have 2 entries, where it begins and ends"));
+      } else if (!((*ends)[0] >= lowest && (*ends)[0] < (*ends)[1] && (*ends)[1] <= highest)) {
+        add(key, number_text((*ends)[0]) + ", " + number_text((*ends)[1]),
+            "must ascend between " + number_text(lowest) + " and " + number_text(highest));
+      }
+    }
+    if (!flux_ok_) return;
+    const StateRange<Scalar> range = spec_.fluxes.front().range();
+    for (const auto& [key, phi] :
+         {std::pair("initial.inside", start.inside), std::pair("initial.outside", start.outside)}) {
+      check_number(key, Range::any, phi, complaints_);
+      if (is_finite(phi) && !(phi >= range.lowest && phi <= range.highest))
+        add(key, number_text(phi),
+            "must be between " + number_text(range.lowest) + " and " + number_text(range.highest));
+    }
   }
   void initial_state() {
     const std::size_t before = complaints_.size();

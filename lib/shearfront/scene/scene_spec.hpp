@@ -11,6 +11,7 @@
 #include "shearfront/model/field.hpp"
 #include "shearfront/model/flux/flux.hpp"
 #include "shearfront/model/start/all.hpp"
+#include "shearfront/model/velocity/all.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 namespace shearfront {
@@ -35,8 +36,25 @@ struct Diffusion {
 /// The units in which the numbers of a scene are, empty where its file does not say: carried to axes, tables and files,
 /// and what observations are converted to. A rate s a is then in units.z / units.t.
 struct SceneUnits {
-  std::string z, t;
+  std::string z, t;       ///< t: of what the solution goes on in, time or (a chute's) distance
+  bool is_chute = false;  ///< what goes on is a distance x, and is called so
+  [[nodiscard]] bool are_given() const { return !z.empty() || !t.empty(); }
+  /// "t", or "x".
+  [[nodiscard]] const char* symbol() const { return is_chute ? "x" : "t"; }
   friend bool operator==(const SceneUnits&, const SceneUnits&) = default;
+};
+
+/// A slab that repeats along x: phi(x, z, t) with the period `length`, carried along by the velocity.
+template <Real Scalar>
+struct Slab {
+  Scalar length{1};
+};
+
+/// The start of a slab: phi / c is `inside` on [x[0], x[1]] x [z[0], z[1]], elsewhere `outside`.
+template <Real Scalar>
+struct Block {
+  std::vector<Scalar> x, z;
+  Scalar inside{0}, outside{1};
 };
 
 /// Everything a scene file says, unchecked. Fill it in and hand it to Scene.
@@ -55,6 +73,11 @@ struct SceneSpec {
   /// Random close packing of mixtures, for the height of the bed; spheres of size ratio 2 if not given.
   std::optional<ClosePacking<Scalar>> close_packing;
   std::optional<Diffusion<Scalar>> diffusion;
+  /// u(z) along the slope. Without a slab that of a steady chute: what the solution goes on in is then the distance x.
+  std::optional<Velocity<Scalar>> velocity;
+  std::optional<Slab<Scalar>> slab;
+  /// Of a slab: breaks and values below are then the means over x, which Scene fills in.
+  std::optional<Block<Scalar>> initial_block;
   /// phi / c as a smooth function, or one with kinks; breaks and values are then empty.
   std::optional<InitialState<Scalar>> initial_state;
   std::vector<Scalar> initial_breaks;  ///< heights of the initial jumps, ascending, in the domain
@@ -133,8 +156,15 @@ void visit_fields(Spec& spec, Visit&& visit) {
     visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? kNotNegative : kPositive, spec.diffusion->D);
     optional_model(spec.diffusion->variation, "diffusion.");
   }
+  optional_model(spec.velocity, "velocity.");
+  if (spec.slab) visit(std::string("slab.length"), kPositive, spec.slab->length);
   optional_model(spec.initial_state, "initial.");
-  if (!spec.initial_state) {
+  if (spec.initial_block) {
+    visit(std::string("initial.x"), FieldInfo{}, spec.initial_block->x);
+    visit(std::string("initial.z"), kHeight, spec.initial_block->z);
+    visit(std::string("initial.inside"), kState, spec.initial_block->inside);
+    visit(std::string("initial.outside"), kState, spec.initial_block->outside);
+  } else if (!spec.initial_state) {
     visit(std::string("initial.breaks"), kBreaks, spec.initial_breaks);
     visit(std::string("initial.values"), kState, spec.initial_values);
   }

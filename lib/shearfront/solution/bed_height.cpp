@@ -7,6 +7,7 @@
 namespace shearfront {
 
 std::string BedHeight::refusal(const Scene<double>& scene) {
+  if (scene.is_chute()) return "a steady chute flows past with the height it is given";
   if (scene.spec().outside_bottom || scene.spec().outside_top)
     return "grains come and go at the open ends of this bed: it has no height of its own";
   for (const Flux<double>& flux : scene.fluxes()) {

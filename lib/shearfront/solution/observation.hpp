@@ -78,6 +78,7 @@ inline constexpr double kLeastBinWidth = 1e-8;
 /// they are kept as they stand in its header. A width has the unit of z, a sigma that of the value.
 struct ObservationUnits {
   std::string t, z, value;
+  bool is_chute = false;  ///< t is the distance x along a steady chute, and is called so in files
   friend bool operator==(const ObservationUnits&, const ObservationUnits&) = default;
 };
 

@@ -102,6 +102,9 @@ std::optional<double> equal_spacing(std::vector<double> depths) {
 SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene) {
   if (Complaints complaints = find_complaints(plan, scene.bottom(), scene.top()); !complaints.empty())
     throw InputError(std::move(complaints));
+  if (plan.quantity == Quantity::bin && scene.is_chute())
+    throw InputError("quantity", std::string(name_of(plan.quantity)),
+                     "must be point or cumulative in a steady chute, where M is what passes below z");
   SolverRequest request;
   request.times = plan.times;
   if (plan.quantity == Quantity::bed_height) {
@@ -140,6 +143,7 @@ Observations observe(const ObservationPlan& plan, const Scene<double>& scene, co
                      "samples of request_of()");
   Observations observations;
   observations.quantity = plan.quantity;
+  observations.units.is_chute = scene.is_chute();
   observations.rows.reserve(plan.times.size() * plan.depths.size());
   auto sample = samples.begin();
   for (const double t : plan.times) {

@@ -9,6 +9,7 @@
 #include "shearfront/fv/muscl_solver.hpp"
 #include "shearfront/fv/upwind_solver.hpp"
 #include "shearfront/numeric/type_list.hpp"
+#include "shearfront/slab/solver.hpp"
 #include "shearfront/solver/solver.hpp"
 #include "shearfront/track/solver.hpp"
 
@@ -16,7 +17,8 @@ namespace shearfront {
 
 /// Every solver. To add one: copy solver/skeleton.hpp into its module, include it here, and name it in the
 /// list.
-using SolverList = TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver,
-                            ClassicalGodunovSolver, UpwindSolver, CrankNicolsonSolver, ColeHopfSolver>;
+using SolverList =
+    TypeList<ExactSolver, FrontTrackingSolver, EngquistOsherSolver, GodunovSolver, MusclSolver,
+             ClassicalGodunovSolver, UpwindSolver, CrankNicolsonSolver, ColeHopfSolver, SlabSolver>;
 
 }  // namespace shearfront

@@ -124,7 +124,8 @@ class Configured final : public AnySolver {
 /// Errors: InputError (keys "places[i].t" and ".z", the first few) for places before t = 0 or outside the bed.
 void check_places(const Scene<double>& scene, const std::vector<Place>& places);
 
-/// A solver with its options: what --method, [forward] and `compare` choose. A value.
+/// A solver with its options: what --method, [forward] and `compare` choose. A value. A steady chute is solved here as the
+/// bed it amounts to (scene/chute.hpp), so that no solver knows of chutes.
 class Method {
  public:
   /// The first of the list, with its defaults: the exact solution.
@@ -144,7 +145,7 @@ class Method {
   [[nodiscard]] std::string_view scenes() const { return solver_->scenes(); }
   [[nodiscard]] Guarantees guarantees() const { return solver_->guarantees(); }
   /// The order of M in the resolution that it promises for the scene; 0 if exact.
-  [[nodiscard]] double order_M(const Scene<double>& scene) const { return solver_->order_M(scene); }
+  [[nodiscard]] double order_M(const Scene<double>& scene) const;
 
   /// In the order in which the solver lists them.
   [[nodiscard]] std::vector<Option> options() const { return solver_->options(); }
@@ -159,7 +160,7 @@ class Method {
   void set(std::string_view option, const OptionValue& value) { solver_ = solver_->with(option, value); }
   /// Chooses the options with which the solution depends most smoothly on the numbers of the scene: what a
   /// fit wants unless its user says otherwise.
-  void prefer_smooth(const Scene<double>& scene) { solver_ = solver_->smooth(scene); }
+  void prefer_smooth(const Scene<double>& scene);
   /// Chooses the options with which M is most accurate and smooth, whatever phi is.
   void prefer_amounts() { solver_ = solver_->amounts(); }
 
@@ -175,7 +176,7 @@ class Method {
 
   /// Whether the method can differentiate its solution with respect to an entry of the scene.
   [[nodiscard]] bool has_derivative(const Scene<double>& scene, const Entry& entry) const {
-    return solver_->has_derivative(scene, entry);
+    return !scene.is_chute() && !scene.is_slab() && solver_->has_derivative(scene, entry);
   }
   /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at
   /// least one if `entries` is empty. Errors: as check_places().

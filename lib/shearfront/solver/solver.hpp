@@ -73,9 +73,10 @@ struct Guarantees {
   double order_M = 0;              ///< order of M in the resolution, 0 if exact; see also order_M of Solver
   double least_order_M = 0;        ///< the same where it is less, 0 if nowhere
   std::string_view where_least{};  ///< which scenes those are, for `shearfront list`
-  bool has_fronts = false;         ///< can return front segments
-  bool has_timeline = false;       ///< can return event times
-  bool has_profiles = false;       ///< can return the solution as a function of z: it is linear in pieces
+  bool has_slab = false;    ///< solves slabs, phi(x, z, t), and no others; the field is then the mean over x
+  bool has_fronts = false;  ///< can return front segments
+  bool has_timeline = false;  ///< can return event times
+  bool has_profiles = false;  ///< can return the solution as a function of z: it is linear in pieces
 };
 
 /// A place in the (t, z) plane.

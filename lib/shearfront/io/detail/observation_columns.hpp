@@ -32,6 +32,8 @@ class ObservationColumns {
   /// The number of the field. Precondition: has(column), and it is no column of places of a wide table.
   [[nodiscard]] std::size_t field(Column column) const { return *at_[index(column)]; }
   [[nodiscard]] std::size_t n_fields() const { return headings_.size(); }
+  /// Whether a column x stands for t.
+  [[nodiscard]] bool is_distance() const { return has(Column::t) && headings_[field(Column::t)].name == "x"; }
   /// phi, phi_large, M or H.
   [[nodiscard]] Column value() const;
   [[nodiscard]] Quantity quantity() const;
