@@ -176,8 +176,8 @@ nb::tuple draws(const Fitted& self, std::size_t n, std::uint64_t seed) {
 }  // namespace
 
 void bind_estimate(nb::module_& m) {
-  nb::class_<Fitted>(m, "Fitted")
-      .def_prop_ro("parameters", &parameters_of)
+  nb::class_<Fitted> fitted(m, "Fitted");
+  fitted.def_prop_ro("parameters", &parameters_of)
       .def_prop_ro("facts", &facts_of)
       .def_prop_ro("correlation", [](const Fitted& self) { return matrix_from(self.estimate->correlation); })
       .def_prop_ro("predicted", [](const Fitted& self) { return array_of(self.estimate->predicted); })
@@ -187,6 +187,7 @@ void bind_estimate(nb::module_& m) {
       .def("rate_band", &rate_band)
       .def("draws", &draws)
       .def("bootstrap", &bootstrap);
+  bind_state(m, fitted);
 }
 
 }  // namespace shearfront::python

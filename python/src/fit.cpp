@@ -26,7 +26,7 @@ FitProblem problem_of(FitFile file) {
   return {std::make_shared<const fit::FitSpec>(std::move(file.spec)), std::move(file.remarks)};
 }
 
-Fitted run(const FitProblem& problem) {
+Fitted run_fit(const FitProblem& problem) {
   fit::Estimate estimate =
       without_lock([&](const fit::Progress& progress) { return fit::fit(*problem.spec, progress); });
   if (!estimate.usable()) throw Unusable(estimate.status, estimate.message);
@@ -73,7 +73,7 @@ void bind_fit(nb::module_& m) {
                    })
       .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
       .def("with_uncertainty", &with_uncertainty)
-      .def("run", &run);
+      .def("run", &run_fit);
   bind_fit_state(m, problem);
   m.def("read_fit", [](const std::string& path) { return problem_of(fit::read_fit_file(path)); });
   m.def("is_fit_file", [](const std::string& path) { return fit::is_fit_file(path); });

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <system_error>
 
 #include "shearfront/io/text.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::detail {
 namespace {
@@ -17,10 +17,9 @@ constexpr std::array<std::string_view, 9> kMissing{"NA",  "N/A",  "n/a",  "na", 
 /// Why parse_number() refuses the text.
 std::string_view why_no_point_number(std::string_view text) {
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || end != text.data() + text.size()) return "must be a number";
-  return error == std::errc::result_out_of_range
+  const ReadNumber read = read_number(text);
+  if (text.empty() || read.length != text.size()) return "must be a number";
+  return read.error == std::errc::result_out_of_range
              ? "must be 0 or between 5e-324 and 1.7976931348623157e308 in size"
              : "must be a finite number";
 }
