@@ -25,6 +25,8 @@ constexpr double kRounding = 1e-11;
 /// Every row agrees, in the unit of the rows: no jump is on the wrong side of an observation.
 constexpr double kExact = 1e-9;
 constexpr int kMostRenewals = 6;
+/// So far from the start, a factor of 20 for a rate, an end may be a level place and no minimum.
+constexpr double kFar = 3;
 /// Relative tolerance of the first stages: only a start for the last one.
 constexpr double kNear = 1e-2;
 /// The same while rows and noise of the last stage are not settled.
@@ -97,10 +99,11 @@ void StagedSearch::find() {
 
 void StagedSearch::leave_bounds(const VectorXd& start) {
   if (!uses_derivatives(spec_.search.algorithm) || spec_.unknown.shape != Shape::none || has_jumps()) return;
-  const std::vector<bool> at_bound = coordinates_.at_bound(u_);
+  const std::vector<bool> at_bound = coordinates_.at_bound(u_), starts_there = coordinates_.at_bound(start);
+  const VectorXd end = u_;
   for (Eigen::Index j = 0; j < start.size() && result_.status == Status::ok && !control_.must_stop(); ++j) {
-    if (!at_bound[static_cast<std::size_t>(j)] || coordinates_.at_bound(start)[static_cast<std::size_t>(j)])
-      continue;
+    const auto k = static_cast<std::size_t>(j);
+    if (starts_there[k] || !(at_bound[k] || std::abs(end[j] - start[j]) > kFar)) continue;
     const SearchResult before = result_;
     u_[j] = start[j];
     search_from_here(*objective_, 0);

@@ -55,7 +55,7 @@ class StagedSearch {
   /// Whether a jump of phi can be near an observation: with diffusion phi is continuous.
   [[nodiscard]] bool has_jumps() const;
 
-  /// Searches once more from where the coordinates at a bound are as at the start: on the way to a rate of almost 0 the misfit is level in
+  /// Searches once more from where a coordinate at a bound, or far from its start, is as at the start: on the way to a rate of almost 0 the misfit is level in
   /// its logarithm, and a search does not come back from there.
   void leave_bounds(const Eigen::VectorXd& start);
 
