@@ -93,7 +93,8 @@ void note_pieces(const Scene<double>& scene, const ExactSolution<double>& exact,
       worst = std::max(worst, exact.at(z, t).M_error);
     }
   const std::string whose =
-      fmt::format("whose own error of M is about {:.1e}; differences below that mean nothing", worst);
+      fmt::format("whose own error of M is about {:.1e} of the height; differences below that mean nothing",
+                  worst / (scene.top() - scene.bottom()));
   note(exact.form().is_exact()
            ? fmt::format("the start is smooth: errors are measured against a search in {} parts of it, {}",
                          exact.form().n_start_parts(), whose)

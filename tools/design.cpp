@@ -228,6 +228,7 @@ int draw_design(const std::string& path, const fit::FitSpec& spec, const fit::De
   Picture picture(path, "design");
   picture.set("title", spec.name);
   picture.set("subtitle", subtitle);
+  picture.set("along", spec.scene.spec().units.symbol());
   picture.set("unit_t", without_markup(spec.scene.spec().units.t));
   picture.set("unit_z", without_markup(spec.scene.spec().units.z));
   picture.set("z_low", spec.scene.bottom());

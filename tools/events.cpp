@@ -46,10 +46,11 @@ struct EventsArguments {
 std::string band_text(const fit::Interval& band) {
   // As many digits as show how wide it is.
   const double width = band.high - band.low, size = std::max(std::abs(band.low), std::abs(band.high));
-  const int digits =
-      std::isfinite(size) && width > 0
-          ? std::clamp(static_cast<int>(std::ceil(std::log10(size / width))) + 2, 3, kDoubleDigits)
-          : 6;
+  const int digits = std::isfinite(size) && width > 0
+                         ? std::clamp(std::max(static_cast<int>(std::ceil(std::log10(size / width))) + 2,
+                                               static_cast<int>(std::ceil(std::log10(size)))),
+                                      3, kDoubleDigits)
+                         : 6;
   const auto end = [&](double t) { return std::isfinite(t) ? number_text(t, digits) : std::string("never"); };
   return fmt::format("[{}, {}]", end(band.low), end(band.high));
 }
@@ -73,22 +74,22 @@ struct EventTable {
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,
-           std::optional<double> other, const std::optional<fit::Interval>& band) {
+           std::optional<double> other, const fit::PredictedNumber& band) {
     if (form) other = form->value;
     std::string exact_time, difference;
     if (exact && other) {
       exact_time = digits == 0 ? number_text(*other) : *other == 0 ? "0" : number_text(*other, digits);
       if (time && *other != 0) difference = fmt::format("{:.1e}", *time / *other - 1);
     }
-    table.add({event, meaning, shown.value_or("never"), band ? band_text(*band) : "", exact_time, difference,
-               form ? form->formula : ""});
+    table.add({event, meaning, shown.value_or("never"), band.std_error ? number_text(*band.std_error, 2) : "",
+               band.band ? band_text(*band.band) : "", exact_time, difference, form ? form->formula : ""});
   }
   /// `member` of TimelineText::InterfaceTimes and of its numbers.
   void add_interfaces(const std::string& event, const char* meaning,
                       std::optional<double> Timeline<double>::InterfaceTimes::*member,
                       std::optional<std::string> TimelineText::InterfaceTimes::*text_member,
                       const std::optional<ClosedForm>& form,
-                      std::optional<fit::Interval> fit::PredictedEvents::InterfaceBands::*band) {
+                      fit::PredictedNumber fit::PredictedEvents::AtInterface::*band) {
     const std::size_t n = timeline.interfaces.size() - n_kinks();
     std::size_t number = 0;
     const std::string in_unit = units.z.empty() ? "" : " " + printable(units.z, 20);
@@ -101,7 +102,7 @@ struct EventTable {
         if (same.z == at.z) other = same.*member;
       add(event + (n == 1 ? "" : fmt::format("({})", number)), meaning + number_text(at.z) + in_unit,
           at.*member, text.interfaces[i].*text_member, form, other,
-          bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : std::nullopt);
+          bands && i < bands->interfaces.size() ? bands->interfaces[i].*band : fit::PredictedNumber{});
     }
   }
   /// Heights of the timeline that are no interfaces: points of a table where only the slope jumps.
@@ -113,7 +114,7 @@ struct EventTable {
     const Timeline<double> other = exact.value_or(Timeline<double>{});
     using Times = Timeline<double>::InterfaceTimes;
     using Texts = TimelineText::InterfaceTimes;
-    using Bands = fit::PredictedEvents::InterfaceBands;
+    using Bands = fit::PredictedEvents::AtInterface;
     const fit::PredictedEvents none, &band = bands ? *bands : none;
     add_interfaces(along + "_c", "first wave at the interface z = ", &Times::first, &Texts::first,
                    forms.first_interface, &Bands::first);
@@ -134,11 +135,12 @@ std::string summary_line(const Summary& s) {
 }
 
 EventBands bands_of(const fit::PredictedEvents& events) {
-  const auto ends = [](const std::optional<fit::Interval>& band) {
-    return band ? std::optional(std::pair(band->low, band->high)) : std::nullopt;
+  const auto band = [](const fit::PredictedNumber& n) {
+    return EventBands::Band{n.band ? std::optional(std::pair(n.band->low, n.band->high)) : std::nullopt,
+                            n.std_error};
   };
-  EventBands all{ends(events.t0), ends(events.t1), ends(events.t_star), {}};
-  for (const auto& at : events.interfaces) all.interfaces.push_back({ends(at.first), ends(at.last)});
+  EventBands all{band(events.t0), band(events.t1), band(events.t_star), {}};
+  for (const auto& at : events.interfaces) all.interfaces.push_back({band(at.first), band(at.last)});
   return all;
 }
 
@@ -204,7 +206,7 @@ int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
   const SolverResult result =
       with_progress([&](const Progress& progress) { return solve(scene, method, request, progress); });
   if (!result.summary.usable()) return report_unusable(result.summary);
-  return draw_fronts(arguments.plot, scene, result.fronts, timeline, number_of(method, "resolution"));
+  return draw_fronts(arguments.plot, scene, method, result.fronts, timeline);
 }
 
 /// Where pieces stand for the bed, digits beyond the estimated error are not known.
@@ -269,6 +271,7 @@ int events(EventsArguments& arguments) {
   if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     bands = fit::predict_events(scene, *draws, method);
     note_draws(*draws, bands->n_failed);
+    if (!arguments.json) note_bands(bands->n_by_draws, 3 + 2 * bands->interfaces.size());
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);

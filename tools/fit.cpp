@@ -77,10 +77,11 @@ int report_outcome(const fit::Estimate& estimate, const std::string& who) {
 }
 
 /// Names that tell the models apart: their own, or those of the files.
-std::vector<std::string> model_names(const std::vector<std::string>& paths,
+std::vector<std::string> model_names(std::vector<std::string> paths,
                                      const std::vector<fit::Estimate>& estimates) {
   std::vector<std::string> names;
   for (const fit::Estimate& estimate : estimates) names.push_back(estimate.name);
+  paths.resize(estimates.size());  // an interruption leaves some out
   std::vector<std::string> sorted = names;
   std::sort(sorted.begin(), sorted.end());
   return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? names : paths;
@@ -178,6 +179,7 @@ void write_prediction(OutputFile& file, const PredictionPlan& plan, const fit::F
   const fit::PredictedSamples samples =
       fit::predict_samples(*estimate.scene, draws, spec.forward.method, plan.times, plan.heights);
   note_draws(draws, samples.n_failed);
+  note_bands(samples.n_by_draws, 2 * samples.phi.size());
   write_prediction_csv(file, plan.times, plan.heights, samples);
 }
 
@@ -217,17 +219,28 @@ int fit_files(const FitArguments& arguments) {
     print_remarks(file.spec.observations.notes);
   }
 
-  const InterruptGuard guard;
   std::vector<fit::Estimate> estimates;
-  if (is_one && files[0].choice) {
-    const FittedModels models = run_models(files[0], arguments.files[0]);
-    const int code = print_models(models, arguments.json);
-    if (!models.best) return code;
-    files[0].spec = models.all.specs[*models.best];
-    estimates.push_back(models.all.estimates[*models.best]);
-  } else {
-    for (std::size_t i = 0; i < files.size(); ++i)
-      estimates.push_back(run_fit(files[i].spec, arguments.files[i]));
+  std::optional<FittedModels> models;
+  bool is_interrupted = false;
+  {
+    const InterruptGuard guard;  // what follows ends at once
+    if (is_one && files[0].choice)
+      models = run_models(files[0], arguments.files[0]);
+    else
+      for (std::size_t i = 0; i < files.size() && !InterruptGuard::is_interrupted(); ++i)
+        estimates.push_back(run_fit(files[i].spec, arguments.files[i]));
+    is_interrupted = InterruptGuard::is_interrupted();
+  }
+  const std::string title = files[0].spec.name;
+  std::vector<OtherModel> others;
+  if (models) {
+    const int code = print_models(*models, arguments.json);
+    if (!models->best) return code;
+    files[0].spec = models->all.specs[*models->best];
+    for (std::size_t i = 0; i < models->all.specs.size(); ++i)
+      if (i != *models->best && models->all.estimates[i].usable())
+        others.push_back({models->all.specs[i].name, *models->all.estimates[i].scene});
+    estimates.push_back(models->all.estimates[*models->best]);
   }
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
@@ -244,13 +257,15 @@ int fit_files(const FitArguments& arguments) {
                    fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate));
     band->commit();
   }
-  if (prediction && estimate.usable()) {
+  if (prediction && estimate.usable() && !is_interrupted) {
     write_prediction(*prediction, plan, files[0].spec, estimate);
     prediction->commit();
   }
   const int code = files[0].choice ? kDone : print_one(estimate, arguments.json);
-  if (arguments.plot.empty()) return code;
-  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate, truth));
+  if (is_interrupted && (prediction || !arguments.plot.empty()))
+    note("interrupted: no --predict and no --plot, which need more runs");
+  if (arguments.plot.empty() || is_interrupted) return code;
+  return std::max(code, draw_fit(arguments.plot, files[0].spec, estimate, title, truth, others));
 }
 
 }  // namespace

@@ -29,7 +29,10 @@ std::string entries() {
     if (!all.empty()) all += ", ";
     all += info.key;
     if constexpr (!std::is_same_v<std::decay_t<decltype(member)>, double>) all += "[]";
-    if (info.range == Range::positive) all += " > 0";
+    FieldInfo alone = info;
+    alone.also = {};
+    if (const std::string range = range_text(alone); !range.empty()) all += " " + range;
+    if (!info.also.empty()) all += fmt::format(" ({})", info.also);
     if (info.is_optional) all += " (optional)";
   });
   visit_choices(model, [&](const ChoiceInfo& info, const auto&) {
@@ -77,13 +80,15 @@ std::string described_list() {
 /// The numeric fields of scene files with the models that have them, empty for those of every scene.
 std::string unknowns() {
   struct Field {
-    std::string name, models;
+    std::string name, range, models;
   };
   std::vector<Field> fields;
   const auto visit = [&](const SceneSpec<double>& spec, const std::string& prefix, std::string_view model) {
-    visit_fields(spec, [&](const std::string& name, const FieldInfo&, const auto&) {
-      auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
-      if (field == fields.end()) field = fields.insert(field, {name, ""});
+    visit_fields(spec, [&](const std::string& name, const FieldInfo& info, const auto&) {
+      const std::string range = range_text(info);
+      const auto is_same = [&](const Field& f) { return f.name == name && f.range == range; };
+      auto field = std::find_if(fields.begin(), fields.end(), is_same);
+      if (field == fields.end()) field = fields.insert(field, {name, range, ""});
       // Scale stands beside the models in the file, but every scene has it.
       const bool is_of_model =
           !prefix.empty() && name.starts_with(prefix) && name != "shear_rate.scale" && name != "diffusion.D";
@@ -127,10 +132,12 @@ std::string unknowns() {
   SceneSpec<double> plain;
   plain.outside_bottom.emplace();
   plain.outside_top.emplace();
+  plain.fluxes.push_back(plain.fluxes.front());
+  plain.flux_breaks.push_back(0);
   visit(plain, "initial.", "without a model");
   std::stable_partition(fields.begin(), fields.end(), [](const Field& f) { return !f.models.empty(); });
-  TextTable table({"name", "models"});
-  for (const Field& field : fields) table.add({field.name, field.models});
+  TextTable table({"name", "must be", "models"});
+  for (const Field& field : fields) table.add({field.name, field.range, field.models});
   return indented(table.text());
 }
 

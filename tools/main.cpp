@@ -85,15 +85,16 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "shearfront " SHEARFRONT_VERSION, "Print the version and exit");
   program.require_subcommand(0, 1);
   program.allow_extras();
-  const std::vector<Command> commands{tools::add_events(program),  tools::add_solve(program),
-                                      tools::add_observe(program), tools::add_fit(program),
-                                      tools::add_compare(program), tools::add_check(program),
-                                      tools::add_list(program),    tools::add_import(program),
-                                      tools::add_study(program),   tools::add_design(program)};
-  bool is_verbose = false;
+  const std::vector<Command> commands{
+      tools::add_events(program), tools::add_solve(program),   tools::add_observe(program),
+      tools::add_fit(program),    tools::add_compare(program), tools::add_check(program),
+      tools::add_list(program),   tools::add_import(program),  tools::add_study(program),
+      tools::add_design(program), tools::add_sample(program)};
+  std::string verbose;
   for (const Command& command : commands) {
-    command.app->add_flag("--verbose", is_verbose,
-                          "a line per minute on standard error where it is no terminal");
+    command.app->add_flag("--verbose{60}", verbose,
+                          "a line per minute on standard error where it is no terminal; --verbose=S: every S "
+                          "seconds");
     command.app->allow_extras();
     command.app->get_formatter()->label("REQUIRED", "");
   }
@@ -115,7 +116,9 @@ int run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     check_leftovers(*command.app, {});
-    tools::ProgressLine::set_verbose(is_verbose);
+    if (!verbose.empty())
+      tools::ProgressLine::set_verbose(
+          tools::number_option("--verbose", verbose, {0.1, 86400}, "a number of seconds from 0.1 to 86400"));
     tools::say_when_interrupted();
     return command.run();
   }

@@ -17,6 +17,8 @@
 #include "cli/scene.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/io/scene_file.hpp"
+#include "shearfront/io/scene_text.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -142,7 +144,7 @@ std::string command_line(const ObserveArguments& arguments, const Method& method
 
 /// All that is needed to make the file again, without what does not change it (the name of the file).
 std::vector<std::string> recipe(const ObserveArguments& arguments, const Method& method,
-                                const Experiment& experiment, const std::string& scene_text) {
+                                const Experiment& experiment, const std::string& scene) {
   std::vector<std::string> lines{
       "Synthetic observations, no measurements; made with shearfront " SHEARFRONT_VERSION " by",
       "  " + command_line(arguments, method, experiment)};
@@ -152,9 +154,9 @@ std::vector<std::string> recipe(const ObserveArguments& arguments, const Method&
                                 number_text(experiment.sigma),
                                 arguments.truncate ? ", then clipped to the range of the quantity" : ""));
   lines.emplace_back("The scene file:");
-  for (std::size_t begin = 0; begin < scene_text.size();) {
-    const std::size_t end = std::min(scene_text.find('\n', begin), scene_text.size());
-    lines.push_back(end > begin ? "| " + scene_text.substr(begin, end - begin) : "|");
+  for (std::size_t begin = 0; begin < scene.size();) {
+    const std::size_t end = std::min(scene.find('\n', begin), scene.size());
+    lines.push_back(end > begin ? "| " + scene.substr(begin, end - begin) : "|");
     begin = end + 1;
   }
   return lines;
@@ -180,7 +182,10 @@ int observe_scene(ObserveArguments& arguments) {
   Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);
   if (arguments.truncate) clip(observations, scene);
-  observations.comments = recipe(arguments, method, experiment, arguments.scene.text());
+  // Files of tables may change or be left behind: then all numbers stand here.
+  const std::string& text = arguments.scene.text();
+  observations.comments =
+      recipe(arguments, method, experiment, names_tables_in_files(text) ? scene_text(scene.spec()) : text);
   write_observations(output, observations);
   output.commit();
   return kDone;

@@ -29,7 +29,7 @@ constexpr double kMostSamples = 1e8;  // times x depths
 struct SolveArguments {
   PictureOptions pictures;
   SceneArgument scene;
-  std::string times, positions, depths, quantity, output, fronts, plot, map;
+  std::string times, positions, depths, quantity, output, fronts, plot, map, contours, riemann;
   bool json = false;
   MethodArguments method;
 };
@@ -40,6 +40,7 @@ struct Task {
   Method method;
   std::vector<double> times;
   std::vector<Method> others = {};  ///< in the picture of profiles
+  Contours contours = {};           ///< of the map
 };
 
 SolvedQuantity quantity_of(const SolveArguments& arguments) {
@@ -48,7 +49,30 @@ SolvedQuantity quantity_of(const SolveArguments& arguments) {
   return static_cast<SolvedQuantity>(choice_option("--quantity", arguments.quantity, names));
 }
 
+/// --contours: a list of states, or none.
+Contours contours_of(const SolveArguments& arguments, const Scene<double>& scene) {
+  if (arguments.contours.empty()) return {};
+  if (arguments.map.empty()) refuse("--contours", arguments.contours, "needs --map");
+  if (arguments.contours == "none") return {false, {}};
+  const StateRange<double> range = states_of(scene);
+  return {false, list_option("--contours", arguments.contours, {range.lowest, range.highest},
+                             fmt::format("none, or states between {} and {}", number_text(range.lowest),
+                                         number_text(range.highest)),
+                             Steady::refused)};
+}
+
 void check_arguments(const SolveArguments& arguments, const Method& method) {
+  check_picture_name("--riemann", arguments.riemann);
+  if (!arguments.riemann.empty()) {
+    for (const auto& [option, value] :
+         {std::pair("--times", arguments.times), std::pair("--map", arguments.map),
+          std::pair("--plot", arguments.plot), std::pair("--fronts", arguments.fronts)})
+      if (!value.empty()) refuse(option, value, "must not be given with --riemann, which is of one moment");
+    check_outputs(arguments.scene.file(), {{"--riemann", arguments.riemann}});
+    arguments.pictures.apply();
+    check_picture_target(arguments.riemann);
+    return;
+  }
   if (arguments.times.empty())
     throw InputError("--times", "", "missing; must be a list such as 0.5,6 or 0:10:21 or steady");
   if (!arguments.fronts.empty() && !method.guarantees().has_fronts)
@@ -91,6 +115,12 @@ double steady_time(const SolveArguments& arguments, const Scene<double>& scene, 
   if (!t_star)
     refuse("--times", arguments.times, "needs the time of the steady state, which never comes here");
   return *t_star;
+}
+
+/// When what was computed has come to rest, as far as the method says.
+std::optional<double> steady_time_of(const SolverResult& result) {
+  if (result.timeline && result.timeline->t_star) return result.timeline->t_star;
+  return result.summary.rest_time;
 }
 
 /// --times, in which 0:steady:5 goes up to t*.
@@ -186,11 +216,12 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
-    if (!std::isfinite(t) && result.timeline && result.timeline->t_star) t = *result.timeline->t_star;
+    if (!std::isfinite(t)) t = steady_time_of(result).value_or(t);
   if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     const fit::PredictedSamples samples =
         fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
     note_draws(*draws, samples.n_failed);
+    note_bands(samples.n_by_draws, 2 * samples.phi.size());
     write_prediction_csv(output, times, request.heights, samples);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
@@ -200,20 +231,22 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   if (has_steady(times))
     note(fmt::format("{} has no time of the steady state: it goes to the state of rest, and t is empty",
                      task.method.name()));
+  else if (has_steady(request.times) && result.summary.rest_time)
+    note(fmt::format("{} had come to rest at t = {}, which stands for steady", task.method.name(),
+                     number_text(*result.summary.rest_time, 6)));
   if (fronts) note_size(result.fronts.size());
   if (fronts) write_fronts_csv(*fronts, result.fronts, task.scene.spec().units);
   if (fronts) fronts->commit();
   output.commit();
   int code = kDone;
   if (!arguments.plot.empty())
-    code = request.fronts ? draw_fronts(arguments.plot, task.scene, result.fronts,
-                                        result.timeline.value_or(Timeline<double>{}),
-                                        number_of(task.method, "resolution"))
+    code = request.fronts ? draw_fronts(arguments.plot, task.scene, task.method, result.fronts,
+                                        result.timeline.value_or(Timeline<double>{}))
                           : draw_profiles(arguments.plot, task.scene, task.method, times, task.others);
   if (arguments.map.empty() || code != kDone) return code;
   const double t_end = last_time(times);
   return draw_map(arguments.map, task.scene, task.method,
-                  t_end > 0 ? t_end : steady_time(arguments, task.scene, task.method));
+                  t_end > 0 ? t_end : steady_time(arguments, task.scene, task.method), task.contours);
 }
 
 int solve_scene(SolveArguments& arguments) {
@@ -227,7 +260,9 @@ int solve_scene(SolveArguments& arguments) {
   const auto scene = arguments.scene.read();
   if (arguments.scene.draws() && arguments.json)
     throw InputError("--json", "", "must not be given with a fit file or [uncertain], whose bands are CSV");
-  const Task task{scene, method, times_of(arguments, scene, method), std::move(methods)};
+  if (!arguments.riemann.empty()) return draw_riemann(arguments.riemann, scene);
+  const Task task{scene, method, times_of(arguments, scene, method), std::move(methods),
+                  contours_of(arguments, scene)};
   if (!arguments.positions.empty() && !scene.is_slab())
     refuse("--positions", arguments.positions, "must not be given: the scene has no table slab");
   if (scene.is_slab() && quantity_of(arguments) == SolvedQuantity::concentration && arguments.plot.empty()) {
@@ -268,6 +303,13 @@ Command add_solve(CLI::App& program) {
          "--map", arguments->map,
          "picture of phi over time and height, up to the last time, of a slab over x and z at the times: "
          "FILE.svg, .png or .pdf")
+      ->type_name("FILE");
+  app->add_option("--contours", arguments->contours,
+                  "of --map: states such as 0.25,0.5 or none; default round ones")
+      ->type_name("LIST");
+  app->add_option("--riemann", arguments->riemann,
+                  "picture of the waves from the interface of two layers in the plane of phi and flux: "
+                  "FILE.svg, .png or .pdf")
       ->type_name("FILE");
   arguments->pictures.add_to(*app);
   app->add_flag("--json", arguments->json, "write JSON instead of CSV");

@@ -12,6 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import flat, pandas
 from ._errors import one_complaint, without_places
+from ._examples import with_examples
 
 if TYPE_CHECKING:
     from ._arrays import FloatArray
@@ -21,6 +22,7 @@ _VALUES = {"phi": "point", "M": "cumulative", "H": "bed-height"}
 _COLUMNS = ("t", "z", *_VALUES, "width", "sigma")
 
 
+@with_examples
 class Observations:
     """Measured numbers with their places, as a fit takes them; made by :func:`data`.
 
@@ -74,9 +76,6 @@ class Observations:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> seen.to_csv().splitlines()[0]
         't,z,M,sigma'
         """
@@ -92,9 +91,6 @@ class Observations:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> import tempfile, pathlib
         >>> path = pathlib.Path(tempfile.mkdtemp()) / "seen.csv"
         >>> seen.save(path)
@@ -113,9 +109,6 @@ class Observations:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> list(seen.to_dict())
         ['t', 'z', 'M', 'sigma']
         """
@@ -138,16 +131,20 @@ class Observations:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> seen.to_dataframe().shape
         (12, 4)
         """
         return pandas().DataFrame(self.to_dict())
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _observations_of, (self._engine.state,)
+
     def __repr__(self) -> str:
         return f"<{len(self)} observations ({self.quantity}), t {self.t.min():g} to {self.t.max():g}>"
+
+
+def _observations_of(state: list[Any]) -> Observations:
+    return Observations(_core.observations_of_state(state))
 
 
 def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **columns: Any) -> Observations:

@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from ._arrays import flat, pandas
 from ._errors import NoResult
+from ._examples import with_examples
 from ._scene import Scene
 
 if TYPE_CHECKING:
@@ -36,7 +37,8 @@ class Parameter:
     start, estimate : float
     std_error : float or None
     ci95, profile95, bootstrap95 : pair of float or None
-        95 % intervals: from the curvature, by profile likelihood, by bootstrap. An end that the data do not give is NaN.
+        95 % intervals: from the curvature, by profile likelihood (on request, and beside a parameter at a bound), by
+        bootstrap. An end that the data do not give is NaN.
     at_bound : bool
     held_by_shape : bool
         Whether the shape asked for binds it to its neighbours.
@@ -65,6 +67,7 @@ class Parameter:
     ci95_is_doubtful: bool | None
 
 
+@with_examples
 @dataclass(frozen=True)
 class Prediction:
     """phi and M of a fitted scene with 95 % bands; NaN where there is no band.
@@ -104,10 +107,6 @@ class Prediction:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> list(found.predict([1], [0.2]).to_dataframe().columns)[:5]
         ['t', 'z', 'phi', 'lower', 'upper']
         """
@@ -137,6 +136,7 @@ class RateBand:
     upper: FloatArray
 
 
+@with_examples
 @dataclass(frozen=True)
 class Bootstrap:
     """A parametric bootstrap.
@@ -179,10 +179,6 @@ class Bootstrap:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> found.bootstrap(5).to_dataframe().shape
         (5, 2)
         """
@@ -204,6 +200,7 @@ class Bootstrap:
             return arviz.from_dict({"posterior": draws})
 
 
+@with_examples
 class Fit:
     """What a fit found.
 
@@ -329,10 +326,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> found.predict([1, 3], [0.2, 0.6], draws=100).phi_lower.shape
         (2, 2)
         """
@@ -357,10 +350,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> low, high = found.predict_events(draws=100)["t_star"]
         >>> low < found.scene.events().t_star < high
         True
@@ -376,10 +365,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> band = found.rate_band()
         >>> bool((band.lower < band.a).all())
         True
@@ -405,10 +390,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> len(found.draw(3))
         3
         """
@@ -429,10 +410,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> low, high = found.profile()["shear_rate.values[1]"]
         >>> low < 0.31 < high
         True
@@ -456,10 +433,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> found.bootstrap(40, seed=1).failed
         0
         """
@@ -476,10 +449,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> found.to_dict()["status"]
         'ok'
         """
@@ -504,10 +473,6 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> list(found.to_dataframe().columns)
         ['estimate', 'std_error', 'lower', 'upper', 'start', 'at_bound']
         """
@@ -531,16 +496,15 @@ class Fit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
-        >>> found = sf.fit(scene, seen, "shear_rate.values")
         >>> found.plot().get_xlabel()
         'M'
         """
         from . import pictures
 
         return pictures.fit(self, ax=ax)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _fit_of, (self.problem, *self._engine.state)
 
     def __repr__(self) -> str:
         lines = [
@@ -551,3 +515,7 @@ class Fit:
             lines.append(f"  {p.name} = {p.estimate:.6g}{error}")
         lines += [f"  warning: {w}" for w in self.warnings]
         return "\n".join(lines)
+
+
+def _fit_of(problem: Problem, scene: str, estimate: list[Any]) -> Fit:
+    return Fit(problem, _core.fitted_of_state(problem._engine, scene, estimate))

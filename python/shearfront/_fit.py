@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,8 @@ from ._arrays import flat
 from ._data import Observations, data
 from ._errors import without_places
 from ._estimate import Fit
+from ._examples import with_examples
+from ._methods import with_options
 from ._misfit import Misfit
 from ._scene import Scene
 from ._toml import toml_text
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from ._priors import Prior
 
 
+@with_examples
 class Problem:
     """A fit that has not run yet: scene, observations, unknowns and settings.
 
@@ -95,9 +99,6 @@ class Problem:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> sf.problem(scene, seen, "shear_rate.values").run().estimates.round(1)
         array([2.4, 0.3])
         """
@@ -117,9 +118,6 @@ class Problem:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> problem = sf.problem(scene, seen, "shear_rate.values")
         >>> problem.with_({"initial.breaks[0]": 0.52}).scene.entries["initial.breaks[0]"]
         0.52
@@ -137,6 +135,7 @@ def _problem_of(state: Any) -> Problem:
     return Problem(_core.problem_of_state(*state))
 
 
+@with_options
 def problem(
     scene: Scene,
     observations: Any,
@@ -251,6 +250,9 @@ def fit(
     if observations is None or not unknown:
         raise TypeError("fit needs observations and the names of what is unknown")
     return problem(scene, observations, unknown, **settings).run()
+
+
+with_options(fit, *(p for p in inspect.signature(problem).parameters.values() if p.kind is p.KEYWORD_ONLY))
 
 
 def read_fit(path: str | os.PathLike[str]) -> Problem:

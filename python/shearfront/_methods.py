@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import inspect
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
 
 from . import _core
+from ._options import Options
 
 #: The exact solution, which most calls ask for.
 EXACT = _core.Method("exact", [])
@@ -33,6 +35,23 @@ def method_of(name: str | _core.Method, options: Mapping[str, object]) -> _core.
     if isinstance(name, _core.Method):
         return name
     return _core.Method(name, option_texts(options))
+
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def with_options(function: _Function, *others: inspect.Parameter) -> _Function:
+    """Spells ``**options`` out in the signature, so that notebooks complete the options of all methods."""
+    signature = inspect.signature(function)
+    named = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    known = {p.name for p in (*named, *others)}
+    options = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=getattr(kind, "__forward_arg__", kind))
+        for name, kind in Options.__annotations__.items()
+        if name not in known
+    ]
+    function.__signature__ = signature.replace(parameters=[*named, *others, *options])  # type: ignore[attr-defined]
+    return function
 
 
 @lru_cache(maxsize=1)

@@ -10,12 +10,14 @@ import numpy as np
 from . import _core
 from ._arrays import flat
 from ._errors import NoResult
+from ._examples import with_examples
 
 if TYPE_CHECKING:
     from ._arrays import FloatArray
     from ._fit import Problem
 
 
+@with_examples
 class Misfit:
     """The misfit of a fit as a function of its unknowns, F(p) = sum rho(r_i(p)^2) / 2.
 
@@ -88,9 +90,6 @@ class Misfit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> sf.problem(scene, seen, "shear_rate.values").misfit.residuals([2.4, 0.31]).shape
         (12,)
         """
@@ -111,9 +110,6 @@ class Misfit:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)
         >>> sf.problem(scene, seen, "shear_rate.values").misfit.jacobian([2.4, 0.31]).shape
         (12, 2)
         """

@@ -12,7 +12,7 @@ import numpy as np
 from ._arrays import flat
 from ._errors import InputError, NoResult
 from ._misfit import Misfit
-from ._priors import Prior, Uniform
+from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
 from ._unbounded import Unbounded
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ class Posterior:
     names : list of str
         The unknowns.
     priors : dict
-        By name; flat within the bounds of the fit where none is given.
+        By name: those given, those of [prior] in the fit file, flat within the bounds of the fit where there is none.
 
     Examples
     --------
@@ -52,7 +52,7 @@ class Posterior:
         self._problem = problem
         self._misfit = Misfit(problem)
         self.names = list(self._misfit.names)
-        self.priors = _resolved(priors or {}, self.names)
+        self.priors = _resolved(_of_file(problem) | dict(priors or {}), self.names)
         lower = np.maximum(self._misfit.lower, [self.priors[n].low for n in self.names])
         upper = np.minimum(self._misfit.upper, [self.priors[n].high for n in self.names])
         # A density that ends at 0 has no finite logarithm there.
@@ -318,6 +318,17 @@ class Posterior:
             return arviz.from_dict(posterior=posterior, log_likelihood=likelihood)
         except TypeError:  # version 1 and later
             return arviz.from_dict({"posterior": posterior, "log_likelihood": likelihood})
+
+
+def _of_file(problem: Problem) -> dict[str, Prior]:
+    """Those of [prior] in a fit file."""
+    kinds: dict[str, Callable[[float, float], Prior]] = {
+        "uniform": Uniform,
+        "normal": Normal,
+        "lognormal": LogNormal,
+        "half_normal": lambda std, _: HalfNormal(std),
+    }
+    return {name: kinds[kind](first, second) for name, kind, first, second in problem._engine.priors}
 
 
 def _refused(key: str, value: str, constraint: str) -> InputError:

@@ -13,7 +13,8 @@ import numpy as np
 from . import _core
 from ._arrays import flat, times_of
 from ._errors import InputError, one_complaint, without_places
-from ._methods import EXACT, method_of, option_texts
+from ._examples import with_examples
+from ._methods import EXACT, method_of, option_texts, with_options
 from ._parts import (
     DEPTH_FUNCTIONS,
     depth_table,
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
 _DEFAULT_HEIGHTS = 101
 
 
+@with_examples
 class Scene:
     """A sheared bed of small and large grains.
 
@@ -215,8 +217,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.entries["shear_rate.values[1]"]
         0.31
         """
@@ -258,8 +258,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.solid_fraction([0.1, 0.9])
         array([1., 1.])
         """
@@ -280,8 +278,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.initial_phi([0.1, 0.9])
         array([0., 1.])
         """
@@ -304,8 +300,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.flux([0.25, 0.5])
         array([-0.1875, -0.25  ])
         """
@@ -332,8 +326,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> print(scene.to_toml().splitlines()[5])
         [shear_rate]
         """
@@ -349,8 +341,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.to_dict()["initial"]
         {'breaks': [0.5], 'values': [0, 1]}
         """
@@ -366,8 +356,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> import tempfile, pathlib
         >>> path = pathlib.Path(tempfile.mkdtemp()) / "scene.toml"
         >>> scene.save(path)
@@ -390,8 +378,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.with_({"shear_rate.values[1]": 0.4}).shear_rate(0.9).item()
         0.4
 
@@ -458,6 +444,7 @@ class Scene:
 
     # The direct problem
 
+    @with_options
     def solve(
         self, t: Any, z: Any = None, *, method: str = "exact", fronts: bool = False, **options: Unpack[Options]
     ) -> Solution:
@@ -494,8 +481,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.solve([0.5, 2], [0.25, 0.5, 0.75]).phi.round(3)
         array([[0.   , 0.5  , 1.   ],
                [0.029, 0.5  , 0.702]])
@@ -510,6 +495,7 @@ class Scene:
         segments = result["fronts"].view(FRONT) if fronts else None
         return Solution(self, method, times, heights, result["phi"], result["M"], result["summary"], segments)
 
+    @with_options
     def phi(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
         """phi(z, t), broadcasting like a ufunc.
 
@@ -538,6 +524,7 @@ class Scene:
             return _core.sample_place(self._engine, EXACT, t, z)[0]
         return self._sample(z, t, method, options, 0)
 
+    @with_options
     def M(self, z: Any, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> Any:
         """M(z, t), the integral of phi from the bottom up to z, broadcasting like :meth:`phi`.
 
@@ -575,6 +562,7 @@ class Scene:
             values = _core.sample(self._engine, solver, flat(t), flat(z))[which]
         return values.reshape(shape) if shape else values.item()
 
+    @with_options
     def jacobian(
         self, z: Any, t: Any, entries: str | Sequence[str] = (), *, method: str = "exact", **options: Unpack[Options]
     ) -> Jacobian:
@@ -597,8 +585,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.jacobian([0.4, 0.5], 0.4, "shear_rate.values").names
         ['shear_rate.values[0]', 'shear_rate.values[1]']
         """
@@ -611,6 +597,7 @@ class Scene:
         shape = (*z.shape, len(names))
         return Jacobian(names, phi.reshape(z.shape), amount.reshape(z.shape), dphi.reshape(shape), damount.reshape(shape))
 
+    @with_options
     def events(self, *, method: str = "exact", **options: Unpack[Options]) -> Events:
         """When the first and last waves come to walls and interfaces, and when all is at rest.
 
@@ -620,8 +607,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> events = scene.events()
         >>> round(events.t0, 4), round(events.interfaces[0].first, 4)
         (0.7983, 0.6774)
@@ -635,6 +620,7 @@ class Scene:
         found["interfaces"] = tuple(Interface(*i) for i in found["interfaces"])
         return Events(**found)
 
+    @with_options
     def bed(self, t: Any, *, method: str = "exact", **options: Unpack[Options]) -> dict[str, FloatArray]:
         """Numbers of the whole bed at times: how well it is mixed, and how high it stands.
 
@@ -660,6 +646,7 @@ class Scene:
         times = times_of(t)
         return {"t": times, **_core.course(self._engine, method_of(method, options), times)}
 
+    @with_options
     def track(self, resolution: float = 0.01, *, history: bool = True, **options: Any) -> Tracking:
         """The bed by front tracking, step by step.
 
@@ -678,9 +665,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> bed = scene.track(0.1)
         >>> bed.advance(0.8)
         'ok'
         >>> len(bed.fronts()) > 10
@@ -690,6 +674,7 @@ class Scene:
 
         return Tracking(self, _core.track(self._engine, option_texts({"resolution": resolution, **options}), history))
 
+    @with_options
     def compare(
         self,
         t: Any,
@@ -719,8 +704,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> errors = scene.compare(0.5, ["engquist-osher"], cells=[50, 100])["l1_error"]
         >>> bool(errors[1] < errors[0])
         True
@@ -736,6 +719,7 @@ class Scene:
         kind = [("method", "U24"), ("resolution", float), ("t", float), ("l1_error", float), ("wall_s", float), ("work", int)]
         return np.array(rows, dtype=kind)
 
+    @with_options
     def observe(
         self,
         t: Any,
@@ -764,8 +748,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> len(scene.observe([0.5, 1], [0.1, 0.5, 0.9], quantity="cumulative", noise=0.01))
         6
 
@@ -794,8 +776,6 @@ class Scene:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.plot().get_ylabel()
         'z'
         """

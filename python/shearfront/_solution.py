@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._arrays import pandas, xarray
+from ._examples import with_examples
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,6 +31,7 @@ FRONT = np.dtype(
 )
 
 
+@with_examples
 @dataclass(frozen=True)
 class Solution:
     """phi and M at times and heights.
@@ -125,8 +127,6 @@ class Solution:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.solve([0, 1]).plot().get_ylabel()
         'z'
         """
@@ -189,6 +189,7 @@ class Events:
         return self.interfaces[0].first if self.interfaces else None
 
 
+@with_examples
 @dataclass(frozen=True)
 class Jacobian:
     """phi and M with their derivatives with respect to entries of the scene.
@@ -243,8 +244,6 @@ class Jacobian:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.jacobian([0.4, 0.6], 0.5).of_M("shear_rate.values[1]").shape
         (2,)
         """
@@ -269,8 +268,6 @@ class Jacobian:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.jacobian([0.4, 0.6], 0.5, "shear_rate.values").to_dataframe().shape
         (2, 2)
         """

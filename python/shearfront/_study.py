@@ -16,7 +16,9 @@ import numpy as np
 from ._arrays import pandas
 from ._errors import InputError, NoResult, one_complaint
 from ._estimate import Fit
+from ._examples import with_examples
 from ._fit import Problem
+from ._methods import with_options
 from ._scene import Scene
 
 if TYPE_CHECKING:
@@ -37,6 +39,7 @@ Row = dict[str, float]
 Outcome = tuple[Row, str]
 
 
+@with_examples
 @dataclass(frozen=True)
 class Study:
     """The rows of a study, in the order of its points whoever ran them.
@@ -82,8 +85,6 @@ class Study:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> sf.study(scene, {"initial.breaks[0]": [0.4, 0.5]}).to_dataframe().shape
         (2, 3)
         """
@@ -91,6 +92,7 @@ class Study:
         return pandas().DataFrame({**self.entries, **self.outputs, "failure": failures})
 
 
+@with_options
 def study(
     of: Scene | Problem | Fit,
     parameters: Any,

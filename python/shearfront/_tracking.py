@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import flat
+from ._examples import with_examples
 from ._solution import FRONT
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ COLLISION = np.dtype(
 )
 
 
+@with_examples
 @dataclass(frozen=True)
 class Profile:
     """phi over all heights at one time: linear on every cell, with jumps between cells.
@@ -61,14 +63,13 @@ class Profile:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.track(0.5).profile().line()[0]
         array([0. , 0. , 0. , 0. , 0.5, 0.5, 1. , 1. ])
         """
         return np.column_stack((self.below, self.above)).ravel(), np.repeat(self.z, 2)[1:-1]
 
 
+@with_examples
 class Tracking:
     """A bed under way from t = 0 by front tracking; made by :meth:`Scene.track`.
 
@@ -120,8 +121,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.track(0.1).advance(0.5)
         'ok'
         """
@@ -136,9 +135,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> bed = scene.track(0.1)
         >>> ahead = bed.copy()
         >>> _ = ahead.advance(1.0)
         >>> bed.time, ahead.time
@@ -155,8 +151,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.track(0.5).profile().z
         array([0.  , 0.29, 0.5 , 0.5 , 1.  ])
         """
@@ -177,8 +171,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.track(0.1).phi([0.25, 0.75])
         array([0., 1.])
         """
@@ -201,8 +193,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
         >>> scene.track(0.1).M(1.0).item()
         0.5
         """
@@ -220,9 +210,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> bed = scene.track(0.1)
         >>> _ = bed.advance(0.5)
         >>> bool((bed.fronts()["t_end"] == 0.5).all())
         True
@@ -239,9 +226,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> bed = scene.track(0.1)
         >>> _ = bed.advance(0.7)
         >>> bed.collisions()["z"].tolist()
         []
@@ -296,9 +280,6 @@ class Tracking:
 
         Examples
         --------
-        >>> import shearfront as sf
-        >>> scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
-        >>> bed = scene.track(0.1)
         >>> _ = bed.advance(0.5)
         >>> bed.plot().get_xlabel()
         't'

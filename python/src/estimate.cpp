@@ -124,12 +124,12 @@ nb::dict predict_events(const Fitted& self, std::size_t draws, std::optional<std
     return fit::predict_events(*self.estimate->scene, drawn, self.spec->forward.method, progress);
   });
   nb::dict all;
-  all["t0"] = ends_of(events.t0);
-  all["t1"] = ends_of(events.t1);
-  all["t_star"] = ends_of(events.t_star);
+  all["t0"] = ends_of(events.t0.band);
+  all["t1"] = ends_of(events.t1.band);
+  all["t_star"] = ends_of(events.t_star.band);
   nb::list interfaces;
   for (const auto& at : events.interfaces)
-    interfaces.append(nb::make_tuple(ends_of(at.first), ends_of(at.last)));
+    interfaces.append(nb::make_tuple(ends_of(at.first.band), ends_of(at.last.band)));
   all["interfaces"] = interfaces;
   return all;
 }
@@ -153,8 +153,8 @@ nb::tuple bootstrap(const Fitted& self, std::size_t replicates, std::uint64_t se
   spec.uncertainty.seed = seed;
   spec.uncertainty.threads = threads;
   const fit::Bootstrap found = without_lock([&](const fit::Progress& progress) {
-    const fit::Refit refit = [](const fit::FitSpec& replicate) {
-      fit::StagedSearch search(replicate, {});
+    const fit::Refit refit = [](const fit::FitSpec& replicate, const fit::Progress& ask) {
+      fit::StagedSearch search(replicate, ask);
       search.find();
       return search.values();
     };
@@ -176,8 +176,8 @@ nb::tuple draws(const Fitted& self, std::size_t n, std::uint64_t seed) {
 }  // namespace
 
 void bind_estimate(nb::module_& m) {
-  nb::class_<Fitted>(m, "Fitted")
-      .def_prop_ro("parameters", &parameters_of)
+  nb::class_<Fitted> fitted(m, "Fitted");
+  fitted.def_prop_ro("parameters", &parameters_of)
       .def_prop_ro("facts", &facts_of)
       .def_prop_ro("correlation", [](const Fitted& self) { return matrix_from(self.estimate->correlation); })
       .def_prop_ro("predicted", [](const Fitted& self) { return array_of(self.estimate->predicted); })
@@ -187,6 +187,7 @@ void bind_estimate(nb::module_& m) {
       .def("rate_band", &rate_band)
       .def("draws", &draws)
       .def("bootstrap", &bootstrap);
+  bind_state(m, fitted);
 }
 
 }  // namespace shearfront::python

@@ -4,9 +4,11 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +26,7 @@ FitProblem problem_of(FitFile file) {
   return {std::make_shared<const fit::FitSpec>(std::move(file.spec)), std::move(file.remarks)};
 }
 
-Fitted run(const FitProblem& problem) {
+Fitted run_fit(const FitProblem& problem) {
   fit::Estimate estimate =
       without_lock([&](const fit::Progress& progress) { return fit::fit(*problem.spec, progress); });
   if (!estimate.usable()) throw Unusable(estimate.status, estimate.message);
@@ -60,9 +62,18 @@ void bind_fit(nb::module_& m) {
       .def_prop_ro("scene", [](const FitProblem& self) { return SharedScene(self.spec->scene); })
       .def_prop_ro("observations", [](const FitProblem& self) { return self.spec->observations; })
       .def_prop_ro("method", [](const FitProblem& self) { return self.spec->forward.method; })
+      .def_prop_ro("priors",
+                   [](const FitProblem& self) {
+                     std::vector<std::tuple<std::string, std::string, double, double>> all;
+                     for (const fit::Prior& prior : self.spec->priors)
+                       all.emplace_back(prior.parameter,
+                                        fit::kPriorNames[static_cast<std::size_t>(prior.kind)], prior.first,
+                                        prior.second);
+                     return all;
+                   })
       .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
       .def("with_uncertainty", &with_uncertainty)
-      .def("run", &run);
+      .def("run", &run_fit);
   bind_fit_state(m, problem);
   m.def("read_fit", [](const std::string& path) { return problem_of(fit::read_fit_file(path)); });
   m.def("is_fit_file", [](const std::string& path) { return fit::is_fit_file(path); });

@@ -9,6 +9,7 @@
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/fit/parameters.hpp"
+#include "shearfront/solution/observation.hpp"
 
 namespace shearfront::python {
 
@@ -25,6 +26,10 @@ struct FitProblem {
   std::shared_ptr<const fit::FitSpec> spec;
   std::vector<std::string> remarks;
 };
+
+/// What pickles hold (estimate_state.cpp).
+void bind_state(nanobind::module_& m, nanobind::class_<Fitted>& fitted);
+void bind_state(nanobind::module_& m, nanobind::class_<Observations>& observations);
 
 /// Texts of a fit, and what is made from them (fit_state.cpp).
 void bind_fit_state(nanobind::module_& m, nanobind::class_<FitProblem>& problem);

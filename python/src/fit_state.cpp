@@ -66,6 +66,14 @@ std::string settings_text(const fit::FitSpec& spec) {
   line("bootstrap", std::to_string(spec.uncertainty.bootstrap));
   line("seed", std::to_string(spec.uncertainty.seed));
   line("threads", std::to_string(spec.uncertainty.threads));
+  text += "[prior]\n";
+  for (const fit::Prior& prior : spec.priors) {
+    text += word(prior.parameter) + " = { " +
+            std::string(fit::kPriorNames[static_cast<std::size_t>(prior.kind)]) + " = [" +
+            number(prior.first);
+    if (prior.kind != fit::PriorKind::half_normal) text += ", " + number(prior.second);
+    text += "] }\n";
+  }
   return text;
 }
 

@@ -40,6 +40,7 @@ nb::dict dict_of(const Summary& summary) {
   all["cell_updates"] = summary.cell_updates;
   all["layers"] = summary.layers;
   all["wall_s"] = summary.wall_s;
+  if (summary.rest_time) all["rest_time"] = *summary.rest_time;
   return all;
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "fit.hpp"
 #include "outcome.hpp"
 #include "scene.hpp"
 #include "shearfront/io/observations_csv.hpp"
@@ -121,12 +122,13 @@ Observations read(const std::string& path, const SharedScene& scene, const Pairs
 }  // namespace
 
 void bind_observations(nb::module_& m) {
-  nb::class_<Observations>(m, "Observations")
-      .def_prop_ro("columns", &columns_of)
+  nb::class_<Observations> observations(m, "Observations");
+  observations.def_prop_ro("columns", &columns_of)
       .def_prop_ro("text", &observations_text)
       .def_prop_ro("notes", [](const Observations& self) { return self.notes; })
       .def_prop_ro("n_missing", [](const Observations& self) { return self.n_missing; })
       .def_prop_ro("understood", [](const Observations& self) { return self.understood; });
+  bind_state(m, observations);
   m.def("observations", &observations_of, nb::arg("scene"), nb::arg("quantity"), nb::arg("t"), nb::arg("z"),
         nb::arg("values"), nb::arg("width").none(), nb::arg("sigma").none(), nb::arg("replicates"));
   m.def("read_observations", &read, nb::arg("path"), nb::arg("scene"), nb::arg("columns"), nb::arg("units"),

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import pickle
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -187,6 +189,49 @@ def test_problems_survive_a_pickle(path: Path) -> None:
     assert again._engine.state == problem._engine.state
     if path.parent.name in ("paper-example-3", "segregation-gamma-0.9", "traffic-us-101"):
         np.testing.assert_array_equal(again.run().estimates, problem.run().estimates)
+
+
+def same_to_the_bit(a: object, b: object) -> None:
+    """Numbers, texts, NaN and arrays inside of lists, tuples and tables."""
+    if isinstance(a, dict):
+        assert list(a) == list(b)
+        a, b = list(a.values()), list(b.values())
+    if isinstance(a, (list, tuple)):
+        assert len(a) == len(b)
+        for x, y in zip(a, b, strict=True):
+            same_to_the_bit(x, y)
+    elif isinstance(a, np.ndarray):
+        np.testing.assert_array_equal(a, b)
+    else:
+        assert type(a) is type(b)
+        assert a == b or (a != a and b != b)
+
+
+@pytest.mark.parametrize("name", ["paper-example-3", "paper-example-4-convex", "may-2010-bed-height", "segregation-gamma-0.9"])
+def test_results_survive_a_pickle(name: str) -> None:
+    found = sf.read_fit(DATASETS / name / "fit.toml").run()
+    again = pickle.loads(pickle.dumps(found))
+    same_to_the_bit(again.to_dict(), found.to_dict())
+    same_to_the_bit(again.parameters, found.parameters)
+    same_to_the_bit([again.predicted, again.residuals], [found.predicted, found.residuals])
+    same_to_the_bit(again._engine.state, found._engine.state)
+    assert again.scene == found.scene
+    assert repr(again) == repr(found)
+    t, z = found.problem.observations.t[:2], [found.scene.bottom, found.scene.top]
+    options = [fit.predict(t, z, draws=20) for fit in (found, again)]
+    same_to_the_bit(vars(options[0]), vars(options[1]))
+    observations = pickle.loads(pickle.dumps(found.problem.observations))
+    same_to_the_bit(observations._engine.state, found.problem.observations._engine.state)
+    assert observations.to_csv() == found.problem.observations.to_csv()
+
+
+def test_fits_come_back_from_other_processes(may: sf.Scene, seen: sf.Observations) -> None:
+    problem = sf.problem(may, seen, "shear_rate.values", profile=True, bootstrap=40)
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        there = pool.submit(sf.Problem.run, problem).result()
+    here = problem.run()
+    same_to_the_bit({**there.to_dict(), "wall_s": 0}, {**here.to_dict(), "wall_s": 0})
+    same_to_the_bit(there.bootstrap(40).estimates, here.bootstrap(40).estimates)
 
 
 def test_models_are_compared(may: sf.Scene, seen: sf.Observations) -> None:

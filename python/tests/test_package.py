@@ -86,6 +86,16 @@ def test_style() -> None:
     run("-m", "ruff", "format", "--no-cache", "--check", "python", "scripts/stubs.py")
 
 
+def test_options_are_spelt_out_for_completion() -> None:
+    options = {name for method in sf.methods().values() for name in method["options"]}
+    for function in (sf.Scene.solve, sf.Scene.phi, sf.Scene.observe, sf.study, sf.problem, sf.fit):
+        parameters = inspect.signature(function).parameters
+        assert options <= set(parameters), function.__name__
+        assert all(p.kind is not p.VAR_KEYWORD for p in parameters.values())
+    assert {"start", "algorithm", "bootstrap"} <= set(inspect.signature(sf.fit).parameters)
+    assert "resolution" in inspect.signature(sf.Scene.track).parameters
+
+
 def test_only_numpy_is_needed() -> None:
     code = "import sys, shearfront as sf; sf.Scene(shear_rate=1, initial=sf.Step(.5)).solve(1)\n"
     code += "bad = {'pandas', 'xarray', 'matplotlib', 'scipy', 'arviz'} & set(sys.modules); assert not bad, bad"
@@ -139,3 +149,27 @@ def test_pages(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     result = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(example)
     assert result.attempted > 4
     assert result.failed == 0
+
+
+def test_the_notebook_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs the cells, which scripts/docs runs in a kernel: twenty lines, and the numbers that the paper prints."""
+    pytest.importorskip("pandas")
+    pytest.importorskip("matplotlib").use("Agg")
+    page = (SOURCE / "docs" / "tutorials" / "paper-tables.md").read_text(encoding="utf-8")
+    cells = [part.partition("```")[0] for part in page.split("```{code-cell} ipython3\n")[1:]]
+    lines = [line for cell in cells for line in cell.splitlines() if line and not line.startswith("%%")]
+    assert len(lines) <= 20
+    found: dict[str, object] = {}
+    exec(compile("\n".join(lines), "paper-tables.md", "exec"), found)
+    for delta, row in (
+        (0.1, [1.0502, 1.1772, 2.4998, 3.9503, 5.0000]),
+        (0.01, [0.6788, 0.8000, 1.6145, 4.9378, 6.2500]),
+        (1e-4, [0.6778, 0.7990, 1.6133, 5.0043, 6.4516]),
+        (5e-5, [0.6777, 0.7989, 1.6130, 5.0055, 6.4516]),
+    ):
+        np.testing.assert_allclose(found["rows"][delta], row, rtol=2e-3)
+    errors = found["errors"][found["errors"]["method"] == "front-tracking"]["l1_error"].reshape(4, 2)
+    paper = np.array([[6.52e-3, 3.26e-2], [2.80e-3, 2.54e-3], [6.87e-4, 2.54e-3], [3.69e-4, 1.48e-3]])
+    assert np.all(errors < 1.02 * paper), "as small as those of the paper"
+    assert np.all(errors > 0.75 * paper)
+    assert np.abs(found["found"].estimates - [3.25, 2.32, 1.63, 1.05, 0.53]).sum() < 0.204, "the best sum of errors of the paper"

@@ -185,9 +185,10 @@ Outcome run(const fit::FitSpec& spec, const VectorXd& truth) {
     if (p.profile95)
       outcome.profile_covered[i] = !(p.profile95->low > truth[i]) && !(p.profile95->high < truth[i]) ? 1 : 0;
     if (p.check) outcome.doubtful[i] = p.check->is_doubtful() ? 1 : 0;
-    if (!p.ci95) continue;
-    outcome.covered[i] = p.ci95->low <= truth[i] && truth[i] <= p.ci95->high ? 1 : 0;
-    outcome.stated[i] = *p.std_error / p.estimate;
+    // What is printed: beside a bound the profile interval.
+    const auto& printed = p.ci95 ? p.ci95 : p.profile95;
+    if (printed) outcome.covered[i] = !(printed->low > truth[i]) && !(printed->high < truth[i]) ? 1 : 0;
+    if (p.std_error) outcome.stated[i] = *p.std_error / p.estimate;
   }
   return outcome;
 }
@@ -233,17 +234,17 @@ void print(const Example& example, Quantity quantity, double sigma, const std::v
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto k = static_cast<Index>(i);
     double squares = 0, bias = 0, stated = 0;
-    std::size_t n = 0, without = 0, structured = 0;
+    std::size_t n = 0, without = 0, n_stated = 0, structured = 0;
     for (const Outcome& outcome : outcomes) {
       if (!outcome.is_usable) continue;
       ++n;
       squares += outcome.error[k] * outcome.error[k];
       bias += outcome.error[k];
       structured += outcome.structured ? 1 : 0;
-      if (std::isnan(outcome.stated[k]))
-        ++without;
-      else
-        stated += outcome.stated[k] * outcome.stated[k];
+      without += std::isnan(outcome.covered[k]) ? 1 : 0;
+      if (std::isnan(outcome.stated[k])) continue;
+      ++n_stated;
+      stated += outcome.stated[k] * outcome.stated[k];
     }
     const auto count = static_cast<double>(n);
     const double rmse = std::sqrt(squares / count);
@@ -253,8 +254,7 @@ void print(const Example& example, Quantity quantity, double sigma, const std::v
         example.name, std::string(name_of(quantity)).c_str(), sigma, names[i].c_str(), covered(2).c_str(),
         covered(0).c_str(), covered(1).c_str(), share(outcomes, &Outcome::profile_covered, k).c_str(),
         share(outcomes, &Outcome::doubtful, k).c_str(), rmse, rmse / (sigma * bound[k]), bias / count / rmse,
-        std::sqrt(stated / (count - static_cast<double>(without))) / rmse, outcomes.size() - n, without,
-        structured);
+        std::sqrt(stated / static_cast<double>(n_stated)) / rmse, outcomes.size() - n, without, structured);
     std::fflush(stdout);
   }
 }

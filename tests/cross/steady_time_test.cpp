@@ -3,7 +3,10 @@
 // event of a polygon was called the last event of the bed, and moved away as the polygon was refined.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,6 +109,62 @@ TEST(SteadyTime, OnlyLayersThatFillCount) {
 // Fluxes with a slope at both pure states: nothing but the tracker's time.
 TEST(SteadyTime, TheTimeOfTheTrackerWhereItConverges) {
   EXPECT_NEAR(*times(upside_down(Quadratic<double>{}), 0.001).t_star, 2, 1e-5);
+}
+
+// The time that grid methods give with the steady state: by then M is that of the steady state, which was not so a crossing of
+// the bed before; it comes to t* of the exact solution as cells become narrower, and not before it.
+TEST(SteadyTime, GridMethodsSayWhenTheyHadComeToRest) {
+  const Scene<> scene(upside_down(Quadratic<double>{}));
+  constexpr double kExact = 2, kNear = 1e-9;
+  int n_checked = 0;
+  for (const char* name : {"godunov", "engquist-osher", "muscl"}) {
+    double coarsest = 0, finest = 0;
+    for (const std::uint64_t cells : {50U, 100U, 200U}) {
+      SCOPED_TRACE(std::string(name) + " with " + std::to_string(cells));
+      Method method(name);
+      method.set("cells", cells);
+      SolverRequest request;
+      request.times = {std::numeric_limits<double>::infinity()};
+      for (int i = 1; i < 100; ++i) request.heights.push_back(0.01 * i);
+      const SolverResult steady = solve(scene, method, request);
+      ASSERT_TRUE(steady.summary.rest_time);
+      const double t = *steady.summary.rest_time;
+      EXPECT_GT(t, kExact);
+      finest = t - kExact;
+      if (coarsest == 0) coarsest = finest;
+      const auto distance_at = [&](double time) {
+        request.times = {time};
+        const SolverResult then = solve(scene, method, request);
+        EXPECT_FALSE(then.summary.rest_time);
+        double largest = 0;
+        for (std::size_t j = 0; j < request.heights.size(); ++j)
+          largest = std::max(largest, std::abs(then.M(0, j) - steady.M(0, j)));
+        return largest;
+      };
+      EXPECT_LE(distance_at(t), kNear);
+      EXPECT_GT(distance_at(t - 1.0 / 8), kNear);
+      ++n_checked;
+    }
+    EXPECT_LT(finest, coarsest) << name;
+    EXPECT_LT(finest, 0.1 * kExact) << name;
+  }
+  EXPECT_EQ(n_checked, 9);
+}
+
+// With diffusion nothing has an end; the scheme says when what was left was less than its tolerance.
+TEST(SteadyTime, CrankNicolsonSaysWhenItHadComeToRest) {
+  SceneSpec<> spec = upside_down(Quadratic<double>{});
+  spec.diffusion.emplace().D = 0.05;
+  const Scene<> scene(spec);
+  SolverRequest request;
+  request.times = {std::numeric_limits<double>::infinity()};
+  request.heights = {0.1, 0.3, 0.5, 0.7, 0.9};
+  const SolverResult steady = solve(scene, "crank-nicolson", request);
+  ASSERT_TRUE(steady.summary.rest_time);
+  request.times = {*steady.summary.rest_time};
+  const SolverResult then = solve(scene, "crank-nicolson", request);
+  for (std::size_t j = 0; j < request.heights.size(); ++j)
+    EXPECT_NEAR(then.phi(0, j), steady.phi(0, j), 1e-4);  // ten tolerances
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ TEST(FitBootstrap, AgreesWithErrorBars) {
 }
 
 /// A fit that returns the mean of the data as its only parameter: everything is known about it.
-std::optional<VectorXd> mean_of(const FitSpec& spec) {
+std::optional<VectorXd> mean_of(const FitSpec& spec, const Progress& /*progress*/) {
   double sum = 0;
   for (const Observation& o : spec.observations.rows) sum += o.value;
   return VectorXd::Constant(1, sum / static_cast<double>(spec.observations.rows.size()));
@@ -269,8 +269,8 @@ TEST(FitBootstrap, CountsFailuresAndNeedsEnoughReplicates) {
   spec.uncertainty.bootstrap = 100;
   const Parameters parameters(spec.scene, spec.unknown);
   const auto sometimes = [](double above) {
-    return [above](const FitSpec& one) -> std::optional<VectorXd> {
-      const auto mean = mean_of(one);
+    return [above](const FitSpec& one, const Progress&) -> std::optional<VectorXd> {
+      const auto mean = mean_of(one, {});
       if (one.observations.rows[0].value < above) return mean;
       if (one.observations.rows[1].value < 1) return {};
       throw InputError("a", "b", "c");

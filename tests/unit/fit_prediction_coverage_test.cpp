@@ -75,7 +75,8 @@ Coverage coverage_of(const SceneSpec<double>& truth, const std::vector<double>& 
       covered.phi += band && band->low <= places.truth[k] && places.truth[k] <= band->high ? 1 : 0;
     }
     const PredictedEvents events = predict_events(*estimate.scene, draws, Method());
-    covered.t_star += events.t_star && events.t_star->low <= t_star && t_star <= events.t_star->high ? 1 : 0;
+    const auto& band = events.t_star.band;
+    covered.t_star += band && band->low <= t_star && t_star <= band->high ? 1 : 0;
   }
   covered.phi /= kPredictionReplicates * static_cast<double>(kCoveredPlaces);
   covered.t_star /= kPredictionReplicates;

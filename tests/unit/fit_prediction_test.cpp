@@ -106,24 +106,81 @@ TEST(FitPrediction, AnUnknownAtItsBoundStaysThereAndOneWithoutErrorGivesNoDraws)
   }
 }
 
-// All times of a scene are proportional to 1 / s.
+// All times of a scene are proportional to 1 / s: what is relative to them is the error of s, to nine digits.
 TEST(FitPrediction, BandsOfTimesAreThoseOfTheScale) {
   const Scene<double> scene(small_above_large({0.29}, {3.15, 0.5}));
   const Parameters parameters(scene, {{"shear_rate.scale"}, {}, {}, {}, Shape::none});
   const DrawnScenes draws = draw_scenes(parameters, estimate_of(parameters, {0.1}, 0), 4000, 11);
   const PredictedEvents events = predict_events(scene, draws, Method());
   const Timeline<double>& at = events.at_estimate;
-  const double factor = std::exp(kNormal * 0.1), slack = 0.02;  // three errors of a quantile of 4000 draws
-  const auto expect_band = [&](const std::optional<Interval>& band, const std::optional<double>& t) {
-    ASSERT_TRUE(band && t);
-    EXPECT_NEAR(band->low * factor / *t, 1, slack);
-    EXPECT_NEAR(band->high / factor / *t, 1, slack);
+  const double factor = std::exp(kNormal * 0.1);
+  const auto expect_band = [&](const PredictedNumber& number, const std::optional<double>& t, double slack) {
+    ASSERT_TRUE(number.band && t);
+    EXPECT_NEAR(number.band->low * factor / *t, 1, slack);
+    EXPECT_NEAR(number.band->high / factor / *t, 1, slack);
   };
-  expect_band(events.t_star, at.t_star);
-  expect_band(events.t1, at.t1);
   ASSERT_EQ(events.interfaces.size(), 1U);
-  expect_band(events.interfaces[0].last, at.interfaces[0].last);
-  EXPECT_EQ(events.n_failed, 0U);
+  for (const auto& [number, t] : {std::pair(events.t_star, at.t_star), std::pair(events.t1, at.t1),
+                                  std::pair(events.interfaces[0].last, at.interfaces[0].last)}) {
+    expect_band(number, t, 1e-9);
+    EXPECT_NEAR(number.std_error.value_or(0), 0.1 * *t, 1e-9 * *t);
+  }
+  EXPECT_EQ(events.n_by_draws, 0U);
+  // The same by draws: three errors of a quantile of 4000 of them.
+  DrawnScenes without_axes = draws;
+  without_axes.axes.clear();
+  const PredictedEvents drawn = predict_events(scene, without_axes, Method());
+  expect_band(drawn.t_star, at.t_star, 0.02);
+  EXPECT_FALSE(drawn.t_star.std_error);
+  EXPECT_EQ(drawn.n_by_draws, 5U);
+  EXPECT_EQ(drawn.n_failed, 0U);
+}
+
+// One layer, k t* = 1 + 2 sqrt(z0 (1 - z0)): with z0 and k known up to errors of correlation r, the logarithm of t* has the
+// variance (g sd_z)^2 + sd_k^2 - 2 r g sd_z sd_k, g = d log t* / d z0.
+TEST(FitPrediction, AnEventTimeHasTheErrorOfItsClosedForm) {
+  SceneSpec<double> spec = small_above_large({}, {2.0});
+  const double z0 = 0.3, sd_z = 0.004, sd_k = 0.03, r = 0.4;
+  spec.initial_breaks = {z0};
+  const Scene<double> scene(spec);
+  const Parameters parameters(scene, {{"shear_rate.values", "initial.breaks"}, {}, {}, {}, Shape::none});
+  const PredictedEvents events = predict_events(
+      scene, draw_scenes(parameters, estimate_of(parameters, {2 * sd_k, sd_z}, r), 0, 1), Method());
+  const double root = std::sqrt(z0 * (1 - z0)), t = (1 + 2 * root) / 2;
+  const double g = (1 - 2 * z0) / root / (1 + 2 * root);
+  const double expected = std::sqrt(g * g * sd_z * sd_z + sd_k * sd_k - 2 * r * g * sd_z * sd_k);
+  EXPECT_NEAR(events.t_star.value, t, 1e-14);
+  EXPECT_NEAR(events.t_star.std_error.value_or(0) / t, expected, 1e-7 * expected);
+}
+
+// Where the bed may be at rest already, or one of two waves is the last, no straight line leads from one time to the other.
+TEST(FitPrediction, AKinkHasABandByDraws) {
+  SceneSpec<double> spec = small_above_large({}, {1.0});
+  const Scene<double> scene(spec);  // z0 = 1/2, where t* is largest: it has no slope there, but a curvature
+  const Parameters parameters(scene, {{"initial.breaks"}, {}, {}, {}, Shape::none});
+  const PredictedEvents events =
+      predict_events(scene, draw_scenes(parameters, estimate_of(parameters, {0.1}, 0), 2000, 1), Method());
+  EXPECT_FALSE(events.t_star.std_error);
+  ASSERT_TRUE(events.t_star.band);
+  EXPECT_LT(events.t_star.band->low, 1.99);
+  EXPECT_LE(events.t_star.band->high, 2);
+  EXPECT_GE(events.n_by_draws, 1U);
+}
+
+// A shock at rest between pure states, 2 sd from the place: phi is one state or the other, M has a slope to one side only.
+TEST(FitPrediction, AShockThatMayHavePassedHasABandByDraws) {
+  const Scene<double> scene(small_above_large({}, {1.0}));
+  const Parameters parameters(scene, {{"initial.breaks"}, {}, {}, {}, Shape::none});
+  const DrawnScenes draws = draw_scenes(parameters, estimate_of(parameters, {0.01}, 0), 2000, 3);
+  const PredictedSamples at_rest = predict_samples(scene, draws, Method(), {20}, {0.1, 0.495, 0.9});
+  EXPECT_EQ(at_rest.phi[0].std_error, 0);
+  EXPECT_FALSE(at_rest.phi[1].std_error);
+  ASSERT_TRUE(at_rest.phi[1].band);
+  EXPECT_EQ(at_rest.phi[1].band->low, 0);
+  EXPECT_EQ(at_rest.phi[1].band->high, 1);
+  EXPECT_EQ(at_rest.phi[2].std_error, 0);
+  EXPECT_NEAR(at_rest.M[2].std_error.value_or(0), 0.01, 1e-12);  // all small grains lie below
+  EXPECT_EQ(at_rest.n_by_draws, 2U);
 }
 
 // In the fan of one layer phi = 1/2 + (z - z0) / (2 s t), a straight line in z0; at the top of the bed M is the mass.
@@ -136,10 +193,11 @@ TEST(FitPrediction, BandsOfSamplesAreThoseOfTheFan) {
     const double half = kNormal * 0.01 / (2 * 0.4);
     ASSERT_TRUE(samples.phi[i].band);
     EXPECT_NEAR(samples.phi[i].value, 0.5 + ((i == 0 ? 0.45 : 0.55) - 0.5) / 0.8, 1e-12);
-    EXPECT_NEAR(samples.phi[i].band->low, samples.phi[i].value - half, 0.05 * half);
-    EXPECT_NEAR(samples.phi[i].band->high, samples.phi[i].value + half, 0.05 * half);
+    EXPECT_NEAR(samples.phi[i].band->low, samples.phi[i].value - half, 1e-12);
+    EXPECT_NEAR(samples.phi[i].band->high, samples.phi[i].value + half, 1e-12);
   }
-  EXPECT_NEAR(samples.M[2].band->high - samples.M[2].band->low, 2 * kNormal * 0.01, 0.002);
+  EXPECT_NEAR(samples.M[2].band->high - samples.M[2].band->low, 2 * kNormal * 0.01, 1e-12);
+  EXPECT_EQ(samples.n_by_draws, 0U);
 }
 
 // The same scale from [uncertain] of a scene file, and from a file of covariances.

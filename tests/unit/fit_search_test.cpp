@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -104,6 +105,38 @@ INSTANTIATE_TEST_SUITE_P(Names, EveryAlgorithm, testing::ValuesIn(algorithm_name
       text.begin(), text.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return text;
 });
+
+// A run of a grid method may take long: it is asked within, and what is reported is what was known before.
+TEST(InterruptedFit, EndsWithinARunWithTheBestPoint) {
+  const Identification problem = thinned(example_3());
+  FitSpec spec = fit_of(problem, exact_data(problem, Quantity::cumulative));
+  spec.forward.method = Method("godunov");
+  spec.forward.method.set("cells", std::uint64_t{4000});  // half a second or more each
+  std::size_t n_asked = 0, at_stop = 0;
+  double best = 0;
+  const Estimate estimate = fit(spec, [&](std::size_t n, double misfit) {
+    ++n_asked;
+    if (n == 0 || n_asked < 100) return true;
+    if (at_stop == 0) at_stop = n, best = misfit;
+    return false;
+  });
+  EXPECT_EQ(estimate.status, Status::interrupted) << estimate.message;
+  ASSERT_TRUE(estimate.usable()) << estimate.message;
+  // That of the run that was broken off, and the differences that were not made.
+  EXPECT_LE(estimate.evaluations, at_stop + 1 + 2 * estimate.parameters.size());
+  EXPECT_EQ(estimate.misfit, best);
+  EXPECT_TRUE(std::isfinite(best));
+  for (const ParameterEstimate& p : estimate.parameters) EXPECT_TRUE(std::isfinite(p.estimate)) << p.name;
+}
+
+// Before the first run has ended nothing is known.
+TEST(InterruptedFit, HasNoResultBeforeTheFirstRun) {
+  const Identification problem = thinned(example_3());
+  FitSpec spec = fit_of(problem, exact_data(problem, Quantity::cumulative));
+  spec.forward.method = Method("godunov");
+  const Estimate estimate = fit(spec, [](std::size_t, double) { return false; });
+  EXPECT_EQ(estimate.status, Status::interrupted) << estimate.message;
+}
 
 // A compass goes by whole meshes: from the start by multiples of a power of two, down to the tolerance.
 TEST(PatternSearch, EndsAtDyadicOffsetsFromTheStartBetterThanItsNeighbours) {

@@ -137,6 +137,8 @@ TEST(KineticProfile, DerivativesKnowItsSymmetries) {
 TEST(KineticProfile, TellsBedsWithoutNumbers) {
   EXPECT_GT(Profile::n_nodes({1e-4, 1, 0, 1}), Profile::kMostNodes);
   EXPECT_LT(Profile::n_nodes({1e-3, 1, 0, 1}), Profile::kMostNodes);
+  for (const auto& bed : {Profile::Bed{1e-4, 1, 0, 1}, Profile::Bed{1, 0, 0, 1}, Profile::Bed{1, 1, 1, 0}})
+    EXPECT_TRUE(std::isnan(Profile(bed).value(0.5)));
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ struct Command {
 [[nodiscard]] Command add_import(CLI::App& program);
 [[nodiscard]] Command add_study(CLI::App& program);
 [[nodiscard]] Command add_design(CLI::App& program);
+[[nodiscard]] Command add_sample(CLI::App& program);
 [[nodiscard]] Command add_list(CLI::App& program);
 
 /// Refuses two outputs to the same place and an output over the input. Empty names are outputs not asked for.

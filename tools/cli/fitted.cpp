@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <csignal>
 #include <utility>
 #include <variant>
 
@@ -63,17 +64,22 @@ Fitted fitted(const std::string& path) {
   fit::FitFile file = fit::read_fit_file(path);
   print_remarks(file.remarks);
   print_remarks(file.spec.observations.notes);
-  const InterruptGuard guard;
   fit::Estimate estimate;
-  if (file.choice) {
-    FittedModels models = run_models(file, path);
-    const std::size_t i = models.best.value_or(0);
-    note("the best model: " + models.all.specs[i].name);
-    file.spec = std::move(models.all.specs[i]);
-    estimate = std::move(models.all.estimates[i]);
-  } else {
-    estimate = run_fit(file.spec, path);
+  bool is_interrupted = false;
+  {
+    const InterruptGuard guard;
+    if (file.choice) {
+      FittedModels models = run_models(file, path);
+      const std::size_t i = models.best.value_or(0);
+      note("the best model: " + models.all.specs[i].name);
+      file.spec = std::move(models.all.specs[i]);
+      estimate = std::move(models.all.estimates[i]);
+    } else {
+      estimate = run_fit(file.spec, path);
+    }
+    is_interrupted = InterruptGuard::is_interrupted();
   }
+  if (is_interrupted) (void)std::raise(SIGINT);  // the fit is not what was asked for
   if (!estimate.usable())
     throw InputError(printable(path), "",
                      fmt::format("has no estimate ({}): {}", name_of(estimate.status), estimate.message));
@@ -104,6 +110,15 @@ void write_band_csv(OutputFile& file, const fit::RateBand& band) {
   for (const fit::RateRow& row : band.rows)
     file.write(
         csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
+}
+
+void note_bands(std::size_t n_by_draws, std::size_t n) {
+  note(n_by_draws == 0
+           ? "95 % bands by exact derivatives"
+           : fmt::format(
+                 "95 % bands of {} of {} numbers by exact derivatives, of {}, which do not follow a straight "
+                 "line, by {} draws",
+                 n - n_by_draws, n, n_by_draws, kPredictionDraws));
 }
 
 void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed) {

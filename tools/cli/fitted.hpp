@@ -47,6 +47,8 @@ void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
 /// Header z,a,lower,upper: s a(z) with its pointwise 95 % band; layers have a row at each end.
 void write_band_csv(OutputFile& file, const fit::RateBand& band);
 
+/// Says by what the bands of `n` numbers are, `n_by_draws` of them by draws.
+void note_bands(std::size_t n_by_draws, std::size_t n);
 /// Says what keeps a prediction from having bands, or that some draws had no solution.
 void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed);
 

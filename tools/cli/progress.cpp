@@ -22,11 +22,11 @@ extern "C" void end_with_a_word(int signal) {
   (void)std::raise(signal);
 }
 
-bool are_lines_wanted = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+double seconds_between_lines = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 }  // namespace
 
-void ProgressLine::set_verbose(bool is_verbose) { are_lines_wanted = is_verbose; }
+void ProgressLine::set_verbose(double seconds) { seconds_between_lines = seconds; }
 
 void say_when_interrupted() {
   struct sigaction now {};
@@ -35,7 +35,7 @@ void say_when_interrupted() {
 }
 
 ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {
-  if (is_terminal_ || are_lines_wanted)
+  if (is_terminal_ || seconds_between_lines > 0)
     ticking_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
 }
 
@@ -75,11 +75,12 @@ void ProgressLine::show(std::string text) {
 }
 
 void ProgressLine::tick(const std::stop_token& stop) {
-  constexpr std::chrono::milliseconds kPeriod{200}, kMinute{60'000};
+  constexpr std::chrono::duration<double> kPeriod{0.2};
+  const std::chrono::duration<double> period =
+      is_terminal_ ? kPeriod : std::chrono::duration<double>(seconds_between_lines);
   constexpr double kPatience = 1;  // short work shows nothing
   std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, stop, is_terminal_ ? kPeriod : kMinute,
-                            [&] { return stop.stop_requested(); })) {
+  while (!stopped_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (seconds < kPatience) continue;
     const std::string line = fmt::format("{}{}{:.0f} s", text_, text_.empty() ? "" : ", ", seconds);

@@ -15,7 +15,7 @@
 namespace shearfront::tools {
 
 /// A line on standard error that shows how far it is and for how long it has run, if standard error is a terminal; elsewhere,
-/// with --verbose, a line per minute. Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
+/// with --verbose, a line per minute, or as often as it says. Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
 /// written meanwhile.
 class ProgressLine {
  public:
@@ -24,8 +24,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Whether there are lines where standard error is no terminal.
-  static void set_verbose(bool is_verbose);
+  /// Lines where standard error is no terminal, so many seconds apart; 0: none.
+  static void set_verbose(double seconds);
 
   /// Must not outlive this object. Empty if there are no lines. `t_end` > 0: with the part that is done and the time that
   /// is left at the same pace.

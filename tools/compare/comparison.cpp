@@ -147,7 +147,8 @@ Course compare_method(const Scene<double>& scene, const ExactSolution<double>& e
     }
     ComparedRun done{
         resolution, 0, {}, last, is_exact ? kHeights : summary.collisions + summary.cell_updates};
-    if (!is_exact) done.l1_error = errors_against(exact, result.profiles.front(), t).l1;
+    if (!is_exact)
+      done.l1_error = errors_against(exact, result.profiles.front(), t).l1 / (scene.top() - scene.bottom());
     if (!course.runs.empty()) done.order = order_of(course.runs.back(), done);
     course.runs.push_back(done);
   }

@@ -30,7 +30,9 @@ struct ComparedMethod {
 /// One method at one resolution to one time, begun afresh.
 struct ComparedRun {
   double resolution = 0;  ///< cells or step of phi; of an exact method the heights at which it is asked
-  double l1_error = 0;    ///< int |phi - exact phi| dz; 0 for an exact method: it is what is compared with
+  double l1_error =
+      0;  ///< int |phi - exact phi| dz per height of the bed, a number without unit; 0 for an exact
+          ///< method: it is what is compared with
   std::optional<double> order;  ///< of the error in the resolution, from the run before
   double wall_s = 0;            ///< median, profile included
   std::uint64_t work = 0;       ///< cell updates, collisions, or heights

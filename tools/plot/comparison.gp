@@ -18,7 +18,12 @@ legend_columns = width / 210
 legend_height = 24 * ((n_methods + legend_columns - 1) / legend_columns) + 14
 height = title_height + n_rows * panel_height + legend_height
 is_panels = 1
+planned_height = height
 load 'style.gp'
+vertical_scale = height / planned_height
+title_height = title_height * vertical_scale
+panel_height = panel_height * vertical_scale
+legend_height = legend_height * vertical_scale
 
 colours = '#000000 #0072b2 #56b4e9 #d55e00 #e69f00 #009e73 #cc79a7 #7f7f7f'
 shapes = '2 7 6 5 4 9 11 13'  # for print without colour
@@ -41,7 +46,7 @@ error_high = max(error_high, error_low + 1)
 place(e) = e < rounding ? 10.0**(error_low - 1) : e
 
 set multiplot
-set label 1 title noenhanced at screen 0.5,1-0.5*title_height/height center font ',13'
+set label 1 title noenhanced at screen 0.5,1-0.5*title_height/height center font sprintf(',%.2f', 13 * scale)
 set logscale xy
 set xrange [0.99*10.0**seconds_low:1.01*10.0**seconds_high]
 set yrange [has_rounding ? 0.05*10.0**error_low : 0.99*10.0**error_low:1.01*10.0**error_high]

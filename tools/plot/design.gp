@@ -12,7 +12,7 @@ if (!exists("z_high")) z_high = 1
 stats 'design.csv' using (column("t")) nooutput name 'T'
 stats 'design.csv' using (column("worth")) nooutput name 'W'
 set title title noenhanced offset 0,0.2
-set xlabel label('time {/:Italic t}', unit_t) offset 0,0.3
+set xlabel label(along_name, unit_t) offset 0,0.3
 set ylabel label('height {/:Italic z}', unit_z) offset 0,0
 margin = T_max > T_min ? 0.02 * (T_max - T_min) : 0.05 * (T_max + (T_max == 0))
 set xrange [T_min-margin:T_max+margin]

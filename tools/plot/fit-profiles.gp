@@ -53,7 +53,8 @@ do for [k=1:n_times] {
   }
   size = n_points > 50 ? 0.3 : 0.45
   at(value) = column("t") == t ? value : NaN
-  plot for [i=1:has_bars] 'residuals.csv' using (at(column("observed"))):"z":(error(0)) with xerrorbars pt 6 ps size lc rgb dark_grey, \
+  plot for [i=1:bin_width>0] 'residuals.csv' using (at(column("observed"))):(column("z")-bin_width/2):(0):(bin_width) with vectors nohead lw 2 lc rgb '#b0b0b0', \
+    for [i=1:has_bars] 'residuals.csv' using (at(column("observed"))):"z":(error(0)) with xerrorbars pt 6 ps size lc rgb dark_grey, \
     for [i=1:!has_bars] 'residuals.csv' using (at(column("observed"))):"z" with points pt 6 ps size lc rgb dark_grey, \
     'fitted.csv' using (column(fitted)):"z" every ::((k-1)*n)::(k*n-1) with lines lw 2 lc rgb blue
 }

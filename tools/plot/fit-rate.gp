@@ -4,17 +4,24 @@
 #                part in a there; empty: an unknown without error bars has
 # start.csv      z,a   of the start of the search
 # truth.csv      z,a   of the scene the data were made from
+# model1.csv, model2.csv, ...   z,a   of other models of the same data
 # interfaces.csv z_lower,z_upper,a_lower,a_upper   where interfaces lie with 95 %
 #
 # Variables: those of fit.gp, and
 #            is_rate_unknown   1 if anything about s or a was
 #            has_truth    1 if there is truth.csv
+#            n_models     other models; model_name_1, model_name_2, ... are their names, model_name_0 that of the estimate
 #            estimates    'values[0]=2.4±0.1 ...', words
 #            rate_symbol       '{/:Italic a}' or with the scale '{/:Italic s} {/:Italic a}'
 if (!exists("is_rate_unknown")) is_rate_unknown = 1
 if (!exists("rate_symbol")) rate_symbol = '{/:Italic a}'
 if (!exists("estimates")) estimates = ''
 if (!exists("has_truth")) has_truth = 0
+if (!exists("n_models")) n_models = 0
+n_models = int(n_models)
+model_file(j) = sprintf('model%d.csv', j)
+model_name(j) = value(sprintf('model_name_%d', j))
+model_colour(j) = word(many_colours, 2 + (j - 1) % 11)
 most_linear = 20   # a that varies by more gets a logarithmic axis
 widest_band = 4    # a band that goes on beyond so many times the curve is cut off
 
@@ -22,6 +29,7 @@ load 'panel.gp'
 eval set_subtitle
 # The estimates below the legend, where they are few.
 estimates_text = ''
+if (n_models > 3) { estimates = '' }  # no room
 do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
 set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', 0.7 * letters) textcolor rgb '#303030'
 left = 0.08
@@ -58,6 +66,11 @@ if (is_rate_unknown) {
 }
 if (has_truth) {
   stats 'truth.csv' using (column("a")) nooutput
+  low = min(low, STATS_min)
+  high = max(high, STATS_max)
+}
+do for [j=1:n_models] {
+  stats model_file(j) using (column("a")) nooutput
   low = min(low, STATS_min)
   high = max(high, STATS_max)
 }
@@ -103,10 +116,11 @@ before(i) = i > 1 && kinds[i] != kinds[max(i - 1, 1)] ? i - 1 : 0  # where a ste
 plot for [i=1:count(banded)>0] $band using 1:2 with filledcurves closed fs solid noborder lc rgb '#b3d4e8' title '95 % band', \
   'interfaces.csv' using (clamp(column(3), low, high)):1:(clamp(column(3), low, high)):(clamp(column(4), low, high)):1:2 skip 1 \
     with boxxyerror fs solid noborder fc rgb '#b3d4e8' notitle, \
-  for [i=1:is_rate_unknown] 'start.csv' using 2:1 skip 1 with lines lw 1.3 lc rgb '#8c8c8c' title 'start', \
+  for [j=1:n_models] model_file(j) using 2:1 skip 1 with lines lw 1.3 lc rgb model_colour(j) title model_name(j), \
+  for [i=1:is_rate_unknown && n_models == 0] 'start.csv' using 2:1 skip 1 with lines lw 1.3 lc rgb '#8c8c8c' title 'start', \
   'rate.csv' using (before(row(0)) ? rates[before(row(0))] : NaN):(zs[max(before(row(0)), 1)]):(column(2)-rates[max(before(row(0)), 1)]):(0) skip 1 \
     with vectors nohead lw 1.3 lc rgb blue notitle, \
-  for [i=1:count(banded)>0] 'rate.csv' using (rate(banded)):1 skip 1 with lines lw 2.4 lc rgb blue title 'estimate', \
+  for [i=1:count(banded)>0] 'rate.csv' using (rate(banded)):1 skip 1 with lines lw 2.4 lc rgb blue title (n_models > 0 ? model_name(0) . ', best' : 'estimate'), \
   for [i=1:count(open)>0] 'rate.csv' using (rate(open)):1 skip 1 with lines lw 2.4 dt (4,2) lc rgb blue title 'no error bar', \
   for [i=1:count(known)>0] 'rate.csv' using (rate(known)):1 skip 1 with lines lw 2.4 lc rgb (is_given ? 'black' : blue) \
     title (is_given ? 'given' : 'estimate'), \

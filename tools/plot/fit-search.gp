@@ -33,13 +33,13 @@ do for [k=first_decade+decades:last_decade:decades] { set ytics add (sprintf('10
 if (decades == 1) do for [k=first_decade:last_decade-1] { do for [m=2:9] { set ytics add ('' m*10.0**k 1) } }
 if (last_stage > first_stage) set key on at screen right,top+0.01 right bottom Left reverse samplen 1.8
 
-# Lines where a stage begins, those too close to the one before left out.
+# Lines where a stage begins, those left out that are close to the one before: with many starts there are many.
 set y2range [0:1]
 stage = first_stage
 drawn = -end
-is_new(x, s) = s == stage || x - drawn < 0.015 * end ? (stage = s, NaN) : (stage = s, drawn = x, x)
+is_new(x, s) = s == stage || x - drawn < 0.04 * end ? (stage = s, NaN) : (stage = s, drawn = x, x)
 plot for [i=1:last_stage>first_stage] 'search.csv' using (is_new(column("evaluations") - 0.5, column("stage"))):(0):(0):(1) axes x1y2 \
-    with vectors nohead lw 1 dt (4,3) lc rgb '#8c8c8c' title 'new stage', \
+    with vectors nohead lw 1 dt (4,3) lc rgb '#a8a8a8' title 'new stage', \
   for [s=first_stage:last_stage] 'search.csv' using (column("stage") == s ? column("evaluations") : NaN):(misfit(column("misfit"))) \
     with steps lw 2 lc rgb blue notitle, \
   'search.csv' using "evaluations":(misfit(column("misfit"))) with points pt 7 ps (n_steps > 60 ? 0.15 : 0.35) lc rgb blue notitle

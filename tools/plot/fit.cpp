@@ -21,12 +21,13 @@ namespace {
 constexpr std::size_t kMostProfiles = 6;              // more times than this are shown as maps
 constexpr std::size_t kHeights = 2001, kTimes = 401;  // finer than a panel can show
 
-void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& estimate) {
+void set_common(Picture& picture, const std::string& title, const fit::FitSpec& spec,
+                const fit::Estimate& estimate) {
   const Observations& data = spec.observations;
   const bool is_cumulative = data.quantity == Quantity::cumulative;
   const StateRange<double> states =
       is_cumulative ? StateRange<double>{0, std::max(estimate.scene->mass(), 1e-300)} : states_of(spec.scene);
-  picture.set("title", printable(spec.name, 120));
+  picture.set("title", printable(title, 120));
   picture.set("subtitle", described(spec.forward.method));
   constexpr std::size_t kMostEstimates = 7;
   std::string estimates;
@@ -45,6 +46,9 @@ void set_common(Picture& picture, const fit::FitSpec& spec, const fit::Estimate&
   picture.set("value_low", states.lowest);
   picture.set("value_high", states.highest);
   picture.set("has_sigma", data.has_sigma());
+  const double width = data.rows.front().width;
+  const auto is_as_wide = [&](const Observation& o) { return o.width == width; };
+  picture.set("bin_width", std::all_of(data.rows.begin(), data.rows.end(), is_as_wide) ? width : 0);
   picture.add_file("residuals.csv", [&](OutputFile& file) { write_residuals_csv(file, data, estimate); });
 }
 
@@ -187,7 +191,8 @@ void add_search(Picture& picture, const fit::Estimate& estimate) {
 }  // namespace
 
 int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estimate& estimate,
-             const std::optional<Scene<double>>& truth) {
+             const std::string& title, const std::optional<Scene<double>>& truth,
+             const std::vector<OtherModel>& others) {
   if (!estimate.usable()) {
     note(fmt::format("no picture {}: the fit has no usable estimate", printable(path)));
     return kNoResult;
@@ -199,7 +204,7 @@ int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estim
   const bool are_profiles = !are_heights && times.size() <= kMostProfiles;
   Picture picture(path, "fit");
   picture.set("data", are_heights ? "heights" : are_profiles ? "profiles" : "maps");
-  set_common(picture, spec, estimate);
+  set_common(picture, title, spec, estimate);
   if (are_heights)
     add_bed_heights(picture, spec, estimate);
   else if (are_profiles)
@@ -209,7 +214,14 @@ int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estim
   add_rate(picture, spec, estimate);
   picture.set("has_truth", truth.has_value());
   if (truth) add_curve(picture, "truth.csv", fit::rate_rows(*truth));
+  picture.set("n_models", static_cast<double>(others.size()));
+  picture.set("model_name_0", spec.name);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    picture.set(fmt::format("model_name_{}", i + 1), without_markup(others[i].name));
+    add_curve(picture, fmt::format("model{}.csv", i + 1), fit::rate_rows(others[i].scene));
+  }
   add_search(picture, estimate);
+  if (!others.empty()) picture.set("has_search", false);
   return picture.draw();
 }
 

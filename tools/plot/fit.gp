@@ -7,7 +7,8 @@
 #            z_low, z_high      bottom and top
 #            value_low, value_high        range of what was measured
 #            has_sigma          1 if residuals.csv has a column sigma
-#            has_search         1: the search is drawn
+#            bin_width          of bins that are all as wide; 0 for other data
+#            has_search         1: the search is drawn, 0: the residuals
 width = 720
 height = 560
 is_panels = 1
@@ -20,6 +21,7 @@ if (!exists("z_high")) z_high = 1
 if (!exists("value_low")) value_low = 0
 if (!exists("value_high")) value_high = 1
 if (!exists("has_sigma")) has_sigma = 0
+if (!exists("bin_width")) bin_width = 0
 if (!exists("has_search")) has_search = 1
 
 # Distance of tics at round numbers with room for their labels; `room` is the length of the axis in the figure.
@@ -36,4 +38,5 @@ set multiplot title title noenhanced
 load 'fit-'.data.'.gp'
 load 'fit-rate.gp'
 if (has_search) load 'fit-search.gp'
+if (!has_search) load 'fit-residuals.gp'
 unset multiplot

@@ -19,22 +19,7 @@ namespace shearfront::tools {
 namespace {
 
 // Finer than a picture can show.
-constexpr std::size_t kProfileHeights = 4001, kMapTimes = 241, kMapHeights = 321, kCourseTimes = 401;
-
-/// What every picture of a bed shows.
-void set_scene(Picture& picture, const Scene<double>& scene, const std::string& subtitle) {
-  const StateRange<double> states = states_of(scene);
-  picture.set("title", scene.name());
-  picture.set("subtitle", subtitle);
-  picture.set("along", scene.spec().units.symbol());
-  picture.set("unit_t", without_markup(scene.spec().units.t));
-  picture.set("unit_z", without_markup(scene.spec().units.z));
-  picture.set("z_low", scene.bottom());
-  picture.set("z_high", scene.top());
-  picture.set("phi_low", states.lowest);
-  picture.set("phi_high", states.highest);
-  picture.set("interfaces", scene.is_layered() ? scene.knots() : std::vector<double>{});
-}
+constexpr std::size_t kProfileHeights = 4001, kCourseTimes = 401;
 
 /// The smallest jump drawn as a shock: more than a step of a fan, and in a staircase more than the jump with
 /// which a wave turns round at the edge of a step, the square root of the relative change of a there.
@@ -51,15 +36,6 @@ double least_shock(const Scene<double>& scene, const std::vector<FrontSegment<do
     least = std::max(least, 1.3 * std::sqrt(std::abs(change)));
   }
   return std::min(least, 0.5);
-}
-
-/// c a f(phi / c) at a height: what a front keeps on its way through the layers.
-double flux_at(const Scene<double>& scene, double z, double phi) {
-  const SceneSpec<double>& spec = scene.spec();
-  const auto i =
-      std::upper_bound(spec.flux_breaks.begin(), spec.flux_breaks.end(), z) - spec.flux_breaks.begin();
-  const double c = scene.solid_fraction_at(z);
-  return c * scene.rate_at(z) * spec.fluxes[static_cast<std::size_t>(i)].value(phi / c);
 }
 
 /// Few fronts as they are. Of many all shocks, of the others those that some of 80 states lie between, wherever they go from
@@ -106,6 +82,29 @@ double end_time(const std::vector<FrontSegment<double>>& fronts, const Timeline<
   return end > 0 ? end : 1.0;
 }
 
+/// Rows t,z,kind of a grid: 1 where there are small grains only, -1 large ones only, 0 both. Empty without a solution.
+std::string pure_rows(const Scene<double>& scene, const Method& method, double t_end) {
+  constexpr std::size_t kTimes = 301, kHeights = 241;
+  constexpr double kPure = 1e-9;
+  SolverRequest request;
+  for (std::size_t i = 0; i < kTimes; ++i)
+    request.times.push_back(t_end * (static_cast<double>(i) + 0.5) / kTimes);
+  for (std::size_t j = 0; j < kHeights; ++j)
+    request.heights.push_back(
+        std::lerp(scene.bottom(), scene.top(), (static_cast<double>(j) + 0.5) / kHeights));
+  const SolverResult result = solve(scene, method, request);
+  if (!result.summary.usable()) return {};
+  std::string rows = "t,z,kind\n";
+  for (std::size_t i = 0; i < kTimes; ++i)
+    for (std::size_t j = 0; j < kHeights; ++j) {
+      const StateRange<double> range = scene.range_at(request.heights[j]);
+      const double share = (result.phi(i, j) - range.lowest) / (range.highest - range.lowest);
+      const int kind = share < kPure ? -1 : share > 1 - kPure ? 1 : 0;
+      rows += fmt::format("{:.7g},{:.7g},{}\n", request.times[i], request.heights[j], kind);
+    }
+  return rows;
+}
+
 /// Rows t,z,label,side of the events. Labels stand where no front is: before a first wave, after a last one,
 /// and outside the walls. More than a few interfaces have no labels.
 std::string event_rows(const Scene<double>& scene, const Timeline<double>& timeline, double t_end) {
@@ -135,7 +134,44 @@ std::string event_rows(const Scene<double>& scene, const Timeline<double>& timel
   return rows;
 }
 
+/// Rows z,c of the solid fraction, with both values where it jumps.
+std::string bound_rows(const Scene<double>& scene) {
+  constexpr std::size_t kHeights = 400;
+  std::vector<double> heights = equally_spaced(scene.bottom(), scene.top(), kHeights);
+  for (const double z : scene.knots()) {
+    heights.push_back(z);
+    heights.push_back(std::nextafter(z, scene.bottom()));
+  }
+  std::sort(heights.begin(), heights.end());
+  std::string rows = "z,c\n";
+  for (const double z : heights)
+    rows += fmt::format("{},{}\n", number_text(z), number_text(scene.solid_fraction_at(z)));
+  return rows;
+}
+
 }  // namespace
+
+void set_scene(Picture& picture, const Scene<double>& scene, const std::string& subtitle) {
+  const StateRange<double> states = states_of(scene);
+  picture.set("title", scene.name());
+  picture.set("subtitle", subtitle);
+  picture.set("along", scene.spec().units.symbol());
+  picture.set("unit_t", without_markup(scene.spec().units.t));
+  picture.set("unit_z", without_markup(scene.spec().units.z));
+  picture.set("z_low", scene.bottom());
+  picture.set("z_high", scene.top());
+  picture.set("phi_low", states.lowest);
+  picture.set("phi_high", states.highest);
+  picture.set("interfaces", scene.is_layered() ? scene.knots() : std::vector<double>{});
+}
+
+double flux_at(const Scene<double>& scene, double z, double phi) {
+  const SceneSpec<double>& spec = scene.spec();
+  const auto i =
+      std::upper_bound(spec.flux_breaks.begin(), spec.flux_breaks.end(), z) - spec.flux_breaks.begin();
+  const double c = scene.solid_fraction_at(z);
+  return c * scene.rate_at(z) * spec.fluxes[static_cast<std::size_t>(i)].value(phi / c);
+}
 
 std::string described(const Method& method) {
   std::string text(method.name());
@@ -159,10 +195,9 @@ StateRange<double> states_of(const Scene<double>& scene) {
   return all;
 }
 
-int draw_fronts(const std::string& path, const Scene<double>& scene,
-                const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline,
-                double resolution) {
-  const double t_end = end_time(fronts, timeline);
+int draw_fronts(const std::string& path, const Scene<double>& scene, const Method& method,
+                const std::vector<FrontSegment<double>>& fronts, const Timeline<double>& timeline) {
+  const double t_end = end_time(fronts, timeline), resolution = number_of(method, "resolution");
   Picture picture(path, "fronts");
   set_scene(picture, scene, fmt::format("fronts tracked with resolution {}", number_text(resolution)));
   picture.set("t_end", t_end);
@@ -173,6 +208,9 @@ int draw_fronts(const std::string& path, const Scene<double>& scene,
   const auto shown = thinned(scene, fronts, least_shock(scene, fronts, resolution));
   picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, shown); });
   picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
+  const std::string pure = pure_rows(scene, method, t_end);
+  picture.set("has_pure", !pure.empty());
+  picture.add_file("pure.csv", [&](OutputFile& file) { file.write(pure); });
   return picture.draw();
 }
 
@@ -188,6 +226,9 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
   set_scene(picture, scene, described(method));
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
+  picture.set("has_bound", scene.spec().solid_fraction.has_value());
+  if (scene.spec().solid_fraction)
+    picture.add_file("bound.csv", [&](OutputFile& file) { file.write(bound_rows(scene)); });
   picture.add_file("profiles.csv", write(solve(scene, method, request)));
   std::string names;
   for (const Method& other : others) {
@@ -202,28 +243,6 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
   const SolverResult exact = compare ? solve(scene, Method(), request) : SolverResult{};
   picture.set("has_exact", exact.summary.usable());
   if (exact.summary.usable()) picture.add_file("exact.csv", write(exact));
-  return picture.draw();
-}
-
-int draw_map(const std::string& path, const Scene<double>& scene, const Method& method, double t_end) {
-  SolverRequest request;
-  request.times = equally_spaced(0, t_end, kMapTimes);
-  request.heights = equally_spaced(scene.bottom(), scene.top(), kMapHeights);
-  const SolverResult result = solve(scene, method, request);
-  if (!result.summary.usable()) return report_unusable(result.summary);
-  Picture picture(path, "map");
-  set_scene(picture, scene, described(method));
-  picture.set("t_end", t_end);
-  picture.add_file("map.csv", [&](OutputFile& file) {
-    std::string rows = "t,z,phi\n";
-    for (std::size_t i = 0; i < kMapTimes; ++i) {
-      for (std::size_t j = 0; j < kMapHeights; ++j)
-        rows += fmt::format("{:.6g},{:.6g},{:.4g}\n", request.times[i], request.heights[j],
-                            result.samples[i * kMapHeights + j].phi);
-      rows += '\n';
-    }
-    file.write(rows);
-  });
   return picture.draw();
 }
 

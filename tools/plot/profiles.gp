@@ -2,11 +2,13 @@
 #
 # profiles.csv   t,z,phi,M   as written by `shearfront solve -o`: the same heights at every time
 # exact.csv      the same by the exact method, drawn as thin lines on top
+# bound.csv      z,c   the solid fraction, which phi cannot exceed, drawn dashed
 # other1.csv, other2.csv, ...   the same by other methods, dashed
 #
 # Variables: others              their names, words
 #            times               words, in the order of the file
 #            has_exact           1 if there is exact.csv
+#            has_bound           1 if there is bound.csv
 #            z_low, z_high       bottom and top
 #            phi_low, phi_high   states of the bed
 #            interfaces          their heights, words
@@ -18,6 +20,7 @@ if (!exists("times")) {  # one profile, of unknown time
   times = 'unknown'
 }
 if (!exists("has_exact")) has_exact = 0
+if (!exists("has_bound")) has_bound = 0
 if (!exists("others")) others = ''
 if (!exists("z_low")) z_low = 0
 if (!exists("z_high")) z_high = 1
@@ -35,7 +38,10 @@ set yrange [z_low:z_high]
 if (phi_low == 0 && phi_high == 1) set xtics 0.2
 if (is_narrow) {
   key_font = sprintf(',%.2f', 0.9 * letters)
-  set key below center horizontal Left reverse samplen 1.2 spacing 1.1 maxcols 3 font key_font
+  n_keys = words(times) + words(others) + has_exact + has_bound
+  n_key_rows = words(times) > words(many_colours) ? 0 : (n_keys + 1) / 2
+  set bmargin 3.8 + 1.15 * n_key_rows
+  set key at screen 0.5,0.012 center bottom horizontal Left reverse samplen 1.2 spacing 1.1 maxcols 2 font key_font
 } else {
   set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1
 }
@@ -64,6 +70,7 @@ if (n_times <= words(many_colours)) {
       with lines lw 1.3 dt dash_of(j) lc rgb dark_of(k) notitle, \
     for [i=1:n_times] keyentry with lines lw line_width dt dash(i) lc rgb word(many_colours, i) title sprintf('{/:Italic '.along.'} = %.5g', t_of(i)).unit, \
     for [i=1:has_exact] keyentry with lines lw 0.8 lc rgb 'black' title 'exact', \
+    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})', \
     for [j=1:n_others] keyentry with lines lw 1.3 dt dash_of(j) lc rgb 'black' title word(others, j)
 } else {  # too many to be named
   eval "set palette defined (" . phi_palette . ")"
@@ -79,5 +86,6 @@ if (n_times <= words(many_colours)) {
   plot for [k=1:n_times] 'profiles.csv' using "phi":"z" every ::((n_times-k)*n)::((n_times-k+1)*n-1) \
       with lines lw line_width dt dash(n_times-k+1) lc palette cb t_of(n_times-k+1) notitle, \
     for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
-      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : ''
+      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : '', \
+    for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})'
 }

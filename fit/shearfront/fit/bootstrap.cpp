@@ -67,14 +67,19 @@ class Replicates {
     for (std::size_t b = next_++; b < found_.size() && !stop_; b = next_++) {
       draw_observations(mine.observations, estimate_, stream_seed(spec_.uncertainty.seed, b));
       try {
-        found_[b] = refit_(mine);
+        found_[b] = refit_(mine, [this](std::size_t, double) { return goes_on(); });
       } catch (const std::exception&) {
         found_[b].reset();  // counted as failed, like a fit without result
       }
-      if (!progress_) continue;
-      const std::lock_guard lock(reporting_);
-      if (!progress_(estimate_.evaluations, estimate_.misfit)) stop_ = true;
+      (void)goes_on();
     }
+  }
+  /// Also asked within the fits.
+  bool goes_on() {
+    if (!progress_ || stop_) return !stop_;
+    const std::lock_guard lock(reporting_);
+    if (!progress_(estimate_.evaluations, estimate_.misfit)) stop_ = true;
+    return !stop_;
   }
 
   const FitSpec& spec_;

@@ -24,9 +24,9 @@ struct Bootstrap {
   std::vector<std::string> warnings;
 };
 
-/// One fit and nothing else: the values found, nothing if the fit failed. Called from several threads at
-/// once.
-using Refit = std::function<std::optional<Eigen::VectorXd>(const FitSpec& spec)>;
+/// One fit and nothing else: the values found, nothing if the fit failed or was ended by its Progress. Called from several
+/// threads at once.
+using Refit = std::function<std::optional<Eigen::VectorXd>(const FitSpec& spec, const Progress& progress)>;
 
 /// Parametric bootstrap: spec.uncertainty.bootstrap replicates of the data, each the prediction at the
 /// estimate plus independent Gaussian noise (sigma of the rows, otherwise estimate.sigma), fitted from the

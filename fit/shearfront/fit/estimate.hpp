@@ -16,8 +16,8 @@ namespace shearfront::fit {
 /// Stands for a number that the data do not give.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Called after every evaluation with the number so far and the smallest misfit; false ends the search with
-/// the best point found (Status::interrupted).
+/// Called after every evaluation, and within those that take long, with the number so far and the smallest misfit; false
+/// ends the search with the best point found (Status::interrupted), and what is still running within RunControl::kGrace.
 using Progress = std::function<bool(std::size_t evaluations, double best_misfit)>;
 
 /// The smallest misfit after so many evaluations: a curve for the picture of a search.
@@ -46,7 +46,7 @@ struct ParameterEstimate {
   double start = 0, estimate = 0;
   std::optional<double> std_error;      ///< from the Jacobian
   std::optional<Interval> ci95;         ///< estimate -+ q std_error; for positive entries in the logarithm
-  std::optional<Interval> profile95;    ///< profile likelihood, on request; NaN: open end
+  std::optional<Interval> profile95;    ///< profile likelihood, on request and beside bounds; NaN: open end
   std::optional<Interval> bootstrap95;  ///< parametric bootstrap, on request
   std::optional<IntervalCheck> check;   ///< of ci95; empty where none was made
   bool at_bound = false;

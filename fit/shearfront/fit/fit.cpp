@@ -118,8 +118,8 @@ void refine(StagedSearch& search, Estimate& estimate) {
 }
 
 /// Nothing but the values found.
-std::optional<Eigen::VectorXd> values_of_fit(const FitSpec& spec) {
-  StagedSearch search(spec, {});
+std::optional<Eigen::VectorXd> values_of_fit(const FitSpec& spec, const Progress& progress) {
+  StagedSearch search(spec, progress);
   search.find();
   return search.values();
 }

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -18,15 +16,16 @@
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/method_table.hpp"
 #include "shearfront/fit/misfit/all.hpp"
-#include "shearfront/fit/model_choice.hpp"
+#include "shearfront/fit/model_choice_table.hpp"
+#include "shearfront/fit/observation_tables.hpp"
 #include "shearfront/fit/parameters.hpp"
+#include "shearfront/fit/prior_table.hpp"
 #include "shearfront/fit/search/search.hpp"
 #include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/method_text.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/text.hpp"
-#include "shearfront/model/depth/all.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -44,8 +43,6 @@ constexpr unsigned long long kMostStarts = 1'000'000, kMostEvaluations = 1'000'0
 /// The stopping rule of Buerger, Martinez & Villada (2023): both tolerances 1e-3.
 constexpr double kPaperTolerance = 1e-3;
 constexpr std::size_t kPaperEvaluations = 2000;
-
-constexpr unsigned kMostLayers = 1000;  // of a model in [compare]
 
 /// Only fit files have these at their top.
 constexpr std::array kFitKeys{"scene", "observations", "unknown"};
@@ -78,14 +75,15 @@ class FitReader {
 
   FitFile read() {
     TableReader root(source_, report_, "", source_.root());
+    const auto refuse = [this](Complaint complaint) { add(std::move(complaint)); };
     const auto name = root.text("name", Need::optional, "must be text");
     std::optional<std::string> scene_path, data_path;
     if (!scene_) scene_path = file_name(root, "scene", "must be the name of a scene file");
     if (!data_) data_path = file_name(root, "observations", "must be the name of a CSV file");
     if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
-    if (!data_) how_written(root);
+    if (!data_) read_observation_format(root, refuse, format_);
     if (auto table = root.table("compare", Need::optional, "must be a table with layers and models"))
-      compare(*table);
+      choice_ = read_model_choice(*table, refuse);
     const Need need = choice_ ? Need::optional : Need::required;
     if (auto table = root.table("unknown", need, "must be a table with parameters")) unknown(*table);
     if (auto table = root.table("forward", Need::optional, "must be a table with method"))
@@ -95,6 +93,8 @@ class FitReader {
     if (auto table = root.table("search", Need::optional, "must be a table with algorithm")) search(*table);
     if (auto table = root.table("uncertainty", Need::optional, "must be a table with profile and bootstrap"))
       uncertainty(*table);
+    if (root.table("prior", Need::optional, "must be a table of unknowns with distributions"))
+      priors_ = read_priors(source_, report_);
     root.finish();
 
     if (data_path)
@@ -108,7 +108,7 @@ class FitReader {
     remarks_.insert(remarks_.begin(), scene_->spec().remarks.begin(), scene_->spec().remarks.end());
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
-                    std::move(search_), uncertainty_},
+                    std::move(search_), uncertainty_, std::move(priors_)},
             scene_path.value_or(""), data_path.value_or(""), std::move(remarks_), std::move(choice_)};
   }
 
@@ -121,101 +121,6 @@ class FitReader {
       return std::nullopt;
     }
     return (std::filesystem::path(source_.name()).parent_path() / *name).string();
-  }
-
-  /// What the tables say about the file of observations.
-  void how_written(TableReader& root) {
-    if (auto table = root.table("columns", Need::optional, "must be a table of names of columns"))
-      columns(*table);
-    if (auto table = root.table("format", Need::optional, "must be a table with separator, decimal, ..."))
-      format(*table);
-  }
-
-  /// Which column of the observations is which: phi = "conc".
-  void columns(TableReader& table) {
-    for (std::size_t c = 0; c < kColumnNames.size(); ++c)
-      if (auto name = table.text(kColumnNames[c], Need::optional, "must be the name of a column"))
-        format_.columns[c].name = std::move(*name);
-    table.finish();
-  }
-
-  /// How the file of observations is written, where it is not to be found out.
-  void format(TableReader& table) {
-    const auto is_one = [&](const char* key, const std::vector<std::string>& names) -> std::optional<char> {
-      const auto name = table.choice(key, Need::optional, names);
-      return name ? std::optional(*name == "tab" ? '\t' : (*name)[0]) : std::nullopt;
-    };
-    format_.separator = is_one("separator", {",", ";", "tab"});
-    format_.decimal = is_one("decimal", {".", ","});
-    if (table.node("missing"))
-      format_.missing = table.texts("missing", Need::optional, "must be an array of words");
-    if (const auto i = table.place("layout", Need::optional, kTableLayoutNames))
-      format_.layout = static_cast<TableLayout>(*i);
-    if (const auto i = table.place("replicates", Need::optional, kReplicatesNames))
-      format_.replicates = static_cast<Replicates>(*i);
-    const auto positive = [&](std::string_view key, std::optional<double>& value) {
-      if (!table.node(key)) return;
-      table.number(key, Need::optional, value.emplace());
-      if (table.is_good(key) && !(*value > 0 && std::isfinite(*value)))
-        add({table.path(key), "", "must be > 0"});
-    };
-    positive("width", format_.width);
-    positive("time_step", format_.time_step);
-    if (auto units = table.table("units", Need::optional, "must be a table of units of columns")) {
-      for (std::size_t c = 0; c < kColumnNames.size(); ++c)
-        if (auto unit = units->text(kColumnNames[c], Need::optional, "must be the name of a unit"))
-          format_.columns[c].unit = std::move(*unit);
-      units->finish();
-    }
-    table.finish();
-  }
-
-  /// Shear rates that are compared: layers = [1, 2, 3], models = ["exponential", "table:6"].
-  void compare(TableReader& table) {
-    ModelChoice& choice = choice_.emplace();
-    const auto refuse = [&](const std::string& key, std::size_t i, const std::string& value,
-                            std::string why) {
-      add({fmt::format("{}[{}]", table.path(key), i), value, std::move(why)});
-    };
-    if (table.node("layers")) {
-      std::vector<double> counts;
-      table.number("layers", Need::optional, counts);
-      for (std::size_t i = 0; table.is_good("layers") && i < counts.size(); ++i) {
-        if (!(counts[i] >= 1 && counts[i] <= kMostLayers && counts[i] == std::floor(counts[i])))
-          refuse("layers", i, "", fmt::format("must be a whole number from 1 to {}", kMostLayers));
-        else
-          choice.models.push_back({layered_name(), static_cast<std::size_t>(counts[i])});
-      }
-    }
-    if (table.node("models")) {
-      const auto names =
-          table.texts("models", Need::optional, "must be an array of names such as \"table:6\"");
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i].empty()) continue;  // refused
-        const std::size_t colon = names[i].find(':');
-        const auto n = colon == std::string::npos ? 0 : parse_count(names[i].substr(colon + 1));
-        const ModelChoice::Model model{names[i].substr(0, colon), static_cast<std::size_t>(n.value_or(0))};
-        if (!n || *n > kMostLayers)
-          refuse("models", i, quoted_text(names[i]),
-                 "must be a name, or a name and a number such as table:6");
-        else if (std::string why = refusal(model); !why.empty())
-          refuse("models", i, quoted_text(names[i]), std::move(why));
-        else
-          choice.models.push_back(model);
-      }
-    }
-    choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
-    if (choice.models.empty() && report_.is_empty())
-      report_.add(table.position(), {"compare", "", "must have layers or models"});
-    table.finish();
-  }
-  /// The depth function that consists of layers.
-  static std::string layered_name() {
-    std::string name;
-    DepthFunctionList<double>::for_each([&]<class Model>() {
-      if (name.empty() && Model::kIsLayered) name = Model::kName;
-    });
-    return name;
   }
 
   void unknown(TableReader& table) {
@@ -325,7 +230,7 @@ class FitReader {
     if (choice_) unknown.shape = Shape::none;  // of what is compared
     if (has_bad_numbers_) unknown.start = unknown.lower = unknown.upper = {};
     try {
-      (void)Parameters(*scene_, unknown);
+      check_priors(priors_, Parameters(*scene_, unknown), source_, report_);
     } catch (const InputError& error) {
       for (Complaint complaint : error.complaints()) {
         if (report_.is_spoiled(complaint.key)) continue;
@@ -364,6 +269,7 @@ class FitReader {
   MisfitSpec misfit_;
   SearchSpec search_;
   UncertaintySpec uncertainty_;
+  std::vector<Prior> priors_;
   std::vector<std::string> remarks_;
   std::optional<ModelChoice> choice_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shearfront/fit/prior.hpp"
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/observation.hpp"
 #include "shearfront/solver/method.hpp"
@@ -72,6 +73,7 @@ struct FitSpec {
   MisfitSpec misfit;
   SearchSpec search;
   UncertaintySpec uncertainty;
+  std::vector<Prior> priors;
 };
 
 }  // namespace shearfront::fit

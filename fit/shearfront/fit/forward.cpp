@@ -47,28 +47,30 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
   is_smooth_ = is_smooth_ || can_linearise_;
 }
 
-Prediction Forward::predict(const VectorXd& values, bool with_derivatives) const {
+Prediction Forward::predict(const VectorXd& values, bool with_derivatives,
+                            const shearfront::Progress& progress) const {
   Prediction prediction;
   const auto scene = parameters_->scene_at(values, prediction.failure);
   if (!scene) return prediction;
   if (observable_ == Observable::bed_height)
-    predict_heights(*scene, prediction);
+    predict_heights(*scene, progress, prediction);
   else
-    predict_samples(*scene, with_derivatives && has_derivatives_, prediction);
+    predict_samples(*scene, with_derivatives && has_derivatives_, progress, prediction);
   return prediction;
 }
 
 void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
-                              Prediction& prediction) const {
+                              const shearfront::Progress& progress, Prediction& prediction) const {
   if (!can_linearise_) {
-    const PlaceSamples result = sample(scene, method_, places_);
+    const PlaceSamples result = sample(scene, method_, places_, progress);
     if (!result.summary.usable()) prediction.failure = result.summary.message;
     prediction.remark = result.summary.remark;
     return take(result.samples, prediction);
   }
   if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
   const std::vector<std::size_t> none;
-  const Linearisation result = method_.linearise(scene, places_, with_derivatives ? entries_ : none, memory_);
+  const Linearisation result =
+      method_.linearise(scene, places_, with_derivatives ? entries_ : none, memory_, progress);
   if (!result.summary.usable()) {
     prediction.failure = result.summary.message;
     return;
@@ -86,12 +88,13 @@ void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
     }
 }
 
-void Forward::predict_heights(const Scene<double>& scene, Prediction& prediction) const {
+void Forward::predict_heights(const Scene<double>& scene, const shearfront::Progress& progress,
+                              Prediction& prediction) const {
   const BedHeight bed(scene);
   SolverRequest request;
   request.times = times_;
   request.integrand = bed.integrand();
-  const SolverResult result = solve(scene, method_, request);
+  const SolverResult result = solve(scene, method_, request, progress);
   if (!result.summary.usable()) {
     prediction.failure = result.summary.message;
     return;

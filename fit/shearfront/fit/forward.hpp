@@ -39,13 +39,16 @@ class Forward {
   /// No numeric differentiation below this step: what a grid or a polygonal flux adds to the solution jumps
   /// when a cell, a time step or a level appears.
   [[nodiscard]] double smallest_step() const { return is_smooth_ ? 1e-6 : 1e-3; }
-  /// Cost: one run of the solver.
-  [[nodiscard]] Prediction predict(const Eigen::VectorXd& values, bool with_derivatives) const;
+  /// `progress` is asked now and then whether to go on; if not, there is no prediction. Cost: one run of the solver.
+  [[nodiscard]] Prediction predict(const Eigen::VectorXd& values, bool with_derivatives,
+                                   const shearfront::Progress& progress = {}) const;
 
  private:
   void take(const std::vector<Sample>& samples, Prediction& prediction) const;
-  void predict_samples(const Scene<double>& scene, bool with_derivatives, Prediction& prediction) const;
-  void predict_heights(const Scene<double>& scene, Prediction& prediction) const;
+  void predict_samples(const Scene<double>& scene, bool with_derivatives,
+                       const shearfront::Progress& progress, Prediction& prediction) const;
+  void predict_heights(const Scene<double>& scene, const shearfront::Progress& progress,
+                       Prediction& prediction) const;
 
   const Parameters* parameters_;
   Method method_;

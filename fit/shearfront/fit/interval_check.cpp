@@ -84,8 +84,8 @@ class Checker {
 
   /// The misfit there when the others are refitted.
   [[nodiscard]] double refitted(Index j, const VectorXd& at, double expected) const {
-    RunControl control(kMostRuns);
     const Objective& found = minimum_.objective;
+    RunControl control = found.control().for_part(kMostRuns);
     Objective objective(minimum_.parameters, found.coordinates(), minimum_.spec.forward, found.rows(),
                         found.loss(), control);
     SearchSpec search = minimum_.spec.search;

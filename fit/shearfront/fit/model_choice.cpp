@@ -210,9 +210,11 @@ ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice, const Pr
   for (const ModelChoice::Model& model : choice.models) {
     FitSpec spec = with_model(base, choice, model, base.scene);
     Estimate estimate = fit(spec, progress);
-    if (best && estimate.status != Status::interrupted) {
+    bool is_interrupted = estimate.status == Status::interrupted;
+    if (best && !is_interrupted) {
       FitSpec again = with_model(base, choice, model, *result.estimates[*best].scene);
       Estimate other = fit(again, progress);
+      is_interrupted = other.status == Status::interrupted;
       if (other.usable() && (!estimate.usable() || other.misfit < estimate.misfit)) {
         spec = std::move(again);
         estimate = std::move(other);
@@ -222,6 +224,7 @@ ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice, const Pr
       best = result.specs.size();
     result.specs.push_back(std::move(spec));
     result.estimates.push_back(std::move(estimate));
+    if (is_interrupted) break;
   }
   return result;
 }

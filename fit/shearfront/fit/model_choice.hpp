@@ -25,7 +25,7 @@ struct ChosenModels {
 };
 
 /// Fits every model from the scene, and again from the best found so far, of which it keeps the better: a model with more
-/// entries starts no worse than one with fewer. Errors: as fit(). Cost: two fits a model.
+/// entries starts no worse than one with fewer. Ends with the model that `progress` interrupts. Errors: as fit(). Cost: two fits a model.
 [[nodiscard]] ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice,
                                       const Progress& progress = {});
 

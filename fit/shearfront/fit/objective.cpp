@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -52,12 +53,14 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
 void Objective::set_loss(Loss loss) {
   loss_ = loss;
   last_u_.resize(0);
+  best_ = {};
 }
 
 void Objective::set_tether(VectorXd centre, double tether) {
   centre_ = std::move(centre);
   tether_ = tether;
   last_u_.resize(0);
+  best_ = {};
 }
 
 Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) const {
@@ -67,7 +70,12 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
   const VectorXd values = coordinates_->values(u);
   if (!values.allFinite() || !parameters_->within_bounds(values)) return at;
   const bool exact = with_jacobian && has_derivatives();
-  const Prediction prediction = forward_.predict(values, exact);
+  if (!control_->may_run()) {
+    at.failure = "interrupted";
+    return at;
+  }
+  const Prediction prediction =
+      forward_.predict(values, exact, [this](double, std::uint64_t) { return control_->may_run(); });
   at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
@@ -140,7 +148,12 @@ const Objective::Evaluation& Objective::evaluate(const VectorXd& u, bool with_ja
     last_u_ = u;
     control_->count(last_.misfit);
   }
-  if (with_jacobian && last_.is_valid && last_.jacobian.size() == 0) differentiate(u, last_, control_);
+  const bool is_to_differentiate = with_jacobian && last_.is_valid && last_.jacobian.size() == 0;
+  if ((!is_last || is_to_differentiate) && last_.is_valid && !(best_.is_valid && best_.misfit < last_.misfit))
+    best_ = last_, best_u_ = u;
+  if (!is_to_differentiate) return last_;
+  differentiate(u, last_, control_);
+  if (last_.is_valid && best_u_ == u) best_ = last_;
   return last_;
 }
 

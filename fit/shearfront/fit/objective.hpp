@@ -50,6 +50,10 @@ class Objective {
   /// The same without touching the count: for the report after a search. A numeric Jacobian costs twice as
   /// much here, to know its error.
   [[nodiscard]] Evaluation inspect(const Eigen::VectorXd& u, bool with_jacobian) const;
+  /// What is known of this point without a run: its evaluation, if it was the best so far.
+  [[nodiscard]] const Evaluation* known(const Eigen::VectorXd& u) const {
+    return best_.is_valid && best_u_ == u ? &best_ : nullptr;
+  }
 
   [[nodiscard]] const Parameters& parameters() const { return *parameters_; }
   [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }
@@ -80,8 +84,8 @@ class Objective {
   double tether_ = 0, rounding_misfit_ = 0;
   Forward forward_;
   mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
-  Eigen::VectorXd last_u_;
-  Evaluation last_;
+  Eigen::VectorXd last_u_, best_u_;
+  Evaluation last_, best_;
 };
 
 }  // namespace shearfront::fit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -25,40 +26,63 @@ struct DrawnScenes {
   std::size_t n_refused = 0;  ///< draws outside the bounds or no valid scene, drawn again
   std::string
       why_none;  ///< why there are no scenes: an unknown without error bar, or hardly a draw was valid
+
+  /// One of the independent directions in which the unknowns vary, by a number xi of unit deviation. The scenes at -x and
+  /// x on it: near the estimate, and so far that a number that is linear in all xi stays between them and their like with
+  /// 95 %: at quantile sqrt(number of axes).
+  struct Axis {
+    std::vector<double> slopes;                                           ///< of the unknowns in xi
+    std::optional<Scene<double>> near_low, near_high, far_low, far_high;  ///< empty: no valid scene
+  };
+  std::vector<Axis> axes;
+  std::vector<std::size_t> entries;  ///< of the unknowns among those of the scene
+  double quantile = 0;               ///< of 97.5 %
+
+  [[nodiscard]] double reach() const { return quantile * std::sqrt(static_cast<double>(axes.size())); }
+  static constexpr double kNear = 1e-3;
 };
 
 /// `n` scenes; the same for the same seed. Precondition: the estimate is usable. Cost: n scenes.
 [[nodiscard]] DrawnScenes draw_scenes(const Parameters& parameters, const Estimate& estimate, std::size_t n,
                                       std::uint64_t seed);
 
-/// A number at the estimate, and between which 95 % of the drawn scenes have it: from the 2.5 % to the 97.5 % quantile,
-/// (n + 1) p-th in order with linear interpolation. An event that never comes has kNever. So a band follows
-/// phi where a shock may have passed or not: from one state to the other, where a linear propagation has no meaning.
+/// A number g at the estimate, and where it is with 95 %.
+///
+/// By derivatives, where the method has them: g -+ quantile sd, sd^2 = sum over the axes of (dg/dxi)^2, if at both far
+/// ends of every axis the straight line is off by no more than kMostBent of that (times the number of axes, the square of
+/// how much farther they are). Times, which are positive, in their logarithm.
+/// Elsewhere, as where a shock may have passed or not, by draws: what lies between the 2.5 % and the 97.5 % quantile of the
+/// drawn scenes, (n + 1) p-th in order with linear interpolation; so a band follows phi from one state to the other, where
+/// a derivative has no meaning. An event that never comes has kNever.
 struct PredictedNumber {
+  static constexpr double kMostBent = 0.05;
   double value = 0;
-  std::optional<Interval> band;  ///< empty without draws
+  std::optional<Interval> band;     ///< empty without axes and draws
+  std::optional<double> std_error;  ///< sd, if the band is by derivatives
 };
 
-/// phi and M at times x heights, heights running fastest.
+/// phi and M at times x heights, heights running fastest. Derivatives are those of Method::linearise.
 struct PredictedSamples {
   std::vector<PredictedNumber> phi, M;
-  std::size_t n_failed = 0;  ///< draws that the method could not solve, left out
+  std::size_t n_failed = 0;    ///< draws that the method could not solve, left out
+  std::size_t n_by_draws = 0;  ///< numbers whose bands are by draws
 };
-/// Errors: as solve(). Cost: one solution for each draw.
+/// Errors: as solve(). Cost: two solutions for each axis, and one for each draw where draws are needed.
 [[nodiscard]] PredictedSamples predict_samples(const Scene<double>& estimated, const DrawnScenes& draws,
                                                const Method& method, const std::vector<double>& times,
                                                const std::vector<double>& heights,
                                                const Progress& progress = {});
 
-/// The event times, as in Timeline.
+/// The event times, as in Timeline. Derivatives are differences of exact times along the axes, kNear to either side: right
+/// to nine digits. A method that is not exact has none. Cost: four timelines for each axis, and one for each draw.
 struct PredictedEvents {
   Timeline<double> at_estimate;
-  struct InterfaceBands {
-    std::optional<Interval> first, last;
+  struct AtInterface {
+    PredictedNumber first, last;
   };
-  std::optional<Interval> t0, t1, t_star;
-  std::vector<InterfaceBands> interfaces;
-  std::size_t n_failed = 0;
+  PredictedNumber t0, t1, t_star;
+  std::vector<AtInterface> interfaces;
+  std::size_t n_failed = 0, n_by_draws = 0;
 };
 [[nodiscard]] PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes& draws,
                                              const Method& method, const Progress& progress = {});

@@ -5,12 +5,15 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "shearfront/fit/interval_check.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/residual_structure.hpp"
+#include "shearfront/fit/search/allowance.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -27,14 +30,16 @@ struct PredictedObservations {
   std::vector<double> values;
   std::string remark;
 };
-PredictedObservations predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values) {
+PredictedObservations predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values,
+                                  RunControl& control) {
   ResidualRows rows;
   MisfitList::for_each([&]<class M>() {
     if (name_of(spec.observations.quantity) == M::kName)
       rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   const Forward forward(parameters, spec.forward, rows.field, rows.points);
-  const Prediction at = forward.predict(values, false);
+  const Prediction at =
+      forward.predict(values, false, [&](double, std::uint64_t) { return control.may_run(); });
   PredictedObservations predicted{std::vector<double>(spec.observations.rows.size(), kUnknown), at.remark};
   if (!at.is_valid()) return predicted;
   const VectorXd r = rows.residuals(at.values);
@@ -146,6 +151,14 @@ void mark_bounds(const Minimum& minimum, Estimate& estimate) {
     }
 }
 
+std::string text_of(const Parameters& parameters, const VectorXd& values) {
+  std::string text;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    text +=
+        (i == 0 ? "" : ", ") + parameters[i].name() + " = " + number_text(values[static_cast<Index>(i)], 6);
+  return text;
+}
+
 }  // namespace
 
 Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
@@ -160,7 +173,14 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   estimate.steps = objective.control().steps();
   estimate.misfit = found.misfit;
   Minimum minimum{spec, parameters, objective, found.u, objective.inspect(found.u, true), {}, 0};
+  const RunControl& control = objective.control();
   const Objective::Evaluation& best = minimum.at;
+  if (control.is_interrupted()) {
+    estimate.status = Status::interrupted;
+    estimate.message = kInterrupted;
+    if (const Objective::Evaluation* known = objective.known(found.u); known && !best.is_valid)
+      minimum.at = *known;
+  }
   for (const Parameter& p : parameters) {
     ParameterEstimate& parameter = estimate.parameters.emplace_back();
     parameter.name = p.name();
@@ -173,13 +193,17 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
       estimate.status = Status::not_converged;
       estimate.message = "the search ended where the model has no solution";
     }
-    if (!best.failure.empty()) estimate.message += ": " + best.failure;
+    if (control.is_interrupted())
+      estimate.message = "interrupted before the misfit was known at the point reached, " +
+                         text_of(parameters, objective.coordinates().values(found.u));
+    else if (!best.failure.empty())
+      estimate.message += ": " + best.failure;
     return estimate;
   }
 
   const VectorXd values = objective.coordinates().values(found.u);
   estimate.scene = Scene<double>(parameters.scene_with(values));
-  auto [predicted, remark] = predictions(spec, parameters, values);
+  auto [predicted, remark] = predictions(spec, parameters, values, objective.control());
   estimate.predicted = std::move(predicted);
   estimate.observations = static_cast<std::size_t>(best.residuals.size());
   double squares = 0;
@@ -188,6 +212,12 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   estimate.residual_norm = std::sqrt(squares);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     estimate.parameters[i].estimate = values[static_cast<Index>(i)];
+  if (best.jacobian.size() == 0) {  // interrupted before it was there
+    estimate.correlation = MatrixXd::Constant(found.u.size(), found.u.size(), kUnknown);
+    estimate.sigma_is_given = spec.observations.has_sigma();
+    estimate.sigma = estimate.sigma_is_given ? 1 : kUnknown;
+    return estimate;
+  }
   std::vector<bool> held = objective.coordinates().at_bound(found.u);
   set_errors(minimum, held, estimate);
   if (hold_near_bounds(objective.coordinates(), found.u, minimum.errors, held))
@@ -195,9 +225,10 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   mark_bounds(minimum, estimate);
   set_error_bars(minimum, estimate);
   set_information_criteria(spec, estimate);
-  if (found.status != Status::interrupted) {
+  if (!control.is_interrupted()) {
     auto checks = check_intervals(minimum, estimate);
-    for (std::size_t i = 0; i < checks.size(); ++i) estimate.parameters[i].check = std::move(checks[i]);
+    for (std::size_t i = 0; i < checks.size() && !control.is_interrupted(); ++i)
+      estimate.parameters[i].check = std::move(checks[i]);
   }
   estimate.structure = residual_structure(spec.observations, estimate.predicted);
   estimate.warnings = warnings(minimum, estimate);

@@ -37,7 +37,7 @@ std::optional<ResolutionShift> resolution_shift(const Objective& objective, cons
                                                 const VectorXd& u, const Estimate& estimate) {
   if (!fine.refusal(objective.parameters().start_scene()).empty()) return {};
   const Objective::Evaluation at = objective.inspect(u, true);
-  RunControl control(1);
+  RunControl control = objective.control().for_part(1);
   const Objective finer(objective.parameters(), objective.coordinates(), {fine}, objective.rows(),
                         objective.loss(), control);
   const Objective::Evaluation there = finer.inspect(u, false);

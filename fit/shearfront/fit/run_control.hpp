@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,10 @@ namespace shearfront::fit {
 /// Counts the evaluations of a whole fit, over all its searches, and ends it when told to.
 class RunControl {
  public:
+  /// How long runs of the forward model may go on after an interruption: enough for the report of a fit whose runs are
+  /// short, and not felt by who waits.
+  static constexpr std::chrono::milliseconds kGrace{50};
+
   explicit RunControl(std::size_t max_evaluations, Progress progress = {})
       : max_evaluations_(max_evaluations), progress_(std::move(progress)) {}
 
@@ -22,7 +28,18 @@ class RunControl {
       best_ = misfit;
       steps_.push_back({evaluations_, misfit, stage_});
     }
-    if (progress_ && !progress_(evaluations_, best_)) interrupted_ = true;
+    ask();
+  }
+  /// Whether a run of the forward model may begin or go on; asked now and then within it.
+  [[nodiscard]] bool may_run() {
+    ask();
+    return !interrupted_ || Clock::now() - *interrupted_ < kGrace;
+  }
+  /// For runs of the same fit that are not counted here.
+  [[nodiscard]] RunControl for_part(std::size_t max_evaluations) const {
+    RunControl part(max_evaluations, progress_);
+    part.interrupted_ = interrupted_;
+    return part;
   }
   /// A new stage minimises another misfit: what was best before cannot be compared.
   void new_stage() {
@@ -31,16 +48,21 @@ class RunControl {
   }
 
   [[nodiscard]] std::size_t evaluations() const { return evaluations_; }
-  [[nodiscard]] bool is_interrupted() const { return interrupted_; }
+  [[nodiscard]] bool is_interrupted() const { return interrupted_.has_value(); }
   [[nodiscard]] bool is_exhausted() const { return evaluations_ >= max_evaluations_; }
-  [[nodiscard]] bool must_stop() const { return interrupted_ || is_exhausted(); }
+  [[nodiscard]] bool must_stop() const { return is_interrupted() || is_exhausted(); }
   [[nodiscard]] std::size_t left() const { return is_exhausted() ? 0 : max_evaluations_ - evaluations_; }
   [[nodiscard]] const std::vector<SearchStep>& steps() const { return steps_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  void ask() {
+    if (!interrupted_ && progress_ && !progress_(evaluations_, best_)) interrupted_ = Clock::now();
+  }
+
   std::size_t max_evaluations_, evaluations_ = 0, stage_ = 0;
   double best_ = std::numeric_limits<double>::infinity();
-  bool interrupted_ = false;
+  std::optional<Clock::time_point> interrupted_;  ///< when
   Progress progress_;
   std::vector<SearchStep> steps_;
 };

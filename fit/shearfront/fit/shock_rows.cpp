@@ -49,7 +49,8 @@ bool has_jump(const Eigen::VectorXd& phi, double least) {
 }  // namespace
 
 std::vector<bool> rows_without_jumps(const Parameters& parameters, const ForwardSpec& forward,
-                                     const Observations& observations, const Eigen::VectorXd& values) {
+                                     const Observations& observations, const Eigen::VectorXd& values,
+                                     const shearfront::Progress& progress) {
   std::vector<bool> keep(observations.rows.size(), true);
   const auto near = neighbourhoods(observations, parameters.scene().bottom(), parameters.scene().top());
   std::vector<Place> ends;
@@ -59,7 +60,8 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
   }
   if (ends.empty()) return keep;
   const double jump = kJump * parameters.states();
-  const Prediction at_ends = Forward(parameters, forward, Observable::phi, ends).predict(values, false);
+  const Prediction at_ends =
+      Forward(parameters, forward, Observable::phi, ends).predict(values, false, progress);
   if (!at_ends.is_valid()) return keep;
   std::vector<Neighbourhood> steep;
   std::vector<Place> inside;
@@ -72,7 +74,8 @@ std::vector<bool> rows_without_jumps(const Parameters& parameters, const Forward
           {near[i].t, near[i].low + (near[i].high - near[i].low) * static_cast<double>(part) / kParts});
   }
   if (inside.empty()) return keep;
-  const Prediction at = Forward(parameters, forward, Observable::phi, inside).predict(values, false);
+  const Prediction at =
+      Forward(parameters, forward, Observable::phi, inside).predict(values, false, progress);
   if (!at.is_valid()) return keep;
   for (std::size_t i = 0; i < steep.size(); ++i) {
     keep[steep[i].row] =

@@ -14,9 +14,10 @@ namespace shearfront::fit {
 /// and kSteeper times as much as in the median of such pairs. A shock moving over the height of an
 /// observation changes it by a finite amount at once, which no derivative tells, and at a jump of a(z)
 /// neither data nor grids tell on which side they are; away from jumps phi is differentiable in the
-/// parameters. Cost: two runs of the forward model.
+/// parameters. `progress` is asked as by Forward; if it ends the runs, all are kept. Cost: two runs of the forward model.
 [[nodiscard]] std::vector<bool> rows_without_jumps(const Parameters& parameters, const ForwardSpec& forward,
                                                    const Observations& observations,
-                                                   const Eigen::VectorXd& values);
+                                                   const Eigen::VectorXd& values,
+                                                   const shearfront::Progress& progress = {});
 
 }  // namespace shearfront::fit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "shearfront/fit.hpp"
@@ -90,6 +91,22 @@ void StagedSearch::find() {
     result_ = before;
     u_ = before.u;
     break;
+  }
+  leave_bounds(start);
+}
+
+void StagedSearch::leave_bounds(const VectorXd& start) {
+  if (!uses_derivatives(spec_.search.algorithm) || spec_.unknown.shape != Shape::none || has_jumps()) return;
+  const std::vector<bool> at_bound = coordinates_.at_bound(u_);
+  for (Eigen::Index j = 0; j < start.size() && result_.status == Status::ok && !control_.must_stop(); ++j) {
+    if (!at_bound[static_cast<std::size_t>(j)] || coordinates_.at_bound(start)[static_cast<std::size_t>(j)])
+      continue;
+    const SearchResult before = result_;
+    u_[j] = start[j];
+    search_from_here(*objective_, 0);
+    if (result_.status == Status::ok && result_.misfit < before.misfit) continue;
+    result_ = before;
+    u_ = before.u;
   }
 }
 
@@ -215,7 +232,8 @@ void StagedSearch::settle(bool leaves_out_jumps) {
 
 bool StagedSearch::renew_rows(std::vector<bool>& keep) {
   std::vector<bool> now =
-      rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_));
+      rows_without_jumps(parameters_, spec_.forward, spec_.observations, coordinates_.values(u_),
+                         [this](double, std::uint64_t) { return control_.may_run(); });
   if (now == keep) return false;
   keep = std::move(now);
   objective_ = make_objective(rows_.selected(keep), loss_);

@@ -55,6 +55,10 @@ class StagedSearch {
   /// Whether a jump of phi can be near an observation: with diffusion phi is continuous.
   [[nodiscard]] bool has_jumps() const;
 
+  /// Searches once more from where the coordinates at a bound are as at the start: on the way to a rate of almost 0 the misfit is level in
+  /// its logarithm, and a search does not come back from there.
+  void leave_bounds(const Eigen::VectorXd& start);
+
   /// Compares estimates whose last stages left out other rows or took another noise: all rows, with a loss of
   /// fixed scale.
   [[nodiscard]] double forgiving_misfit();

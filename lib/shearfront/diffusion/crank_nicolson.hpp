@@ -111,6 +111,8 @@ class CrankNicolson {
   /// and the states are those after it: no flux then differs from its balance by more than 1e-5 tolerance
   /// max |phi| height / t. advance_to() then only sets the time.
   [[nodiscard]] bool is_steady() const { return is_steady_; }
+  /// The time by then. Precondition: is_steady().
+  [[nodiscard]] double rest_time() const { return rest_time_; }
   [[nodiscard]] const std::string& message() const { return message_; }
 
  private:
@@ -170,7 +172,7 @@ class CrankNicolson {
   StepControl control_;
   double scale_ = 0;  ///< max |phi|
   double limit_ = 0;  ///< of |v|: beyond it the scheme has become unstable
-  double largest_change_ = 0, time_ = 0;
+  double largest_change_ = 0, time_ = 0, rest_time_ = 0;
   double last_length_ = 0;
   double stiffness_ = 0;  ///< fixed steps: the largest rate at which fluxes change a state
   std::vector<TimeStep> steps_;

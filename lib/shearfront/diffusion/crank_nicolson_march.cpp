@@ -42,6 +42,7 @@ Status CrankNicolson::repeat(std::span<const TimeStep> steps) {
     if (!attempt(step).converged) return Status::not_converged;
     commit(step);
     time_ += step.length;
+    if (const Status status = stop_reason(); status != Status::ok) return status;
   }
   return Status::ok;
 }
@@ -60,6 +61,7 @@ Status CrankNicolson::march_fixed(double t) {
     if (!done) return Status::not_converged;
     time_ = begin + static_cast<double>(i) * length;
     is_steady_ = largest_change_ <= 0x1p-52 * scale_ * std::min(1.0, last_length_ * stiffness_);
+    if (is_steady_) rest_time_ = time_;
     if (const Status status = stop_reason(); status != Status::ok) return status;
   }
   return is_steady_ ? Status::steady : Status::ok;
@@ -178,6 +180,7 @@ void CrankNicolson::try_rest() {
     if (largest_magnitude(correction_.data(), n_) <= 0.1 * options_.tolerance * scale_) {
       commit(step);
       is_steady_ = true;
+      rest_time_ = time_;
       return;
     }
   }

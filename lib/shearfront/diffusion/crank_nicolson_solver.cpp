@@ -97,6 +97,7 @@ class CrankNicolsonRun final : public Run {
     summary.message = refused_.empty() ? message() : refused_;
     summary.remark = remark_;
     summary.cell_updates = engine_->n_cell_updates();
+    if (engine_->is_steady()) summary.rest_time = engine_->rest_time();
     return summary;
   }
 
@@ -138,8 +139,9 @@ struct Row {
 /// One run through all rows, by the steps of `repeated` if there are some.
 Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_places,
                           const diffusion::Problem& problem, const std::vector<diffusion::Tangent>& tangents,
-                          const CrankNicolsonSolver::Options& options, const Plan* repeated, Plan& made) {
-  const diffusion::Options own = engine_options(options, {});
+                          const CrankNicolsonSolver::Options& options, const Plan* repeated, Plan& made,
+                          const Progress& progress) {
+  const diffusion::Options own = engine_options(options, progress);
   diffusion::CrankNicolson engine(problem, own, tangents);
   Linearisation result;
   if (own.scheme == diffusion::Scheme::raised) result.summary.remark = diffusion::raised_remark(problem);
@@ -149,7 +151,8 @@ Linearisation run_through(const std::map<double, Row>& rows, std::size_t n_place
     const std::size_t before = engine.steps().size();
     const Status status = repeated ? engine.repeat(repeated->parts[made.parts.size()]) : march(engine, t);
     result.summary.status = status;
-    result.summary.message = repeated ? "the iteration does not converge" : engine.message();
+    result.summary.message =
+        repeated && status == Status::not_converged ? "the iteration does not converge" : engine.message();
     if (status != Status::ok && status != Status::steady) return result;
     const auto& steps = engine.steps();
     made.parts.emplace_back(steps.begin() + static_cast<std::ptrdiff_t>(before), steps.end());
@@ -210,7 +213,8 @@ std::string CrankNicolsonSolver::derivative_refusal(const Scene<double>&, const 
 
 Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const Options& options,
                                              const std::vector<Place>& places,
-                                             const std::vector<std::size_t>& wanted, std::any& memory) {
+                                             const std::vector<std::size_t>& wanted, std::any& memory,
+                                             const Progress& progress) {
   std::map<double, Row> rows;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Row& row = rows[places[i].t];
@@ -232,10 +236,11 @@ Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const O
   if (const Plan* plan = std::any_cast<Plan>(&memory);
       plan && plan->parts.size() == rows.size() && is_near(made.numbers, plan->numbers)) {
     Plan same;
-    Linearisation result = run_through(rows, places.size(), problem, tangents, options, plan, same);
-    if (result.summary.usable()) return result;
+    Linearisation result = run_through(rows, places.size(), problem, tangents, options, plan, same, progress);
+    if (result.summary.usable() || result.summary.status == Status::interrupted) return result;
   }
-  Linearisation result = run_through(rows, places.size(), problem, tangents, options, nullptr, made);
+  Linearisation result =
+      run_through(rows, places.size(), problem, tangents, options, nullptr, made, progress);
   if (result.summary.usable()) memory = std::move(made);
   return result;
 }

@@ -105,19 +105,67 @@ struct TanhRatio {
   }
 };
 
+namespace arc_detail {
+
+/// dlog B/db: dlog B/dlog b = 2 y / sinh(2 y) - 1.
+template <Real Scalar>
+[[nodiscard]] Scalar log_drift_by_slope(const LinearDrift<Scalar>& drift, const TanhRatio<Scalar>& tanh,
+                                        const Scalar& slope, const Scalar& t) {
+  const Scalar one(1), two(2), y = slope * t / two;
+  return y * y > one ? Scalar((Scalar(4) * drift.u * drift.v / tanh.ratio - one) / slope)
+                     : Scalar(y * t / two * (tanh.rest / tanh.ratio - tanh.ratio));
+}
+
+}  // namespace arc_detail
+
+/// How far a state of a linear piece has risen where the rate is r, r B (p0^2 u - (1 - p0)^2 v) / D^2, and its derivatives by the state,
+/// the slope and r.
+template <Real Scalar>
+struct LinearRise {
+  Scalar size, by_state, by_slope, by_rate;
+
+  LinearRise(const LinearDrift<Scalar>& drift, const Scalar& slope, const Scalar& t, const Scalar& p0,
+             const Scalar& missing0, const Scalar& r) {
+    const Scalar two(2), D = p0 * drift.u + missing0 * drift.v, uv = drift.u * drift.v;
+    const Scalar up = p0 / D * (p0 * drift.u / D), down = missing0 / D * (missing0 * drift.v / D),
+                 part = up - down;
+    const TanhRatio<Scalar> tanh(Scalar(slope * t / two));
+    const Scalar log_B = arc_detail::log_drift_by_slope(drift, tanh, slope, t);
+    const Scalar by_drift =
+        t * uv * ((p0 / D) * (p0 / D) + (missing0 / D) * (missing0 / D) - two * part * ((p0 - missing0) / D));
+    by_rate = drift.B * part;
+    size = r * by_rate;
+    by_state = two * r * drift.B * (uv / D) / (D * D);
+    by_slope = r * drift.B * (log_B * part + by_drift);
+  }
+};
+
+/// The same in an exponential piece in which r falls: log E / kappa, by the state, log r and kappa, b = r t kappa. With q = b (p0 -
+/// (1 - p0)) - 2 b^2 E p0 (1 - p0): dlog E/dlog b = q / (1 - q), dlog E/dp0 = b (2 - b E ((1 - p0) - p0)) / (1 - q).
+template <Real Scalar>
+struct ExponentialRise {
+  Scalar by_state, by_log_rate, by_kappa;
+
+  ExponentialRise(const FootRoot<Scalar>& root, const Scalar& b, const Scalar& kappa, const Scalar& p0,
+                  const Scalar& missing0) {
+    const Scalar one(1), two(2), lean = p0 - missing0, q = b * (lean - two * (b * root.E) * p0 * missing0);
+    by_state = b * (two + b * root.E * lean) / (one - q) / kappa;
+    by_log_rate = q / (one - q) / kappa;
+    by_kappa = (by_log_rate - root.log_E() / kappa) / kappa;
+  }
+};
+
 /// r B (p^2 / u - (1 - p)^2 / v) = d by exact/arc.hpp, differentiated; B = (t / 2) tanh(y) / y, y = b t / 2.
 template <Real Scalar>
 [[nodiscard]] LinearFanDerivatives<Scalar> linear_fan_derivatives(const Arc<Scalar>& arc,
                                                                   const LinearDrift<Scalar>& drift,
                                                                   const Scalar& slope, const Scalar& t,
                                                                   const Scalar& d, const Scalar& r) {
-  const Scalar one(1), two(2), four(4);
+  const Scalar one(1), two(2);
   const Scalar x = slope * t, y = x / two, up = arc.p / drift.u, down = arc.missing / drift.v;
   const TanhRatio<Scalar> tanh(y);
   const Scalar k = d / (r * drift.B), by_p = two * (up + down);
-  // dlog B/dlog b = 2 y / sinh(2 y) - 1
-  const Scalar log_B_by_slope = y * y > one ? Scalar((four * drift.u * drift.v / tanh.ratio - one) / slope)
-                                            : Scalar(y * t / two * (tanh.rest / tanh.ratio - tanh.ratio));
+  const Scalar log_B_by_slope = arc_detail::log_drift_by_slope(drift, tanh, slope, t);
   const Scalar drifted = drift.u * drift.v * (up * up + down * down);  // (p^2 v / u + (1 - p)^2 u / v)
   LinearFanDerivatives<Scalar> out;
   out.by_rate = -k / r / by_p;

@@ -11,7 +11,8 @@
 
 namespace shearfront::exact {
 
-/// Derivatives along a path of a parabola that does not leave its piece, a turn included, in closed form.
+/// Derivatives along a path of a parabola that does not leave its piece, a turn included, in closed form. From a smooth start u0 the
+/// height y where it begins is a root of y + rise(u0(y)) = z, and moves with everything.
 template <Real Scalar>
 class ArcGradient {
  public:
@@ -37,11 +38,21 @@ class ArcGradient {
     StartMomentum<Scalar> start;
     Scalar by_slope;
     if (path_.kind == PathKind::constant) {
-      start = {cells_.phi[path_.source], one - cells_.phi[path_.source]};
+      const Scalar p0 = cells_.state(path_.source, path_.foot);
+      start = {p0, one - p0};
       const Scalar D = start.p * drift.u + start.missing * drift.v;
       out_.phi_state = drift.u / D * (drift.v / D);
       by_slope = out_.phi_state * start.p * start.missing * t_;
       out_.phi_log_scale = by_slope * slope;
+      if (cells_.is_curved(path_.source)) {
+        const LinearRise<Scalar> rise(drift, slope, t_, start.p, start.missing, numbers_.at(end_, z_));
+        const Scalar steep = cells_.slope(path_.source, path_.foot), all = one + rise.by_state * steep;
+        const Scalar shift = -steep / all * out_.phi_state;  // dphi by what the way to z grows
+        out_.phi_state /= all;
+        by_slope += shift * rise.by_slope;
+        out_.phi_log_scale += shift * (rise.size + slope * rise.by_slope);
+        numbers_.add_at(end_, z_, Scalar(0), shift * rise.by_rate);
+      }
     } else {
       const Scalar r = numbers_.at(end_, z_), d = z_ - path_.foot;
       const auto arc = arc_from_point(RateForm::linear, slope, t_, d, numbers_.at(end_, path_.foot), r);
@@ -75,13 +86,21 @@ class ArcGradient {
     ExponentialFanDerivatives<Scalar> phi;
     StartMomentum<Scalar> start;  // in the orientation in which r falls
     if (path_.kind == PathKind::constant) {
-      const Scalar& p0 = cells_.phi[path_.source];
+      const Scalar p0 = cells_.state(path_.source, path_.foot);
       start = is_rising ? StartMomentum<Scalar>{one - p0, p0} : StartMomentum<Scalar>{p0, one - p0};
       const Scalar b = numbers_.at(end_, z_) * t_ * kappa;
       const FootRoot<Scalar> root(b, start.p);
       out_.phi_state = root.phi_by_state(b, start.p);
       phi.by_log_rate = root.phi_by_log_b(b, start.p);
       phi.by_kappa = phi.by_log_rate / kappa;
+      if (cells_.is_curved(path_.source)) {
+        const ExponentialRise<Scalar> rise(root, b, kappa, start.p, start.missing);
+        const Scalar steep = cells_.slope(path_.source, path_.foot), all = one + rise.by_state * steep;
+        const Scalar shift = -steep / all * out_.phi_state;
+        out_.phi_state /= all;
+        phi.by_log_rate += shift * rise.by_log_rate;
+        phi.by_kappa += shift * rise.by_kappa;
+      }
     } else {
       const Scalar log_E = kappa * d, e = expm1(log_E), way = r0 * t_;
       const FanMomenta<Scalar> fan(Scalar(way * kappa), log_E, e);

@@ -76,6 +76,11 @@ struct Cells {
   [[nodiscard]] Scalar state(std::size_t i, const Scalar& z) const {
     return is_curved(i) ? shape->state(layer[i], z) : phi[i];
   }
+  /// dphi/dz of the same.
+  [[nodiscard]] Scalar slope(std::size_t i, const Scalar& z) const {
+    if (!is_curved(i)) return Scalar(0);
+    return shape->slope(layer[i], z, Scalar(x[i] + (x[i + 1] - x[i]) / Scalar(2)));
+  }
   /// int phi(., 0) from the lower end of cell i to a height of it.
   [[nodiscard]] Scalar inside(std::size_t i, const Scalar& z) const {
     return is_curved(i) ? shape->amount(layer[i], x[i], z) : Scalar(phi[i] * (z - x[i]));

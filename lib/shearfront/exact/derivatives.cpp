@@ -46,7 +46,7 @@ bool is_twice(const std::vector<Scalar>& knots, const Scalar& z) {
 
 /// Where some entries lie among all of them.
 struct EntryPlaces {
-  std::size_t n, first_rate, scale, first_jump, first_state;
+  std::size_t n, first_rate, scale, first_jump, first_state, first_start;
 
   template <Real Scalar>
   explicit EntryPlaces(const Scene<Scalar>& scene) {
@@ -59,7 +59,14 @@ struct EntryPlaces {
     scale = place(spec.scale);  // follows the entries of the model
     first_rate = scale - std::visit([](auto& model) { return model_entries(model).size(); }, spec.shear_rate);
     first_jump = spec.initial_breaks.empty() ? n : place(spec.initial_breaks.front());
-    first_state = place(spec.initial_values.front());
+    first_state = spec.initial_values.empty() ? n : place(spec.initial_values.front());
+    first_start = n;
+    if (spec.initial_state)
+      std::visit(
+          [&](auto& model) {
+            if (const auto own = model_entries(model); !own.empty()) first_start = place(*own.front());
+          },
+          *spec.initial_state);
   }
 };
 
@@ -67,12 +74,13 @@ struct EntryPlaces {
 
 template <Real Scalar>
 std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
-  if (scene.has_smooth_start()) return "the start is smooth";
   const bool is_rate = entry.field.starts_with("shear_rate."), is_jump = entry.field == "initial.breaks";
-  if (!is_rate && !is_jump && entry.field != "initial.values")
+  const bool is_start = scene.has_smooth_start() && entry.field.starts_with("initial.");
+  if (!is_rate && !is_jump && !is_start && entry.field != "initial.values")
     return entry.field + " has no exact derivatives";
   if (!is_layered(scene.spec().solid_fraction)) return "the solid fraction varies smoothly";
   if (!is_layered(scene.spec().temperature)) return "the temperature varies smoothly";
+  if (is_start) return {};
   if (is_jump) {
     // With a solid fraction pieces of a smooth bed end at the initial jumps.
     const bool moves_layers = scene.spec().solid_fraction && !scene.is_layered();
@@ -114,6 +122,7 @@ Derivatives<Scalar>::Derivatives(const ExactSolution<Scalar>& solution)
   scale_ = places.scale;
   first_jump_ = places.first_jump;
   first_state_ = places.first_state;
+  first_start_ = places.first_start;
   add_boundaries();
   add_pieces();
   add_initial();
@@ -260,12 +269,25 @@ void Derivatives<Scalar>::spread(const Chain& chain, std::size_t n, const Pair& 
   }
 }
 
+/// Of a smooth start: int_bottom^y u(., 0) and u(y, 0), times these.
+template <Real Scalar>
+void Derivatives<Scalar>::add_start_shape(const Scalar& y, const Scalar& by_amount, const Scalar& by_state,
+                                          At& out) const {
+  const auto& cells = solution_.medium().cells();
+  form_.start()->derivatives(cells.layer[cells.cell_at(y)], y,
+                             [&](std::size_t entry, const Scalar& state, const Scalar& amount) {
+                               out.M[first_start_ + entry] += by_amount * amount;
+                               out.phi[first_start_ + entry] += by_state * state;
+                             });
+}
+
 /// Derivatives of int_bottom^y u(., 0) at fixed y. A jump at y itself counts as lying at y - 0: the caller
 /// adds what its own movement does to the path.
 template <Real Scalar>
 void Derivatives<Scalar>::add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const {
   const auto& jumps = form_.initial_breaks();
   const auto& states = form_.initial_values();
+  if (form_.start()) return add_start_shape(y, Scalar(1), Scalar(0), out);
   for (std::size_t j = 0; j < states.size(); ++j) {
     const Scalar& lo = j == 0 ? form_.boundaries().front() : jumps[j - 1];
     if (!(lo < y)) break;
@@ -284,7 +306,10 @@ void Derivatives<Scalar>::add_start(const Path<Scalar>& path, const PathGradient
   const auto& jumps = form_.initial_breaks();
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), path.foot);
   const auto j = static_cast<std::size_t>(jump - jumps.begin());
-  const Pair by{gradient.start.against(form_.initial_values()[j]), gradient.phi_start};
+  if (form_.start() && path.is_state) return;
+  const Scalar& below =
+      form_.start() ? solution_.medium().cells().beside(path.source, false) : form_.initial_values()[j];
+  const Pair by{gradient.start.against(below), gradient.phi_start};
   if (jump != jumps.end() && *jump == path.foot && form_.initial_break(j) != form_.kNone) {
     spread(jumps_, j, by, out);
     return;
@@ -307,7 +332,9 @@ void Derivatives<Scalar>::add_path(const Path<Scalar>& path, const Scalar& y, co
     spread(pieces_, gradient.first * per_piece + n, gradient.pieces[n], out);
   for (std::size_t n = 1; n < gradient.boundaries.size(); ++n)
     spread(boundaries_, gradient.first + n, gradient.boundaries[n], out);
-  if (path.kind == PathKind::constant) {
+  if (path.kind == PathKind::constant && form_.start()) {
+    add_start_shape(path.foot, Scalar(0), gradient.phi_state, out);
+  } else if (path.kind == PathKind::constant) {
     const auto& cells = solution_.medium().cells();
     const auto& jumps = form_.initial_breaks();
     const auto j = std::upper_bound(jumps.begin(), jumps.end(), cells.x[path.source]) - jumps.begin();
@@ -331,7 +358,10 @@ void Derivatives<Scalar>::at(const Scalar& z, const Scalar& t, At& out) const {
   out.value = solution_.at(z, t);
   const auto& jumps = form_.initial_breaks();
   const auto j = std::upper_bound(jumps.begin(), jumps.end(), y) - jumps.begin();
-  if (is_initial) spread(states_, static_cast<std::size_t>(j), {Scalar(0), Scalar(1)}, out);
+  if (is_initial && form_.start())
+    add_start_shape(y, Scalar(0), Scalar(1), out);
+  else if (is_initial)
+    spread(states_, static_cast<std::size_t>(j), {Scalar(0), Scalar(1)}, out);
   const bool below = !is_initial && y < solution_.medium().steady_height();
   if (!below) add_initial_cumulative(is_initial ? y : form_.boundaries().back(), true, out);
   scale_to_scene(z, out);

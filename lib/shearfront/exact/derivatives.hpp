@@ -11,7 +11,8 @@ namespace shearfront {
 
 /// Why the exact solution has no derivative with respect to an entry of a scene, in one clause; empty if it has one.
 ///
-/// It has for shear_rate.* (every model), initial.breaks and initial.values, where c and T are constant in pieces.
+/// It has for shear_rate.* (every model), initial.breaks and initial.values, and the entries of a smooth start, where c and T are
+/// constant in pieces.
 /// Left out is a knot of a(z) on a jump of c, T or the flux: moving it makes another layer.
 template <Real Scalar>
 [[nodiscard]] std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry);
@@ -29,6 +30,9 @@ template <Real Scalar>
 /// for a constant one; then p(H) in the layer of z. From the numbers of the pieces to the entries of the scene by the
 /// chain rule: a layer's mean by the model's harmonic_mean_derivatives, its ends by the knots they lie between. So the
 /// derivatives of pieces or layers that stand for a bed are those of what ExactSolution computes.
+///
+/// From a smooth start u0 the same: M sees its height of start y only by int u0 dy (dM/dy = 0 there), phi sees u0(y) and moves
+/// y by its slope. Where paths are looked for part by part the derivatives are those of the path found.
 ///
 /// Guarantees: exact up to rounding wherever M (phi) is differentiable, i.e. away from shocks (phi), from the
 /// edges of fans (phi), and for M away from points reached by two minimising paths. One-sided there: the
@@ -80,13 +84,15 @@ class Derivatives {
   void spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const;
   void clear(At& out) const;
   void scale_to_scene(const Scalar& z, At& out) const;
+  void add_start_shape(const Scalar& y, const Scalar& by_amount, const Scalar& by_state, At& out) const;
   void add_initial_cumulative(const Scalar& y, bool include_jump_at_y, At& out) const;
   void add_path(const exact::Path<Scalar>& path, const Scalar& y, const Scalar& t, At& out) const;
   void add_start(const exact::Path<Scalar>& path, const exact::PathGradient<Scalar>& gradient, At& out) const;
 
   const ExactSolution<Scalar>& solution_;
   const exact::CanonicalForm<Scalar>& form_;
-  std::size_t n_entries_, first_rate_, scale_, first_jump_, first_state_;  ///< places among the entries
+  std::size_t n_entries_, first_rate_, scale_, first_jump_, first_state_,
+      first_start_;   ///< places among the entries
   Chain boundaries_;  ///< heights of the image's boundaries
   Chain pieces_;      ///< numbers of its pieces
   Chain jumps_;       ///< heights of its initial jumps

@@ -145,15 +145,35 @@ template <Real Scalar, class Law>
     if (c == end) {  // one layer; H is that of the state also where the path stands still, at the peak
       out.pieces[c - lowest].M = path.H * law.inverse_rate[c] * t;
       out.phi_state = Scalar(1);
+      if (!cells.is_curved(path.source)) return out;
+      // Between the two speeds of a kinked peak it stays at the peak.
+      const Scalar tie = Scalar(64) * unit_roundoff<Scalar>();
+      if (law.steepness(c, up, Scalar(0)) > 0 && !(Scalar(4) * path.H < law.rate[c] * (Scalar(1) - tie))) {
+        out.phi_state = Scalar(0);
+        return out;
+      }
+      // z = y + r v(u0(y)) t, v = -+steepness.
+      const Scalar over = law.excess(c, cells.state(path.source, path.foot), up),
+                   w = law.steepness(c, up, over), steep = t * cells.slope(path.source, path.foot),
+                   v = up ? w : Scalar(-w);
+      const Scalar all = Scalar(1) + steep * law.rate[c] * (Scalar(2) * law.bend(c, up, over));
+      out.phi_state = Scalar(1) / all;
+      out.pieces[c - lowest].phi = -steep * v / all;
+      out.phi_log_scale = -steep * law.rate[c] * v / all;
       return out;
     }
     legs.add(path.foot, z);
-    legs.clear_phi();
-    const Scalar by_H = legs.p_H(end, up), over = law.excess(c, cells.phi[path.source], up);
-    out.pieces[c - lowest].phi += by_H * (path.H * law.inverse_rate[c]);
-    out.pieces[end - lowest].phi -= by_H * (path.H * law.inverse_rate[end]);
+    const Scalar by_H = legs.p_H(end, up), over = law.excess(c, cells.state(path.source, path.foot), up);
     const Scalar H_state = law.rate[c] * law.steepness(c, up, over);
-    out.phi_state = by_H * (up ? Scalar(-H_state) : H_state);
+    // From a smooth start dH = dH at y + A (T_H dH + dT - dt), A = -u0' H_state^2.
+    const Scalar A = -cells.slope(path.source, path.foot) * H_state * H_state,
+                 all = Scalar(1) - A * legs.T_H() / law.fastest, turn = by_H * A / all;
+    for (Pair& pair : out.pieces) pair.phi *= turn / law.fastest;
+    for (Pair& pair : out.boundaries) pair.phi *= turn / law.fastest;
+    out.pieces[c - lowest].phi += by_H / all * (path.H * law.inverse_rate[c]);
+    out.pieces[end - lowest].phi -= by_H * (path.H * law.inverse_rate[end]);
+    out.phi_state = by_H / all * (up ? Scalar(-H_state) : H_state);
+    out.phi_log_scale = -turn * t;
     return out;
   }
   const std::size_t start = cells.layer[up ? path.source : path.source - 1];

@@ -178,17 +178,20 @@ class SlopedGradient {
     numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
-  /// h = 4 g r(y) and T(y, h) = t with y free.
+  /// h = 4 g r(y) and T(y, h) = t with y free, on which g depends as well where the start is smooth.
   void phi_of_state() {
-    const Scalar &p0 = cells_.phi[path_.source], one(1), G = calculus_.height(start_, p0);
+    const Scalar p0 = cells_.state(path_.source, path_.foot), one(1), G = calculus_.height(start_, p0),
+                 G_p = calculus_.height_slope(start_, p0, is_set_up_);
     const Scalar r = at(start_, path_.foot), speed = one / calculus_.slowness(start_, r, is_set_up_);
-    const Scalar slope = slope_at(pieces_.form[start_], pieces_.bend[start_], r);
+    // dh/dy, away from where it goes.
+    const Scalar slope = G * slope_at(pieces_.form[start_], pieces_.bend[start_], r) +
+                         r * G_p * cells_.slope(path_.source, path_.foot);
     const Scalar b = is_set_up_ ? slope : Scalar(-slope);
-    const Scalar all = one - G * b * (speed * T_h_), by_h = phi_by_h();
-    const Scalar turn = by_h * G * b * speed / all;
+    const Scalar all = one - b * (speed * T_h_), by_h = phi_by_h();
+    const Scalar turn = by_h * b * speed / all;
     numbers_.multiply_phi(turn);
     numbers_.add_at(start_, path_.foot, Scalar(0), by_h * G / all);
-    out_.phi_state = by_h * r * calculus_.height_slope(start_, p0, is_set_up_) / all;
+    out_.phi_state = by_h * r * G_p / all;
     out_.phi_log_scale = -turn * t_;
     numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
   }

@@ -139,7 +139,8 @@ std::string ExactSolver::derivative_refusal(const Scene<double>& scene, const Op
 
 Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& options,
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
-                                     std::any& memory) {
+                                     std::any& memory, const Progress& progress) {
+  constexpr std::size_t kPlacesPerCall = 64;  // a few milliseconds in large beds
   // The number of pieces is kept, so that the solution is a smooth function of the numbers of the scene.
   ExactSolution<double>::Options settings = options_of(options);
   if (const auto* pieces = std::any_cast<std::size_t>(&memory)) settings.layers = *pieces;
@@ -161,8 +162,13 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
   std::vector<double> heights;
   for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
     const double t = places[order[from]].t;
+    if (progress && !progress(t, from)) {
+      result.summary.status = Status::interrupted;
+      result.summary.message = "interrupted after " + std::to_string(from) + " places";
+      return result;
+    }
     heights.clear();
-    for (; to < order.size() && places[order[to]].t == t; ++to) heights.push_back(places[order[to]].z);
+    for (; to < order.size() && to - from < kPlacesPerCall && places[order[to]].t == t; ++to) heights.push_back(places[order[to]].z);
     if (!derivatives) {
       const auto values = solution.at(heights, t);
       for (std::size_t n = 0; n < values.size(); ++n)

@@ -50,7 +50,7 @@ struct ExactSolver {
                                         const Entry& entry);
   static Linearisation linearise(const Scene<double>& scene, const Options& options,
                                  const std::vector<Place>& places, const std::vector<std::size_t>& entries,
-                                 std::any& memory);
+                                 std::any& memory, const Progress& progress = {});
 };
 static_assert(DifferentiableSolver<ExactSolver>);
 

@@ -47,6 +47,36 @@ class StartShape {
     const Scalar u = (of.is_reversed ? of.zero - share : share - of.zero) / of.width;
     return std::clamp(u, Scalar(0), Scalar(1));
   }
+  /// du/dy at a height of a layer, at an end or a knot as it is towards `middle`.
+  [[nodiscard]] Scalar slope(std::size_t layer, const Scalar& y, const Scalar& middle) const {
+    const Layer& of = layers_[layer];
+    const Scalar slope = std::visit(
+        [&](const auto& model) {
+          return Scalar(start_slope(model, height_of(layer, y), height_of(layer, middle)));
+        },
+        *scene_->spec().initial_state);
+    if (is_identity_) return slope;
+    return (of.is_reversed ? Scalar(-slope) : slope) / (of.width * of.stretch);
+  }
+  /// Derivatives by the entries of the model: add(entry, that of u at a height of a layer, that of int u dy from the bottom to there).
+  template <class Add>
+  void derivatives(std::size_t layer, const Scalar& y, const Add& add) const {
+    std::visit(
+        [&](const auto& model) {
+          for (std::size_t k = 0; k <= layer; ++k) {
+            const Layer& of = layers_[k];
+            const Scalar z = k == layer ? height_of(k, y) : of.top_z, one(1);
+            const Scalar unit = is_identity_ ? one : Scalar((of.is_reversed ? Scalar(-one) : one) / of.width),
+                         stretch = is_identity_ ? one : of.stretch;
+            start_derivatives(model, of.bottom_z, z,
+                              [&](std::size_t entry, const Scalar& value, const Scalar& integral) {
+                                add(entry, k == layer ? Scalar(unit * value) : Scalar(0),
+                                    Scalar(unit * stretch * integral));
+                              });
+          }
+        },
+        *scene_->spec().initial_state);
+  }
   /// int u dy between two heights of one layer.
   [[nodiscard]] Scalar amount(std::size_t layer, const Scalar& from, const Scalar& to) const {
     const Layer& of = layers_[layer];

@@ -22,6 +22,8 @@ constexpr double kUpdatesPerCall = 1 << 22;
 constexpr double kRestChange = 4 * March::kQuantum;
 // M of a bed at rest this near to that of the steady state, relative to what the bed holds, has reached it.
 constexpr double kSteadyTolerance = 1e-9;
+// For the time of the settled state, which itself needs no march.
+constexpr double kMostUpdatesForRestTime = 0x1p29;
 // Steps per cell after which a bed that does not come to rest is given up, if its last state is asked for.
 constexpr double kMostStepsPerCell = 1000;
 // Times the waves cross a bed between walls before it rests, at most.
@@ -74,6 +76,7 @@ class GridRun final : public Run {
     summary.status = status_;
     summary.message = message();
     summary.cell_updates = n_updates_;
+    summary.rest_time = rest_time_;
     return summary;
   }
 
@@ -97,6 +100,7 @@ class GridRun final : public Run {
     }
     const bool is_final = !std::isfinite(t);
     if (is_final && march_.has_steady_state()) {
+      if (const Status status = find_rest_time(); status != Status::ok) return status;
       march_.settle();
       is_at_rest_ = true;
       cells_ = march_.shares();
@@ -106,6 +110,7 @@ class GridRun final : public Run {
                  whole = std::floor(steps);
     if (const Status status = march_to(whole); status != Status::ok) return status;
     if (is_final && !is_at_rest_) return Status::not_converged;
+    if (is_final) rest_time_ = begin_ + dt_ * n_steps_;
     const double rest = is_at_rest_ ? 0 : (steps - whole) * dt_;
     if (rest > 0) n_updates_ += grid_.n_cells();
     cells_ = march_.shares_after(rest);
@@ -146,6 +151,22 @@ class GridRun final : public Run {
     is_at_rest_ = change == 0 || is_steady_ || !march_.has_steady_state();
   }
 
+  /// On until the bed is near its settled state, or that takes too long.
+  Status find_rest_time() {
+    constexpr double kLooksPerCrossing = 64;
+    const double per_look = std::max(1.0, std::floor(n_cells_ / kLooksPerCrossing));
+    const double most = static_cast<double>(n_updates_) + kMostUpdatesForRestTime;
+    while (!is_near_steady()) {
+      if (static_cast<double>(n_updates_) + per_look * n_cells_ > most) return Status::ok;
+      if (progress_ && !progress_(begin_ + dt_ * n_steps_, n_updates_)) return Status::interrupted;
+      for (double i = 0; i < per_look; ++i) march_.step(dt_);
+      n_steps_ += per_look;
+      n_updates_ += static_cast<std::uint64_t>(per_look * n_cells_);
+    }
+    rest_time_ = begin_ + dt_ * n_steps_;
+    return Status::ok;
+  }
+
   [[nodiscard]] bool is_near_steady() const {
     const std::vector<double> settled = march_.settled_amounts();
     double amount = 0, largest = 0;
@@ -183,6 +204,7 @@ class GridRun final : public Run {
   double begin_ = 0, next_break_ = 0;    ///< breaks of the states outside around the present
   double n_steps_ = 0, next_check_ = 0;  ///< since begin_
   std::uint64_t n_updates_ = 0;
+  std::optional<double> rest_time_;
   bool is_at_rest_ = false, is_steady_ = false;
   Status status_ = Status::ok;
   CellShares cells_;

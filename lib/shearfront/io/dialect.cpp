@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "shearfront/io/detail/observation_columns.hpp"
 #include "shearfront/io/detail/table_lines.hpp"
@@ -52,6 +53,16 @@ std::string Dialect::text() const {
                                          : "";
   if (decimal == ',') text += text.empty() ? "decimal commas" : ", decimal commas";
   return text;
+}
+
+std::vector<std::string> Dialect::remarks(std::string_view encoding, std::size_t n_preamble) const {
+  std::vector<std::string> all;
+  if (!encoding.empty()) all.push_back(std::string(encoding) + " text");
+  if (std::string written = text(); !written.empty()) all.push_back(std::move(written));
+  if (n_preamble > 0)
+    all.push_back(std::to_string(n_preamble) + (n_preamble == 1 ? " line" : " lines") + " before the header");
+  if (units) all.emplace_back("a row of units");
+  return all;
 }
 
 Dialect dialect_of(const TextSource& source, const ObservationFormat& format) {

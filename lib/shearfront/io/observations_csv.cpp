@@ -4,16 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
+#include "shearfront/io/detail/cell_text.hpp"
 #include "shearfront/io/detail/dialect.hpp"
 #include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/detail/observation_sizes.hpp"
+#include "shearfront/io/detail/replicates.hpp"
 #include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -30,26 +29,6 @@ using detail::ObservationColumns;
 using detail::Position;
 using detail::SimulationCode;
 using detail::TextSource;
-
-constexpr double kPlausiblePhi = 2;  // beyond it phi is no fraction with noise, but probably in percent
-/// A value this many times farther off than any that is possible is no measurement with noise.
-constexpr double kImpossible = 1000;
-
-constexpr std::array<std::string_view, 9> kMissing{"NA",  "N/A",  "n/a",  "na", "NaN",
-                                                   "nan", "#N/A", "NULL", "-"};
-
-/// Why parse_number() refuses the text.
-std::string_view why_no_number(std::string_view text) {
-  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || end != text.data() + text.size()) return "must be a number";
-  return error == std::errc::result_out_of_range
-             ? "must be 0 or between 5e-324 and 1.7976931348623157e308 in size"
-             : "must be a finite number";
-}
-
-auto place_of(const Observation& o) { return std::tie(o.t, o.z, o.width); }
 
 /// The format for measurements of a steady chute, or of what may be one.
 ObservationFormat format_for(bool is_chute, ObservationFormat format) {
@@ -93,7 +72,8 @@ class ObservationsReader {
     check_places();
     check_sizes();
     report_.throw_if_any();
-    note_range();
+    for (std::string& remark : detail::remarks_on_sizes(result_, phi_, top_ - bottom_))
+      result_.notes.push_back(printable(source_.name()) + ": " + remark);
     say_what_was_understood();
     return std::move(result_);
   }
@@ -118,9 +98,10 @@ class ObservationsReader {
     if (dialect_.is_simulated() && !is_header && !is_row(offset, line)) return;
     const auto bad_quotes = take_apart(offset, line, fields_);
     if (bad_quotes)
-      report_.add(source_.position(offset + *bad_quotes),
-                  {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
-                   fmt::format("must close its quotes on the same line, before a {}", separator())});
+      report_.add(
+          source_.position(offset + *bad_quotes),
+          {columns_ ? fmt::format("row[{}]", n_rows_) : "header", "",
+           fmt::format("must close its quotes on the same line, before a {}", dialect_.separator_name())});
     if (columns_) {
       // Spreadsheets end in rows of separators.
       const auto is_blank = [](const CsvField& field) { return field.text.empty(); };
@@ -201,7 +182,7 @@ class ObservationsReader {
   }
 
   bool read_time(std::size_t offset, Observation& o) {
-    if (!read_number(offset, Column::t, o.t, "")) return false;
+    if (!read_number(offset, Column::t, o.t)) return false;
     if (dialect_.code == SimulationCode::lammps) o.t *= format_.time_step.value_or(1);
     return o.t >= 0 || refuse(offset, Column::t, "must be >= 0");
   }
@@ -209,7 +190,7 @@ class ObservationsReader {
   /// The value of an observation whose place is read; `is_good`: and is right.
   void read_value(std::size_t offset, std::size_t field, Observation o, bool is_good) {
     const Column column = columns_->value();
-    const bool has_value = !is_missing(fields_[field].text);
+    const bool has_value = !detail::is_missing(fields_[field].text, format_.missing);
     if (has_value)
       is_good = read_number(offset, column, field, o.value, ", or empty or NA if it is missing") && is_good;
     if (column == Column::phi_large) o.value = 1 - o.value;
@@ -225,11 +206,11 @@ class ObservationsReader {
   }
 
   bool read_place(std::size_t offset, Observation& o) {
-    bool is_good = read_number(offset, Column::z, o.z, "");
+    bool is_good = read_number(offset, Column::z, o.z);
     if (is_good && !(o.z >= bottom_ && o.z <= top_))
       is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
     if (!columns_->has(Column::width)) return is_good && set_width(offset, o);
-    if (!read_number(offset, Column::width, o.width, "")) return false;
+    if (!read_number(offset, Column::width, o.width)) return false;
     if (!(o.width > 0)) return refuse(offset, Column::width, "must be > 0");
     if (is_good && !is_bin_resolved(o.z, o.width))
       return refuse(offset, Column::width,
@@ -251,14 +232,15 @@ class ObservationsReader {
   }
 
   bool read_sigma(std::size_t offset, Observation& o) {
-    if (!columns_->has(Column::sigma) || is_missing(fields_[columns_->field(Column::sigma)].text))
+    if (!columns_->has(Column::sigma) ||
+        detail::is_missing(fields_[columns_->field(Column::sigma)].text, format_.missing))
       return true;
-    if (!read_number(offset, Column::sigma, o.sigma, "")) return false;
+    if (!read_number(offset, Column::sigma, o.sigma)) return false;
     return o.sigma > 0 || refuse(offset, Column::sigma, "must be > 0");
   }
 
-  bool read_number(std::size_t offset, Column column, double& x, std::string_view alternative) {
-    return read_number(offset, column, columns_->field(column), x, alternative);
+  bool read_number(std::size_t offset, Column column, double& x) {
+    return read_number(offset, column, columns_->field(column), x, "");
   }
   bool read_number(std::size_t offset, Column column, std::size_t field, double& x,
                    std::string_view alternative) {
@@ -267,17 +249,8 @@ class ObservationsReader {
       x = *number * columns_->factor(column);
       return true;
     }
-    const bool is_other_mark = dialect_.decimal == ',' && parse_number(text);
     return refuse(offset, column, field,
-                  std::string(text.empty() ? "missing; " : "") +
-                      (is_other_mark ? "must have a decimal comma, as other numbers of the file do"
-                                     : std::string(why_no_number(text))) +
-                      std::string(alternative));
-  }
-
-  [[nodiscard]] bool is_missing(std::string_view text) const {
-    return text.empty() || std::find(kMissing.begin(), kMissing.end(), text) != kMissing.end() ||
-           std::find(format_.missing.begin(), format_.missing.end(), text) != format_.missing.end();
+                  detail::why_no_number(text, dialect_.decimal) + std::string(alternative));
   }
 
   /// Notes what is wrong with a field of the row that is being read; false for convenience.
@@ -286,7 +259,8 @@ class ObservationsReader {
   }
   bool refuse(std::size_t offset, Column column, std::size_t at, std::string constraint) {
     const CsvField& field = fields_[at];
-    add(offset + field.offset, std::string(name_of(column)), shown(field.text), std::move(constraint));
+    add(offset + field.offset, std::string(name_of(column)), detail::shown_number(field.text),
+        std::move(constraint));
     return false;
   }
   /// The same for a place that stands in the header of a wide table.
@@ -301,17 +275,8 @@ class ObservationsReader {
                 {fmt::format("{}[{}]", key, n_rows_), std::move(value), std::move(constraint)});
   }
 
-  static std::string shown(std::string_view text) {
-    if (text.empty()) return {};
-    return why_no_number(text) == "must be a number" ? quoted_text(text) : printable(text, kLongestShown);
-  }
-
   [[nodiscard]] std::string domain() const {
     return fmt::format("[{}, {}]", number_text(bottom_), number_text(top_));
-  }
-
-  [[nodiscard]] std::string_view separator() const {
-    return dialect_.separator == ';' ? "semicolon" : dialect_.separator == '\t' ? "tab" : "comma";
   }
 
   /// Where a field of a row of the result stands.
@@ -336,93 +301,44 @@ class ObservationsReader {
                      "missing; must be given in every row that has a value, or in none"});
   }
 
-  /// Finds places that occur twice; a file in ascending order needs no sorting.
   void check_places() {
     if (format_.replicates == Replicates::kept) return;
-    const std::vector<Observation>& rows = result_.rows;
-    const auto is_descent = [&](const Observation& a, const Observation& b) {
-      return !(place_of(a) < place_of(b));
-    };
-    if (std::adjacent_find(rows.begin(), rows.end(), is_descent) == rows.end()) return;
-    std::vector<std::size_t> order(rows.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      if (place_of(rows[a]) == place_of(rows[b])) return a < b;
-      return place_of(rows[a]) < place_of(rows[b]);
-    });
-    if (format_.replicates == Replicates::averaged) return average(order);
-    bool is_first = true;
-    for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
-      if (place_of(rows[order[i]]) != place_of(rows[order[first]])) {
-        first = i;
-        continue;
-      }
-      const Origin& again = origins_[order[i]];
-      const bool has_place = columns_->has(Column::z);
-      const Observation& row = rows[order[i]];
-      report_.add(
-          position_of(again, has_place ? Column::z : Column::t),
-          {fmt::format("{}[{}]", has_place ? "z" : "t", again.row), number_text(has_place ? row.z : row.t),
-           fmt::format("must differ from {} of line {}{}", has_place ? "z" : "t",
-                       source_.position(origins_[order[first]].offset).line,
-                       !has_place                     ? ""
-                       : columns_->has(Column::width) ? ", which has the same t and width"
-                                                      : ", which has the same t") +
-               (std::exchange(is_first, false)
-                    ? "; or be kept or averaged by replicates = \"keep\" or \"mean\""
-                    : "")});
+    if (format_.replicates == Replicates::averaged) return average();
+    const Column at = columns_->has(Column::z) ? Column::z : Column::t;
+    const char* const of_same = at == Column::t                ? ""
+                                : columns_->has(Column::width) ? ", which has the same t and width"
+                                                               : ", which has the same t";
+    const char* hint = "; or be kept or averaged by replicates = \"keep\" or \"mean\"";  // once
+    for (const detail::RepeatedPlace& place : detail::repeated_places(result_.rows)) {
+      const Origin& again = origins_[place.row];
+      const Observation& row = result_.rows[place.row];
+      report_.add(position_of(again, at), {fmt::format("{}[{}]", name_of(at), again.row),
+                                           number_text(at == Column::z ? row.z : row.t),
+                                           fmt::format("must differ from {} of line {}{}{}", name_of(at),
+                                                       source_.position(origins_[place.first].offset).line,
+                                                       of_same, std::exchange(hint, ""))});
     }
   }
 
-  /// The means of the values at one place, where the first of them stood. Their spread, pooled over all places, is that
-  /// of one value: at one place there are too few to tell.
-  void average(const std::vector<std::size_t>& order) {
-    std::vector<Observation>& rows = result_.rows;
-    std::vector<std::size_t> counts(rows.size(), 0);  // of the values a kept row stands for
-    double spread = 0;  // the root of a sum of squares, of numbers as large as doubles are
-    std::size_t n_free = 0;
-    for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
-      for (end = first; end < order.size() && place_of(rows[order[end]]) == place_of(rows[order[first]]);)
-        ++end;
-      const auto n = static_cast<double>(end - first);
-      const double one = rows[order[first]].value;
-      double mean = one;  // to the bit, where all are the same
-      for (std::size_t i = first; i < end; ++i) mean += rows[order[i]].value / n - one / n;
-      for (std::size_t i = first; i < end; ++i) spread = std::hypot(spread, rows[order[i]].value - mean);
-      n_free += end - first - 1;
-      rows[order[first]].value = mean;
-      counts[order[first]] = end - first;
-    }
-    if (n_free > 0) spread /= std::sqrt(static_cast<double>(n_free));
-    if (!std::isfinite(spread)) {
-      const Observation& row = rows[order[0]];
-      report_.add(position_of(origins_[order[0]], columns_->value()),
-                  {std::string(name_of(columns_->value())), number_text(row.value),
+  void average() {
+    const std::size_t n_values = result_.rows.size();
+    const detail::Means means = detail::average_replicates(result_.rows);
+    if (means.kept.size() == n_values && means.spread == 0) return;  // a value a place
+    if (!std::isfinite(means.spread)) {
+      const Column value = columns_->value();
+      report_.add(position_of(origins_[means.kept[0]], value),
+                  {std::string(name_of(value)), number_text(result_.rows[means.kept[0]].value),
                    "must be among values that differ by less than 1e308, to be averaged"});
       return;
     }
-    const std::size_t n_values = rows.size();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < n_values; ++i) {
-      if (counts[i] == 0) continue;
-      rows[kept] = rows[i];
-      origins_[kept] = origins_[i];
-      if (spread > 0) rows[kept].sigma = spread / std::sqrt(static_cast<double>(counts[i]));
-      ++kept;
-    }
-    rows.resize(kept);
-    origins_.resize(kept);
-    averaged_ = fmt::format("means of {} values at {} places, which scatter by {}", n_values, kept,
-                            number_text(spread, 3));
+    for (std::size_t i = 0; i < means.kept.size(); ++i) origins_[i] = origins_[means.kept[i]];
+    origins_.resize(means.kept.size());
+    averaged_ = fmt::format("means of {} values at {} places, which scatter by {}", n_values,
+                            means.kept.size(), number_text(means.spread, 3));
   }
 
   void say_what_was_understood() {
-    std::vector<std::string> parts;
-    if (!source_.encoding().empty()) parts.push_back(std::string(source_.encoding()) + " text");
-    if (const std::string dialect = dialect_.text(); !dialect.empty()) parts.push_back(dialect);
-    if (n_preamble_ > 0)
-      parts.push_back(fmt::format("{} line{} before the header", n_preamble_, n_preamble_ == 1 ? "" : "s"));
-    if (dialect_.units) parts.emplace_back("a row of units");
+    const std::vector<std::string> parts = dialect_.remarks(source_.encoding(), n_preamble_);
     const bool is_plain = parts.empty() && columns_->is_plain() && averaged_.empty() && width_ == 0;
     std::string text =
         fmt::format("{}: {} row{}", printable(source_.name()), n_rows_, n_rows_ == 1 ? "" : "s");
@@ -437,81 +353,16 @@ class ObservationsReader {
 
   void check_sizes() {
     if (!phi_ || !columns_) return;
-    const bool is_sum = result_.quantity == Quantity::cumulative;
-    StateRange<double> possible = *phi_;
-    if (result_.quantity == Quantity::bed_height) possible = {0, 1};
-    const double height = result_.quantity == Quantity::bed_height || is_sum ? top_ - bottom_ : 1;
-    const double width = height * (possible.highest - possible.lowest);
-    const double lowest =
-        height * std::min(possible.lowest, is_sum ? 0.0 : possible.lowest) - kImpossible * width;
-    const double highest = height * possible.highest + kImpossible * width;
-    for (std::size_t i = 0; i < result_.rows.size(); ++i) {
-      const double value = result_.rows[i].value;
-      if (value >= lowest && value <= highest) continue;
-      const Column column = columns_->value();
-      report_.add(
-          position_of(origins_[i], column),
-          {fmt::format("{}[{}]", name_of(column), origins_[i].row), number_text(value),
-           fmt::format("must lie near what the scene allows, {} to {}",
-                       number_text(height * possible.lowest, 6), number_text(height * possible.highest, 6))});
-    }
-    if (!is_sum && result_.quantity != Quantity::bed_height && target_.are_parts && report_.is_empty())
-      refuse_percent();
+    const Column value = columns_->value();
+    const auto add_value = [&](const detail::ImplausibleValue& found) {
+      report_.add(position_of(origins_[found.row], value),
+                  {fmt::format("{}[{}]", name_of(value), origins_[found.row].row),
+                   number_text(result_.rows[found.row].value), found.constraint});
+    };
+    for (const auto& found : detail::impossible_values(result_, *phi_, top_ - bottom_)) add_value(found);
+    if (!target_.are_parts || !report_.is_empty()) return;
+    if (const auto found = detail::undeclared_percent(result_)) add_value(*found);
   }
-
-  void refuse_percent() {
-    for (std::size_t i = 0; i < result_.rows.size(); ++i) {
-      const double value = result_.rows[i].value;
-      if (std::abs(value) <= kPlausiblePhi) continue;
-      report_.add(position_of(origins_[i], columns_->value()),
-                  {fmt::format("{}[{}]", name_of(columns_->value()), origins_[i].row), number_text(value),
-                   "must be a fraction of 1; what is in percent must say so: phi [%] in the header"});
-      return;  // the others are as wrong
-    }
-  }
-
-  void note_range() {
-    if (result_.quantity == Quantity::cumulative) return;
-    if (result_.quantity == Quantity::bed_height) return note_heights();
-    if (phi_ && !(phi_->lowest == 0 && phi_->highest <= 1)) return note_states();
-    const auto largest =
-        std::max_element(result_.rows.begin(), result_.rows.end(),
-                         [](const Observation& a, const Observation& b) { return a.value < b.value; });
-    if (largest->value > kPlausiblePhi)
-      result_.notes.push_back(
-          fmt::format("{}: phi goes up to {}; {} (is it in percent?)", printable(source_.name()),
-                      number_text(largest->value),
-                      phi_ ? "it must be a fraction, 1 where all grains are small"
-                           : "it must be a fraction unless the flux of its scene has other states"));
-  }
-
-  void note_states() {
-    const double width = phi_->highest - phi_->lowest;
-    for (const Observation& o : result_.rows) {
-      if (o.value <= phi_->highest + width && o.value >= phi_->lowest - width) continue;
-      result_.notes.push_back(
-          fmt::format("{}: phi = {} where the flux has states from {} to {} (in another unit?)",
-                      printable(source_.name()), number_text(o.value), number_text(phi_->lowest, 6),
-                      number_text(phi_->highest, 6)));
-      return;
-    }
-  }
-
-  /// A bed whose grains have come apart is as high as the domain, one that mixes hardly lower.
-  void note_heights() {
-    constexpr double kPlausible = 2;
-    const double height = top_ - bottom_;
-    if (!std::isfinite(height)) return;
-    for (const Observation& o : result_.rows) {
-      if (o.value < kPlausible * height && o.value > height / kPlausible) continue;
-      result_.notes.push_back(
-          fmt::format("{}: H = {} where a segregated bed has {}, the height of the domain (in another unit?)",
-                      printable(source_.name()), number_text(o.value), number_text(height)));
-      return;
-    }
-  }
-
-  static constexpr std::size_t kLongestShown = 40;
 
   const TextSource& source_;
   Dialect dialect_;

@@ -49,7 +49,7 @@ struct ObservationFormat {
     std::string unit;  ///< instead of what the header says
   };
   std::array<ColumnFormat, kColumnNames.size()> columns;
-  std::optional<char> separator;     ///< ',', ';' or '\t'
+  std::optional<char> separator;     ///< comma, semicolon or tab
   std::optional<char> decimal;       ///< '.' or ','
   std::vector<std::string> missing;  ///< words for a value that is missing, beside the usual ones
   std::optional<TableLayout> layout;

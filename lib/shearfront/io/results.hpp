@@ -63,19 +63,22 @@ void write_time_table_json(OutputFile& file, std::string_view scene, std::string
                            const TimeTable& table, const NamedNumbers& extra, const Summary& summary,
                            const SceneUnits& units = {});
 
-/// Between which event times lie with 95 %; infinity: never.
+/// Between which event times lie with 95 %, infinity: never; and their standard errors, where they are by derivatives.
 struct EventBands {
-  using Ends = std::optional<std::pair<double, double>>;
-  struct InterfaceBands {
-    Ends first, last;
+  struct Band {
+    std::optional<std::pair<double, double>> ends;
+    std::optional<double> std_error;
   };
-  Ends t0, t1, t_star;
+  struct InterfaceBands {
+    Band first, last;
+  };
+  Band t0, t1, t_star;
   std::vector<InterfaceBands> interfaces;
 };
 
 /// {"scene","method","mass","steady_height","t0","t1","t_star","interfaces":[{"z","first","last"}],"summary"}.
 /// A time that never comes is null; numbers have the digits that they have in `timeline`. With bands also
-/// "ci95":{"t0":[low,high],"t1","t_star","interfaces":[{"first","last"}]}.
+/// "ci95":{"t0":[low,high],"t1","t_star","interfaces":[{"first","last"}]} and, as numbers, "std_error"; null: by draws.
 void write_events_json(OutputFile& file, std::string_view scene, std::string_view method,
                        const TimelineText& timeline, const Summary& summary, const EventBands& bands = {},
                        const SceneUnits& units = {});

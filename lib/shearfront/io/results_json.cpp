@@ -15,6 +15,7 @@ Json to_json(const Summary& s) {
               {"wall_s", s.wall_s},         {"status", name_of(s.status)},
               {"message", s.message}};
   if (!s.remark.empty()) all["remark"] = s.remark;
+  if (s.rest_time) all["rest_time"] = *s.rest_time;
   return all;
 }
 
@@ -105,17 +106,20 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
   Json& interfaces = all["interfaces"] = Json::array();
   for (const auto& at : timeline.interfaces)
     interfaces.push_back({{"z", json_digits(at.z)}, {"first", time(at.first)}, {"last", time(at.last)}});
-  if (bands.t_star) {
-    const auto ends = [](const EventBands::Ends& band) {
-      return band ? Json::array({band->first, band->second}) : Json();
+  if (bands.t_star.ends) {
+    const auto add = [&](const char* name, const auto& number) {
+      Json& part = all[name];
+      part = {{event_key(units, "0"), number(bands.t0)},
+              {event_key(units, "1"), number(bands.t1)},
+              {event_key(units, "_star"), number(bands.t_star)},
+              {"interfaces", Json::array()}};
+      for (const auto& at : bands.interfaces)
+        part["interfaces"].push_back({{"first", number(at.first)}, {"last", number(at.last)}});
     };
-    Json& ci95 = all["ci95"];
-    ci95 = {{event_key(units, "0"), ends(bands.t0)},
-            {event_key(units, "1"), ends(bands.t1)},
-            {event_key(units, "_star"), ends(bands.t_star)},
-            {"interfaces", Json::array()}};
-    for (const auto& at : bands.interfaces)
-      ci95["interfaces"].push_back({{"first", ends(at.first)}, {"last", ends(at.last)}});
+    add("ci95", [](const EventBands::Band& band) {
+      return band.ends ? Json::array({band.ends->first, band.ends->second}) : Json();
+    });
+    add("std_error", [](const EventBands::Band& band) { return detail::json_or_null(band.std_error); });
   }
   all["summary"] = to_json(summary);
   file.write(detail::json_document(all));

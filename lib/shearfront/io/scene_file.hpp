@@ -33,6 +33,10 @@ template <Real S = double>
 [[nodiscard]] Scene<S> parse_scene(std::string text, const std::string& file,
                                    const SceneChanges& changes = {});
 
+/// Whether the text of a scene file takes tables from other files, without which it says nothing. Errors: FileError for
+/// what is no TOML.
+[[nodiscard]] bool names_tables_in_files(const std::string& text);
+
 extern template Scene<double> read_scene(const std::string&, const SceneChanges&);
 extern template Scene<double> parse_scene(std::string, const std::string&, const SceneChanges&);
 

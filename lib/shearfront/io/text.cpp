@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "shearfront/numeric/number_text.hpp"
+
 namespace shearfront {
 namespace {
 
@@ -95,10 +97,10 @@ std::string quoted_text(std::string_view text, std::size_t longest) {
 
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
-  return x;
+  const ReadNumber read = read_number(text);
+  if (read.error != std::errc{} || read.length != text.size() || !std::isfinite(read.value))
+    return std::nullopt;
+  return read.value;
 }
 
 std::optional<unsigned long long> parse_count(std::string_view text) {

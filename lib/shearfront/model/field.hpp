@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "shearfront/model/complaint.hpp"
@@ -22,12 +26,26 @@ enum class Range { any, positive };
 /// width of the range of states, or the largest flux. A number that must be positive is its own measure.
 enum class Measure { number, height, state, flux };
 
+/// What else a single number must satisfy, if that does not depend on other numbers; for positive ones 0 is a limit already.
+struct Limits {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool are_included = false;
+};
+
 struct FieldInfo {
   std::string_view key;  ///< name inside the model's table, e.g. "values"
   Range range = Range::any;
   bool is_optional = false;  ///< a scene file may leave it out; the member's initial value then counts
   Measure measure = Measure::number;
+  Limits limits{};
+  std::string_view also{};  ///< what depends on other numbers, in words; checked by the model
+  [[nodiscard]] double low() const {
+    return range == Range::positive ? std::max(0.0, limits.low) : limits.low;
+  }
 };
+
+/// "> 0", "between 0 and 1", "> 0 and < 0.95, less than jam": all that an entry must be, empty for any number.
+[[nodiscard]] std::string range_text(const FieldInfo& info);
 
 /// An entry that is one of a few names, in the order of the enumerators of the member. A model with such
 /// entries lists them in
@@ -60,6 +78,32 @@ void check_number(const std::string& key, Range range, const std::vector<S>& xs,
     if (!is_finite(xs[i]) ||
         (range == Range::positive && !(xs[i] > 0)))  // no text for the many that are right
       check_number(key + "[" + std::to_string(i) + "]", range, xs[i], complaints);
+}
+
+/// Adds a complaint for every number that is not finite, not in its range or beyond its limits.
+template <class Member>
+void check_field(const std::string& key, const FieldInfo& info, const Member& member,
+                 Complaints& complaints) {
+  const auto within = [&](const std::string& name, const auto& x) {
+    using S = std::decay_t<decltype(x)>;
+    if (!is_finite(x)) return check_number(name, info.range, x, complaints);
+    const auto [low, high, are_included] = info.limits;
+    const bool is_low = are_included ? x < S(low) : !(x > S(info.low())),
+               is_high = are_included ? x > S(high) : !(x < S(high));
+    if (!is_low && !is_high) return;
+    complaints.push_back({name, number_text(x),
+                          are_included ? "must be between " + number_text(low) + " and " + number_text(high)
+                          : is_low     ? "must be > " + number_text(info.low())
+                                       : "must be < " + number_text(high)});
+  };
+  if constexpr (!requires { member.begin(); }) {
+    within(key, member);
+  } else {
+    constexpr Limits kNone{};
+    if (info.limits.low == kNone.low && info.limits.high == kNone.high)
+      return check_number(key, info.range, member, complaints);
+    for (std::size_t i = 0; i < member.size(); ++i) within(key + "[" + std::to_string(i) + "]", member[i]);
+  }
 }
 
 /// Breaks of a piecewise function: finite, strictly increasing, strictly inside (bottom, top).

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <ios>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "shearfront/numeric/scalar.hpp"
 
@@ -13,6 +16,15 @@ namespace shearfront {
 
 /// `digits` significant digits; of a multiprecision number with trailing zeros.
 [[nodiscard]] std::string number_text(double x, int digits);
+
+/// A double at the beginning of a text, as std::from_chars reads it; value is 0 where there is an error.
+struct ReadNumber {
+  double value = 0;
+  std::size_t length = 0;  ///< of what was read
+  std::errc error{};       ///< invalid_argument: no number; result_out_of_range: too large, or too near to 0
+};
+/// Locale-free and rounded to nearest. Where the standard library cannot (libc++ before 20) fast_float does.
+[[nodiscard]] ReadNumber read_number(std::string_view text);
 
 /// Multiprecision: as many digits as the type guarantees, or `digits` of them.
 template <Real S>

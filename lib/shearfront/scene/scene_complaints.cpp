@@ -61,7 +61,7 @@ class Checker {
   }
   [[nodiscard]] auto field(const std::string& prefix) {
     return [this, prefix](const FieldInfo& info, const auto& member) {
-      check_number(prefix + std::string(info.key), info.range, member, complaints_);
+      check_field(prefix + std::string(info.key), info, member, complaints_);
     };
   }
 

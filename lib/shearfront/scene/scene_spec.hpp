@@ -126,7 +126,13 @@ template <class Spec>
 template <class Spec, class Visit>
 void visit_fields(Spec& spec, Visit&& visit) {
   constexpr FieldInfo kPositive{.key = "", .range = Range::positive},
-      kHeight{.key = "", .measure = Measure::height}, kState{.key = "", .measure = Measure::state};
+      kNotNegative{.key = "", .limits = {.low = 0, .are_included = true}},
+      kScale{.key = "", .range = Range::positive, .also = "s a(z) a positive number"},
+      kTimes{.key = "", .range = Range::positive, .also = "ascending"},
+      kBreaks{.key = "", .measure = Measure::height, .also = "inside the domain, ascending"},
+      kEnd{
+          .key = "", .measure = Measure::height, .limits = {-1e300, 1e300, true}, .also = "bottom below top"},
+      kState{.key = "", .measure = Measure::state, .also = "states of the flux"};
   const auto with_prefix = [&](const std::string& prefix) {
     return [&visit, prefix](const FieldInfo& info, auto& member) {
       visit(prefix + std::string(info.key), info, member);
@@ -135,10 +141,10 @@ void visit_fields(Spec& spec, Visit&& visit) {
   for (std::size_t i = 0; i < spec.fluxes.size(); ++i) {
     const std::string prefix = flux_prefix(spec, i);
     spec.fluxes[i].fields(spec.fluxes[i], with_prefix(prefix));
-    if (i > 0) visit(prefix + "above", kHeight, spec.flux_breaks[i - 1]);
+    if (i > 0) visit(prefix + "above", kBreaks, spec.flux_breaks[i - 1]);
   }
   std::visit([&](auto& rate) { rate.fields(rate, with_prefix("shear_rate.")); }, spec.shear_rate);
-  visit(std::string("shear_rate.scale"), kPositive, spec.scale);
+  visit(std::string("shear_rate.scale"), kScale, spec.scale);
   const auto optional_model = [&](auto& optional, const std::string& prefix) {
     if (optional) std::visit([&](auto& model) { model.fields(model, with_prefix(prefix)); }, *optional);
   };
@@ -147,7 +153,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   optional_model(spec.close_packing, "close_packing.");
   if (spec.diffusion) {
     // 0 stands for none; what is positive is found by its logarithm in a fit.
-    visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? FieldInfo{} : kPositive, spec.diffusion->D);
+    visit(std::string("diffusion.D"), spec.diffusion->D == 0 ? kNotNegative : kPositive, spec.diffusion->D);
     optional_model(spec.diffusion->variation, "diffusion.");
   }
   optional_model(spec.velocity, "velocity.");
@@ -159,14 +165,14 @@ void visit_fields(Spec& spec, Visit&& visit) {
     visit(std::string("initial.inside"), kState, spec.initial_block->inside);
     visit(std::string("initial.outside"), kState, spec.initial_block->outside);
   } else if (!spec.initial_state) {
-    visit(std::string("initial.breaks"), kHeight, spec.initial_breaks);
+    visit(std::string("initial.breaks"), kBreaks, spec.initial_breaks);
     visit(std::string("initial.values"), kState, spec.initial_values);
   }
-  visit(std::string("domain.bottom"), kHeight, spec.bottom);
-  visit(std::string("domain.top"), kHeight, spec.top);
+  visit(std::string("domain.bottom"), kEnd, spec.bottom);
+  visit(std::string("domain.top"), kEnd, spec.top);
   const auto outside = [&](auto& optional, const std::string& prefix) {
     if (!optional) return;
-    visit(prefix + "breaks", kPositive, optional->breaks);
+    visit(prefix + "breaks", kTimes, optional->breaks);
     visit(prefix + "values", kState, optional->values);
   };
   outside(spec.outside_bottom, "boundary.bottom.");

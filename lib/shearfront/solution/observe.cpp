@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -31,9 +30,7 @@ std::string element(std::string_view key, std::size_t i) {
 /// The number with the fewest digits that differs from x by at most `rounding`.
 double shortest_near(double x, double rounding) {
   for (int digits = 1; digits < std::numeric_limits<double>::max_digits10; ++digits) {
-    const std::string text = number_text(x, digits);
-    double y = 0;
-    std::from_chars(text.data(), text.data() + text.size(), y);
+    const double y = read_number(number_text(x, digits)).value;
     if (std::abs(y - x) <= rounding) return y;
   }
   return x;

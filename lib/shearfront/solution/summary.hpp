@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -52,6 +53,8 @@ struct Summary {
   std::uint64_t cell_updates = 0;  ///< finite volumes: cells times time steps
   std::uint64_t layers = 0;        ///< layers used (a staircase for smooth a)
   double wall_s = 0;               ///< wall time in seconds
+  std::optional<double>
+      rest_time;  ///< of grid methods that were asked for the steady state: when they had come to it
 
   /// Whether the numbers that came with this summary may be used.
   [[nodiscard]] bool usable() const { return status == Status::ok || status == Status::steady; }

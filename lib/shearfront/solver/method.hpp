@@ -34,7 +34,8 @@ class AnySolver {
   [[nodiscard]] virtual std::unique_ptr<Run> start(const Scene<double>&, const Watch&) const = 0;
   [[nodiscard]] virtual bool has_derivative(const Scene<double>&, const Entry&) const = 0;
   [[nodiscard]] virtual Linearisation linearise(const Scene<double>&, const std::vector<Place>&,
-                                                const std::vector<std::size_t>&, std::any&) const = 0;
+                                                const std::vector<std::size_t>&, std::any&,
+                                                const Progress&) const = 0;
 };
 
 template <Solver S>
@@ -97,10 +98,10 @@ class Configured final : public AnySolver {
       return false;
   }
   [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
-                                        const std::vector<std::size_t>& entries,
-                                        std::any& memory) const override {
+                                        const std::vector<std::size_t>& entries, std::any& memory,
+                                        const Progress& progress) const override {
     if constexpr (DifferentiableSolver<S>) {
-      return S::linearise(scene, options_, places, entries, memory);
+      return S::linearise(scene, options_, places, entries, memory, progress);
     } else {
       SHEARFRONT_EXPECTS(false, "a method with derivatives");
       return {};
@@ -180,9 +181,10 @@ class Method {
   /// See DifferentiableSolver. Preconditions: refusal(scene) is empty, has_derivative() of all entries, of at
   /// least one if `entries` is empty. Errors: as check_places().
   [[nodiscard]] Linearisation linearise(const Scene<double>& scene, const std::vector<Place>& places,
-                                        const std::vector<std::size_t>& entries, std::any& memory) const {
+                                        const std::vector<std::size_t>& entries, std::any& memory,
+                                        const Progress& progress = {}) const {
     check_places(scene, places);
-    return solver_->linearise(scene, places, entries, memory);
+    return solver_->linearise(scene, places, entries, memory, progress);
   }
 
   /// Names of all solvers with the property, in the order of the list.

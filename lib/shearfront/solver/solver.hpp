@@ -125,13 +125,15 @@ template <Solver S>
 ///   derivative_refusal  why it has no derivatives with respect to an entry of the scene; empty if it has
 ///   linearise           samples at the places, and derivatives with respect to entries(scene.spec())[i] for i of
 ///                       `entries` (none: samples only). `memory` is what the solver likes to keep from one call to the
-///                       next, with numbers near by; empty at first. Preconditions: both refusals are empty
+///                       next, with numbers near by; empty at first. `progress` as in Watch. Preconditions: both refusals
+///                       are empty
 template <class S>
 concept DifferentiableSolver = Solver<S> &&
     requires(const Scene<double>& scene, const typename S::Options& options, const Entry& entry,
-             const std::vector<Place>& places, const std::vector<std::size_t>& entries, std::any& memory) {
+             const std::vector<Place>& places, const std::vector<std::size_t>& entries, std::any& memory,
+             const Progress& progress) {
   { S::derivative_refusal(scene, options, entry) } -> std::same_as<std::string>;
-  { S::linearise(scene, options, places, entries, memory) } -> std::same_as<Linearisation>;
+  { S::linearise(scene, options, places, entries, memory, progress) } -> std::same_as<Linearisation>;
 };
 
 }  // namespace shearfront

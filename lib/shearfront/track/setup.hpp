@@ -30,8 +30,13 @@ template <Real Scalar>
   constexpr double kLayersPerVariation = 1.6;
   constexpr double kMaxLayers = 1e6;
   double variation = 0;
+  const Scalar step = (scene.top() - scene.bottom()) / Scalar(kSamples);
   const auto at = [&](const Scalar& z) {
-    return std::array{std::log(to_double(scene.rate_at(z))), std::log(to_double(scene.solid_fraction_at(z)))};
+    // Where a vanishes at an end its logarithm has no bound: that of the nearest sample then.
+    const Scalar rate = scene.rate_at(z),
+                 inside = std::clamp(z, Scalar(scene.bottom() + step), Scalar(scene.top() - step));
+    return std::array{std::log(to_double(rate > 0 ? rate : scene.rate_at(inside))),
+                      std::log(to_double(scene.solid_fraction_at(z)))};
   };
   auto last = at(scene.bottom());
   for (int i = 1; i <= kSamples; ++i) {

@@ -8,6 +8,8 @@
 
 namespace shearfront::fit {
 
+inline constexpr const char* kInterrupted = "interrupted; the best point so far is given";
+
 /// When a search ends whatever its algorithm says: interrupted, its own evaluations or those of the whole fit
 /// used up.
 class Allowance {
@@ -22,7 +24,7 @@ class Allowance {
   void report(SearchResult& result) const {
     if (control_->is_interrupted()) {
       result.status = Status::interrupted;
-      result.message = "interrupted; the best point so far is given";
+      result.message = kInterrupted;
     } else if (is_used_up()) {
       result.status = Status::budget_reached;
       result.message = "the largest number of evaluations was reached";

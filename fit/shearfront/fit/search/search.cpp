@@ -79,8 +79,14 @@ SearchResult search(Objective& objective, const VectorXd& start, const SearchSpe
   if (std::find(names.begin(), names.end(), spec.algorithm) == names.end())
     throw unknown_algorithm(spec.algorithm);
   // The global search takes the number of starts as its own.
-  if (spec.starts > 1 && spec.algorithm != "global") return search_many(objective, start, spec);
-  return search_once(objective, start, spec);
+  const bool is_many = spec.starts > 1 && spec.algorithm != "global";
+  SearchResult result = is_many ? search_many(objective, start, spec) : search_once(objective, start, spec);
+  // A run that was broken off is no lack of a solution.
+  if (result.status == Status::not_converged && objective.control().is_interrupted()) {
+    result.status = Status::interrupted;
+    result.message = kInterrupted;
+  }
+  return result;
 }
 
 }  // namespace shearfront::fit

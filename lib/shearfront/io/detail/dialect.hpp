@@ -24,6 +24,12 @@ struct Dialect {
 
   /// "separated by semicolons, decimal commas"; empty for commas and points.
   [[nodiscard]] std::string text() const;
+  /// All that is to be said of it, with the encoding and the lines before the header: "UTF-16 text", text(), ...
+  [[nodiscard]] std::vector<std::string> remarks(std::string_view encoding, std::size_t n_preamble) const;
+  /// "comma", for messages.
+  [[nodiscard]] std::string_view separator_name() const {
+    return separator == ';' ? "semicolon" : separator == '\t' ? "tab" : "comma";
+  }
 };
 
 /// The header is the first line, split at the separator of the format or else at commas, semicolons or tabs, that has

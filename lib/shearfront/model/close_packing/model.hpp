@@ -29,12 +29,4 @@ template <Real Scalar>
   return Scalar(633) / Scalar(1000);
 }
 
-/// Adds a complaint if the solid fraction of one kind of grains is not below `limit`.
-template <Real Scalar>
-void check_pure_packing(const std::string& prefix, const Scalar& pure, const Scalar& limit,
-                        Complaints& complaints) {
-  if (is_finite(pure) && !(pure < limit))
-    complaints.push_back({prefix + "pure", number_text(pure), "must be < " + number_text(limit)});
-}
-
 }  // namespace shearfront

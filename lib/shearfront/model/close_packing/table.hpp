@@ -22,8 +22,8 @@ struct PackingTable {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"share"}, self.share);
-    visit(FieldInfo{"values", Range::positive}, self.values);
+    visit(FieldInfo{.key = "share", .also = "from 0 to 1, ascending"}, self.share);
+    visit(FieldInfo{.key = "values", .range = Range::positive, .limits = {.high = 1}}, self.values);
   }
   void check(const std::string& prefix, Complaints& complaints) const {
     const auto add = [&](std::string key, std::string value, std::string constraint) {
@@ -47,9 +47,6 @@ struct PackingTable {
       add("share[0]", number_text(share.front()), "must be 0 (large grains only)");
     if (is_finite(share.back()) && share.back() != 1)
       add(element("share", share.size() - 1), number_text(share.back()), "must be 1 (small grains only)");
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (is_finite(values[i]) && !(values[i] < 1))
-        add(element("values", i), number_text(values[i]), "must be < 1");
   }
 
   [[nodiscard]] Scalar value(const Scalar& x) const {

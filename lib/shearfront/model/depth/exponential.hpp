@@ -28,7 +28,7 @@ struct Exponential {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit(FieldInfo{"amplitude", Range::positive}, self.amplitude);
-    visit(FieldInfo{"decay", Range::positive}, self.decay);
+    visit(FieldInfo{.key = "decay", .range = Range::positive, .also = "a(z) a positive number"}, self.decay);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {

@@ -25,7 +25,8 @@ struct Piecewise {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "breaks", .measure = Measure::height}, self.breaks);
+    visit(FieldInfo{.key = "breaks", .measure = Measure::height, .also = "inside the domain, ascending"},
+          self.breaks);
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,

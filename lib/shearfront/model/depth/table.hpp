@@ -27,7 +27,7 @@ struct Table {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "z", .measure = Measure::height}, self.z);
+    visit(FieldInfo{.key = "z", .measure = Measure::height, .also = "from bottom to top, ascending"}, self.z);
     visit(FieldInfo{"values", Range::positive}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,

@@ -56,16 +56,13 @@ struct Cubic {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"gamma"}, self.gamma);
+    visit(FieldInfo{.key = "gamma", .limits = {0, 1, true}}, self.gamma);
   }
   template <class Self, class Visit>
   static void choices(Self& self, Visit&& visit) {
     visit(ChoiceInfo{"scaling", kCubicScalingNames}, self.scaling);
   }
-  void check(const std::string& prefix, Complaints& complaints) const {
-    if (is_finite(gamma) && !(gamma >= 0 && gamma <= 1))
-      complaints.push_back({prefix + "gamma", number_text(gamma), "must be between 0 and 1"});
-  }
+  static void check(const std::string& /*prefix*/, Complaints& /*complaints*/) {}
 
   static std::vector<Cubic> samples() {
     constexpr auto kScaled = CubicScaling::quadratic_extremum;

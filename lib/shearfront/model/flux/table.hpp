@@ -74,7 +74,7 @@ struct FluxTable {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "phi", .measure = Measure::state}, self.phi);
+    visit(FieldInfo{.key = "phi", .measure = Measure::state, .also = "ascending"}, self.phi);
     visit(FieldInfo{.key = "values", .measure = Measure::flux}, self.values);
   }
   void check(const std::string& prefix, Complaints& complaints) const {

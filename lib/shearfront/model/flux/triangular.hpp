@@ -47,7 +47,7 @@ struct Triangular {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"critical", Range::positive}, self.critical);
+    visit(FieldInfo{.key = "critical", .range = Range::positive, .also = "less than jam"}, self.critical);
     visit(FieldInfo{"jam", Range::positive, true}, self.jam);
   }
   void check(const std::string& prefix, Complaints& complaints) const {

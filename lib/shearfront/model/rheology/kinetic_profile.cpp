@@ -62,6 +62,7 @@ constexpr int kKineticTerms = std::numeric_limits<S>::digits / 3 + 7;
 template <Real S, class Bed>
 std::vector<S> kinetic_nodes(const Bed& bed, std::size_t most) {
   using std::cbrt, std::sqrt;
+  if (!(bed.length > 0 && bed.load > 0 && bed.ground < bed.lid)) return {};
   const S height = bed.lid - bed.ground, m = S(1) / (bed.length * bed.length);
   std::vector<S> z{bed.ground};
   const auto bend = [&](const S& depth) { return S(depth * (S(2) * bed.load + depth) * m); };
@@ -178,6 +179,7 @@ KineticProfile<S>::KineticProfile(const Bed& bed) : bed_(bed) {
   constexpr std::size_t kExcess = kNumbers, kAll = kNumbers + 1;
   using Jet = KineticJet<S, kAll>;
   const std::vector<S> z = kinetic_nodes<S>(bed, kMostNodes);
+  if (z.empty()) return;  // value() is NaN
   excess_ = kinetic_excess<S>(bed, z);
   const S m = S(1) / (bed.length * bed.length), height = bed.lid - bed.ground, y = bed.load + height;
   // The ground moved up by 1 lowers w'/w where it was by w''/w.
@@ -250,12 +252,14 @@ auto KineticProfile<S>::node_at(const S& z) const -> const Node& {
 
 template <Real S>
 S KineticProfile<S>::value(const S& z) const {
+  if (nodes_.empty()) return std::numeric_limits<S>::quiet_NaN();
   const Node& node = node_at(z);
   return node.scale * kinetic_sum<S>(node.c, S(z - node.z));
 }
 
 template <Real S>
 auto KineticProfile<S>::with_derivatives(const S& z) const -> Value {
+  if (nodes_.empty()) return {value(z), {}};
   const Node& node = node_at(z);
   const S s = z - node.z, sum = kinetic_sum<S>(node.c, s);
   Value value{S(node.scale * sum), {}};

@@ -23,9 +23,14 @@ struct SineInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"mean", Range::any, true, Measure::state}, self.mean);
-    visit(FieldInfo{.key = "amplitude", .measure = Measure::state}, self.amplitude);
-    visit(FieldInfo{"wavelength", Range::positive}, self.wavelength);
+    visit(FieldInfo{"mean", Range::any, true, Measure::state, {}, "mean -+ amplitude states of the flux"},
+          self.mean);
+    visit(
+        FieldInfo{
+            .key = "amplitude", .measure = Measure::state, .also = "mean -+ amplitude states of the flux"},
+        self.amplitude);
+    visit(FieldInfo{.key = "wavelength", .range = Range::positive, .also = "at most 1e5 waves"},
+          self.wavelength);
     visit(FieldInfo{"origin", Range::any, true, Measure::height}, self.origin);
   }
   /// So short a wave is not seen by any grid, and each is a piece of its own to those without one.
@@ -52,6 +57,23 @@ struct SineInitial {
     const Scalar sinc = half == 0 ? Scalar(1) : Scalar(sin(half) / half);
     return (hi - lo) * (mean + amplitude * (sin(middle) * sinc));
   }
+  [[nodiscard]] Scalar slope(const Scalar& z, const Scalar& /*middle*/) const {
+    using std::cos;
+    return amplitude * cos(angle(z)) * number();
+  }
+  template <class Add>
+  void derivatives(const Scalar& lo, const Scalar& z, const Add& add) const {
+    using std::cos;
+    using std::sin;
+    const Scalar sine = sin(angle(z)), low_sine = sin(angle(lo)),
+                 slope = amplitude * cos(angle(z)) * number();
+    const Scalar waves = SineInitial{Scalar(0), Scalar(1), wavelength, origin}.integral(lo, z);
+    add(0, Scalar(1), Scalar(z - lo));
+    add(1, sine, waves);
+    add(2, Scalar(-slope * (z - origin) / wavelength),
+        Scalar(amplitude / wavelength * (waves - ((z - origin) * sine - (lo - origin) * low_sine))));
+    add(3, Scalar(-slope), Scalar(amplitude * (low_sine - sine)));
+  }
   /// Crests, troughs, and what is half way between them.
   [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
     using std::floor;
@@ -74,11 +96,12 @@ struct SineInitial {
 
  private:
   [[nodiscard]] Scalar size() const { return amplitude < 0 ? Scalar(-amplitude) : amplitude; }
-  [[nodiscard]] Scalar angle(const Scalar& z) const {
+  [[nodiscard]] static Scalar two_pi() {
     using std::atan;
-    return Scalar(8) * atan(Scalar(1)) *
-           ((z - origin) / wavelength);  // 2 pi: every file sees this header, few need Boost
+    return Scalar(8) * atan(Scalar(1));  // every file sees this header, few need Boost
   }
+  [[nodiscard]] Scalar angle(const Scalar& z) const { return two_pi() * ((z - origin) / wavelength); }
+  [[nodiscard]] Scalar number() const { return two_pi() / wavelength; }
 };
 
 }  // namespace shearfront

@@ -23,8 +23,8 @@ struct TableInitial {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{.key = "z", .measure = Measure::height}, self.z);
-    visit(FieldInfo{.key = "values", .measure = Measure::state}, self.values);
+    visit(FieldInfo{.key = "z", .measure = Measure::height, .also = "from bottom to top, ascending"}, self.z);
+    visit(FieldInfo{.key = "values", .measure = Measure::state, .also = "states of the flux"}, self.values);
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {
@@ -48,6 +48,30 @@ struct TableInitial {
     }
     return sum + (hi - from) * ((value(from) + value(hi)) / Scalar(2));
   }
+  [[nodiscard]] Scalar slope(const Scalar& /*height*/, const Scalar& middle) const {
+    return slope_of(segment(middle));
+  }
+  /// Of a knot the line on each side moves with it: -slope times its share there.
+  template <class Add>
+  void derivatives(const Scalar& lo, const Scalar& height, const Add& add) const {
+    const std::size_t n = z.size(), last = segment(height);
+    std::vector<Scalar> by_z(n, Scalar(0)), by_value(n, Scalar(0));
+    for (std::size_t i = segment(lo); i <= last; ++i) {
+      const Scalar from = std::max(lo, z[i]), to = i == last ? height : z[i + 1], width = z[i + 1] - z[i];
+      const Scalar d = to - from, share = ((from - z[i]) + (to - z[i])) / (Scalar(2) * width);  // mean
+      const Scalar upper = d * share, lower = d - upper, steep = slope_of(i);
+      by_value[i] += lower;
+      by_value[i + 1] += upper;
+      by_z[i] -= steep * lower;
+      by_z[i + 1] -= steep * upper;
+    }
+    const Scalar w = (height - z[last]) / (z[last + 1] - z[last]), steep = slope_of(last);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Scalar part = i == last ? Scalar(Scalar(1) - w) : i == last + 1 ? w : Scalar(0);
+      add(i, Scalar(-steep * part), by_z[i]);
+      add(n + i, part, by_value[i]);
+    }
+  }
   [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
     return {std::upper_bound(z.begin(), z.end(), lo), std::lower_bound(z.begin(), z.end(), hi)};
   }
@@ -59,6 +83,9 @@ struct TableInitial {
   }
 
  private:
+  [[nodiscard]] Scalar slope_of(std::size_t i) const {
+    return (values[i + 1] - values[i]) / (z[i + 1] - z[i]);
+  }
   [[nodiscard]] std::size_t segment(const Scalar& height) const {
     const auto it = std::upper_bound(z.begin() + 1, z.end() - 1, height);
     return static_cast<std::size_t>(it - z.begin()) - 1;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shearfront/fit/model_choice_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shearfront/fit/model_choice.hpp"
+#include "shearfront/io/text.hpp"
+#include "shearfront/model/depth/all.hpp"
+
+namespace shearfront::fit {
+namespace {
+
+using detail::TableReader;
+using Need = TableReader::Need;
+
+constexpr unsigned kMostLayers = 1000;
+
+/// The depth function that consists of layers.
+std::string layered_name() {
+  std::string name;
+  DepthFunctionList<double>::for_each([&]<class Model>() {
+    if (name.empty() && Model::kIsLayered) name = Model::kName;
+  });
+  return name;
+}
+
+}  // namespace
+
+ModelChoice read_model_choice(TableReader& table, const std::function<void(Complaint)>& add) {
+  ModelChoice choice;
+  bool is_refused = false;
+  const auto refuse = [&](const std::string& key, std::size_t i, const std::string& value, std::string why) {
+    is_refused = true;
+    add({fmt::format("{}[{}]", table.path(key), i), value, std::move(why)});
+  };
+  if (table.node("layers")) {
+    std::vector<double> counts;
+    table.number("layers", Need::optional, counts);
+    for (std::size_t i = 0; table.is_good("layers") && i < counts.size(); ++i) {
+      if (!(counts[i] >= 1 && counts[i] <= kMostLayers && counts[i] == std::floor(counts[i])))
+        refuse("layers", i, "", fmt::format("must be a whole number from 1 to {}", kMostLayers));
+      else
+        choice.models.push_back({layered_name(), static_cast<std::size_t>(counts[i])});
+    }
+  }
+  if (table.node("models")) {
+    const auto names = table.texts("models", Need::optional, "must be an array of names such as \"table:6\"");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].empty()) continue;  // refused
+      const std::size_t colon = names[i].find(':');
+      const auto n = colon == std::string::npos ? 0 : parse_count(names[i].substr(colon + 1));
+      const ModelChoice::Model model{names[i].substr(0, colon), static_cast<std::size_t>(n.value_or(0))};
+      if (!n || *n > kMostLayers)
+        refuse("models", i, quoted_text(names[i]), "must be a name, or a name and a number such as table:6");
+      else if (std::string why = refusal(model); !why.empty())
+        refuse("models", i, quoted_text(names[i]), std::move(why));
+      else
+        choice.models.push_back(model);
+    }
+  }
+  choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
+  const auto is_fine = [&](const char* key) { return !table.node(key) || table.is_good(key); };
+  if (choice.models.empty() && !is_refused && is_fine("layers") && is_fine("models"))
+    add({"compare", "", "must have layers or models"});
+  table.finish();
+  return choice;
+}
+
+}  // namespace shearfront::fit

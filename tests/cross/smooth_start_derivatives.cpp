@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Derivatives of smooth starts by every entry of the scene, over every shear rate, against differences of the solution itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shearfront/exact/refusal.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "support/random_scene.hpp"
+#include "support/smooth_starts.hpp"
+#include "support/start_differences.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::for_each_smooth_scene;
+using support::SceneMaker;
+using support::StartDifference;
+
+TEST(SmoothStartDerivatives, AreThoseOfDifferencesOverEveryShearRate) {
+  StartDifference<double> check{1e-6, 3e-6, 16};
+  for_each_smooth_scene(support::seed_of(5301), 2, [&](const SceneSpec<double>& spec, SceneMaker& make) {
+    const Scene<double> scene(spec);
+    const ExactSolution<double> solution(scene, {4, 1e-6});
+    const double crossing = solution.medium().pure_travel_time(0, solution.medium().top());
+    for (int i = 0; i < 2; ++i)
+      check.compare(scene, make.uniform(0.1, 0.9), crossing * std::exp(make.uniform(-4, 0)));
+  });
+  EXPECT_GT(check.compared, 200);
+  EXPECT_GT(check.from_start, 100);
+}
+
+/// Layers with other fluxes and solid fractions.
+TEST(SmoothStartDerivatives, AreThoseOfDifferencesInLayersOfAnyFlux) {
+  StartDifference<double> check{1e-6, 3e-6, 16};
+  SceneMaker make(support::seed_of(5302));
+  FluxList<double>::for_each([&]<class F>() {
+    for (const F& flux : F::samples()) {
+      SceneSpec<double> spec;
+      spec.fluxes = {flux};
+      spec.shear_rate = make.layers(3, make.order());
+      if (make.integer(0, 1) == 0) spec.solid_fraction = Piecewise<double>{{0.4}, {0.5, 0.7}};
+      const auto range = Flux<double>(flux).range();
+      const double room = 0.05 * (range.highest - range.lowest);
+      spec.initial_state = support::random_start(make, range.lowest + room, range.highest - room);
+      if (!find_complaints(spec).empty() || !exact::refusal(Scene<double>(spec)).empty()) continue;
+      SCOPED_TRACE(F::kName);
+      for (int i = 0; i < 4; ++i)
+        check.compare(Scene<double>(spec), make.uniform(0.1, 0.9), std::exp(make.uniform(-4, -1)));
+    }
+  });
+  EXPECT_GT(check.compared, 100);
+  EXPECT_GT(check.from_start, 50);
+}
+
+}  // namespace
+}  // namespace shearfront
