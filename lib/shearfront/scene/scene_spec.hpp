@@ -161,7 +161,7 @@ void visit_fields(Spec& spec, Visit&& visit) {
   optional_model(spec.initial_state, "initial.");
   if (spec.initial_block) {
     visit(std::string("initial.x"), FieldInfo{}, spec.initial_block->x);
-    visit(std::string("initial.z"), kHeight, spec.initial_block->z);
+    visit(std::string("initial.z"), kEnd, spec.initial_block->z);
     visit(std::string("initial.inside"), kState, spec.initial_block->inside);
     visit(std::string("initial.outside"), kState, spec.initial_block->outside);
   } else if (!spec.initial_state) {

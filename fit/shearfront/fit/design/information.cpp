@@ -24,12 +24,12 @@ using Eigen::VectorXd;
 constexpr double kNorm = 32;
 /// Eigenvalues below this part of the largest are rounding.
 constexpr double kSingular = 1e-13;
-constexpr int kMostEvaluations = 600;
+constexpr int kMostDesignSteps = 600;
 /// Candidates whose tangent is best are tried in earnest before an exchange.
 constexpr std::size_t kTried = 8;
-constexpr int kMostPasses = 30;
+constexpr int kMostDesignPasses = 30;
 /// An exchange that gains less is none: rounding would go round in circles.
-constexpr double kLeastGain = 1e-9;
+constexpr double kLeastDesignGain = 1e-9;
 
 double trace_of_product(const MatrixXd& a, const MatrixXd& b) { return a.cwiseProduct(b).sum(); }
 
@@ -178,7 +178,7 @@ std::optional<ContinuousDesign> continuous_design(const UnitInformation& informa
   const std::unique_ptr<nlopt_opt_s, DestroyOptimiser> optimiser(nlopt_create(NLOPT_LD_LBFGS, n_units));
   nlopt_set_min_objective(optimiser.get(), WeightProblem::of_logarithms,
                           const_cast<WeightProblem*>(&problem));  // NOLINT: read only
-  nlopt_set_maxeval(optimiser.get(), kMostEvaluations);
+  nlopt_set_maxeval(optimiser.get(), kMostDesignSteps);
   nlopt_set_ftol_rel(optimiser.get(), 1e-12);
   double least = 0;
   // Wherever it ends, and why: how good that is says the bound.
@@ -240,7 +240,7 @@ std::vector<std::size_t> exchanged_design(const UnitInformation& information,
   };
   double value = mean_of(sums);
   bool has_changed = true;
-  for (int pass = 0; has_changed && pass < kMostPasses; ++pass) {
+  for (int pass = 0; has_changed && pass < kMostDesignPasses; ++pass) {
     has_changed = false;
     for (std::size_t& out : chosen) {
       std::vector<MatrixXd> without = sums;
@@ -266,7 +266,7 @@ std::vector<std::size_t> exchanged_design(const UnitInformation& information,
         std::vector<MatrixXd> with = without;
         add(with, tried[i], 1);
         const double now = mean_of(with);
-        if (now < least - kLeastGain) least = now, best = tried[i];
+        if (now < least - kLeastDesignGain) least = now, best = tried[i];
       }
       if (best == out) continue;
       is_chosen[out] = false;
