@@ -96,10 +96,13 @@ using Unit = std::pair<double, double>;
 template <class Tolerance>
 void check_units(const std::vector<Unit>& units, const Tolerance& tolerance_of) {
   support::Checked checked(std::initializer_list<std::string_view>{});
-  SolverList::for_each([&]<class S>() { checked.expect(S::kName); });
+  SolverList::for_each([&]<class S>() {
+    if (!S::guarantees().has_slab) checked.expect(S::kName);
+  });
   for (const std::string& file : scene_files()) {
     SCOPED_TRACE(file);
     const Scene<> scene = read_scene<double>(file);
+    if (scene.spec().velocity) continue;  // a chute has units of velocities besides
     const SolverRequest request = request_of(scene);
     SolverList::for_each([&]<class S>() {
       SCOPED_TRACE(std::string(S::kName));

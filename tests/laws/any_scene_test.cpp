@@ -61,7 +61,7 @@ TEST(AnyScene, StaysInRangeAndKeepsItsMass) {
   support::Checked checked;
   SolverList::for_each([&]<class S>() {
     const Guarantees promised = S::guarantees();
-    if (promised.diffusion || !promised.has_profiles) return;
+    if (promised.diffusion || promised.has_slab || !promised.has_profiles) return;
     if (promised.bounded) checked.expect(std::string(S::kName) + " stays in range");
     if (promised.conservative) checked.expect(std::string(S::kName) + " keeps its mass");
   });

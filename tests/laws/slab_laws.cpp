@@ -66,12 +66,12 @@ TEST(SlabLaws, KeepsTheGrainsAndTheirRange) {
     SlabMarch march(scene, kGrid);
     const double mass = sum(march.states());
     EXPECT_NEAR(mass / (24 * 32), scene.mass(), 1e-14);
-    for (const double t : {0.05, 0.3, 1.0, 3.0}) {
+    for (const double t : {0.05, 0.3, 1.0}) {
       ASSERT_EQ(march.advance_to(t), Status::ok);
       EXPECT_NEAR(sum(march.states()), mass, 1e-11 * mass);
       const auto [least, most] = std::minmax_element(march.states().begin(), march.states().end());
-      EXPECT_GE(*least, -1e-7);
-      EXPECT_LE(*most, 1 + 1e-7);
+      EXPECT_GE(*least, -1e-12);
+      EXPECT_LE(*most, 1 + 1e-12);
     }
   }
 }
@@ -119,6 +119,7 @@ TEST(SlabLaws, AStartThatDoesNotDependOnXGivesABed) {
   ASSERT_EQ(march.advance_to(0.4), Status::ok);
   diffusion::Options options;
   options.dt = 0.01, options.scheme = diffusion::Scheme::raised, options.smoothed_steps = 0;
+  options.iteration_tolerance = 1e-14;
   diffusion::CrankNicolson bed(diffusion::problem_of(scene, 24), options);
   std::vector<diffusion::TimeStep> steps(41, {0.01, 0.5});
   steps.front().length = steps.back().length = 0.005;
@@ -126,7 +127,7 @@ TEST(SlabLaws, AStartThatDoesNotDependOnXGivesABed) {
   for (std::size_t i = 0; i < 16; ++i)
     for (std::size_t j = 0; j < 24; ++j) {
       EXPECT_EQ(march.states()[i * 24 + j], march.states()[j]);
-      EXPECT_NEAR(march.states()[i * 24 + j], bed.states()[j], 1e-8);  // to the tolerance of the iteration
+      EXPECT_NEAR(march.states()[i * 24 + j], bed.states()[j], 1e-13);
     }
 }
 
@@ -177,7 +178,7 @@ TEST(SlabLaws, MovesSolutionsNoFartherApart) {
       ASSERT_EQ(one.advance_to(0.05 * k), Status::ok);
       ASSERT_EQ(other.advance_to(0.05 * k), Status::ok);
       const double now = l1_distance_of(one.states(), other.states());
-      EXPECT_LE(now, last + 1e-7);
+      EXPECT_LE(now, last + 1e-12);
       last = now;
     }
   }

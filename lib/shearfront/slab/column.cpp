@@ -53,6 +53,7 @@ class DiffusingColumn final : public Column {
     diffusion::Options own;
     own.dt = 1;  // fixed steps, whose lengths are given one by one
     own.scheme = diffusion::Scheme::raised;
+    own.iteration_tolerance = 1e-14;  // to rounding: a column must not show by what its steps began
     own.smoothed_steps = 0;
     own.keeps_steps = false;
     return own;

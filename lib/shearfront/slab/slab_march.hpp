@@ -25,8 +25,8 @@ struct Settings {
 /// by splitting after Strang: half a step of all columns (column.hpp), a whole one of all rows (rows.hpp), half a step of
 /// all columns; two halves that follow each other are one step. Rows move by the mean of u over them, exactly.
 /// Guaranteed: (1) the amount of grains stays what it is, to rounding; (2) phi stays in the range of the flux up to the
-/// tolerance of the columns' iteration, 1e-8; (3) a start that does not depend on x gives that of a bed by the same column steps,
-/// to the bit; (4) the same bits for any number of threads. Second order in dz, dx and dt for smooth phi.
+/// rounding of the columns; (3) a start that does not depend on x gives that of a bed by the same column steps,
+/// to rounding; (4) the same bits for any number of threads. Second order in dz, dx and dt for smooth phi.
 ///
 /// Chosen steps: rows move by no more than a cell beside each other, fronts go no farther than a cell, and no more than what
 /// keeps the bounds of a column and of diffusion in x at second order.
