@@ -52,6 +52,12 @@ TEST(CurvedLaws, HoldWhereFrontsMeetAtATurn) {
     check_many(soak::CurvedKind::parabola, seed, 1, kAnyResolution);
 }
 
+// Pieces of slopes of 1e-11, levels a few roundings apart, a front that hardly moves before it meets another: each once lost mass.
+TEST(CurvedLaws, HoldInHostileBeds) {
+  for (const std::uint64_t seed : {2U, 235U, 552U, 1152U, 1242U, 1245U, 2406U, 2868U, 2882U})
+    check_many(soak::CurvedKind::hostile, seed, 1, kAnyResolution);
+}
+
 TEST(CurvedLaws, EqualInputGivesEqualOutput) {
   const Scene<double> scene(support::random_curved_spec(support::seed_of(5)));
   Tracking a(scene, {.resolution = 0.01, .history = true}), b(scene, {.resolution = 0.01, .history = true});

@@ -18,7 +18,8 @@ struct CurvedTrial {
   SceneSpec<double> spec;
   double resolution;
 };
-/// A bed of one kind, or with two fifths each parabolas and other fluxes, a fifth hostile; R from 0.01 to 0.5.
+/// A bed of one kind, or of the first two in turn; R from 0.01 to 0.5. Hostile beds may lose mass where heights do not resolve their
+/// rate (docs/theory/curved-fronts.md).
 [[nodiscard]] CurvedTrial draw_curved(CurvedKind kind, std::uint64_t seed);
 [[nodiscard]] CurvedTrial draw_curved(std::uint64_t seed);
 [[nodiscard]] std::string text_of(const CurvedTrial& trial);

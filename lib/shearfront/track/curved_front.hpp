@@ -55,6 +55,8 @@ namespace curved_front_detail {
 inline constexpr double kNearLevels = 1e-7;
 /// Between levels nearer to each other than this part of r q^2 means are taken by Gauss's rule of three points, of which this is one.
 inline constexpr double kCloseLevels = 0.0125, kOuterNode = 0.11270166537925831;
+/// So near that q, which is at most the root of that where the lower one turns, changes less than the rule needs.
+inline constexpr double kVeryCloseLevels = 1e-6;
 
 /// front_slope() for fluxes that are no parabola.
 [[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
@@ -168,12 +170,14 @@ namespace curved_front_detail {
 
 /// When a front of one side is at z after it was at its origin, as the mean over its levels of the times of characteristics, by Gauss's
 /// rule of three points: a relative error of 1e-15 where levels are near to each other, while the difference of their areas loses what
-/// their distance is of their flux. Nothing where they are not near, or too near to their turning height.
+/// their distance is of their flux. Next to the turning heights of levels very near to each other in q at z, of which times are smooth
+/// functions, and those that have turned apart. Nothing where they are not near.
 [[nodiscard]] inline std::optional<double> mean_time(const LevelCurves& grid, const CurvedNode& f,
                                                      double h_below, double h_above, double z, double rate,
                                                      double q_below, double q_above) {
   const double spread = std::abs(h_below - h_above), least = std::min(q_below, q_above);
-  if (!(spread < kCloseLevels * rate * least * least)) return std::nullopt;
+  const bool is_far = spread < kCloseLevels * rate * least * least;
+  if (!is_far && !(spread < kVeryCloseLevels * rate)) return std::nullopt;
   // A joint of a tabulated flux is no place for Gauss.
   if (grid.flux() && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
   const bool is_from_turn = f.q_below == 0 && f.q_above == 0;
@@ -182,34 +186,59 @@ namespace curved_front_detail {
         kCloseLevels * (is_from_turn ? std::min(h_below, h_above) : f.rate * least_before * least_before)))
     return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
-  const double d = z - f.z;
-  const auto time = [&](double share) {
-    const double h = h_below + share * (h_above - h_below);
-    const auto root = [&](double below, double above) {  // q^2 is linear in h
-      return std::sqrt(below * below + share * ((above - below) * (above + below)));
-    };
-    const double q = root(q_below, q_above), before = is_from_turn ? 0 : root(f.q_below, f.q_above);
+  // Of the rate: how much it has grown, as a part of what it is then; and by its logarithm.
+  const auto change_of = [&](double to_rate) { return (to_rate - f.rate) / to_rate; };
+  double change_here = 0, log_here = 0;
+  if (!is_from_turn && !grid.flux()) {
+    const double along = piece.bend * (z - f.z);
+    const bool is_linear = piece.curve == RateCurve::linear;
+    change_here = is_linear ? along / rate : -std::expm1(-along);
+    if (is_linear) log_here = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(along / f.rate);
+  }
+  // Of the characteristic of the flux h / 4, up to where the rate is `to_rate`.
+  const auto time = [&](double h, double q, double to_rate) {
+    const double share = (h - h_below) / (h_above - h_below);  // q^2 is linear in h
+    const double square = f.q_below * f.q_below + share * ((f.q_above - f.q_below) * (f.q_above + f.q_below));
+    const double before = is_from_turn ? 0 : std::sqrt(std::max(0.0, square));
     if (grid.flux()) {
       const LevelCurves::Place origin{is_from_turn ? piece.height_of(h) : f.z, is_from_turn ? h : f.rate,
                                       before},
-          here{z, rate, q};
-      const bool rises = z > origin.z;
+          here{to_rate == rate ? z : piece.height_of(to_rate), to_rate, q};
+      const bool rises = here.z > origin.z;
       const double way = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
                                                   rises ? here : origin);
       return rises ? way : -way;
     }
-    if (piece.curve == RateCurve::exponential) return is_from_turn ? q / h : 1 / (before + q);
-    return is_from_turn ? std::atanh(q)
-                        : std::log1p(h * (piece.bend * d) / (f.rate * rate * (before + q) * (1 + before)));
+    const bool is_exponential = piece.curve == RateCurve::exponential;
+    if (is_from_turn) return is_exponential ? 2 * q / (h * piece.bend) : 2 * std::atanh(q) / piece.bend;
+    const double change = to_rate == rate ? change_here : change_of(to_rate);
+    if (is_exponential) return 2 * change / (f.rate * piece.bend * (before + q));
+    const double logarithm = to_rate == rate ? log_here : RatePiece::log_ratio(f.rate, to_rate);
+    return (2 * std::log1p(h * change / (f.rate * (before + q) * (1 + before))) + logarithm) / piece.bend;
   };
-  const double mean = (5 * (time(kOuterNode) + time(1 - kOuterNode)) + 8 * time(0.5)) / 18;
-  if (grid.flux()) return mean;
-  if (is_from_turn) return mean * 2 / piece.bend;
-  if (piece.curve == RateCurve::exponential)
-    return mean * -2 * std::expm1(-piece.bend * d) / (f.rate * piece.bend);
-  const double rise = piece.bend * d;
-  const double logarithm = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(rise / f.rate);
-  return (2 * mean + logarithm) / piece.bend;
+  // Mean of a function over an interval.
+  const auto mean = [](double from, double to, const auto& value) {
+    const auto at = [&](double share) { return value(from + share * (to - from)); };
+    return (5 * (at(kOuterNode) + at(1 - kOuterNode)) + 8 * at(0.5)) / 18;
+  };
+  if (is_far)
+    return mean(h_below, h_above, [&](double h) {
+      const double share = (h - h_below) / (h_above - h_below);
+      return time(h, std::sqrt(q_below * q_below + share * ((q_above - q_below) * (q_above + q_below))),
+                  rate);
+    });
+  const double low = std::min(h_below, h_above), high = std::max(h_below, h_above);
+  const double most = std::max(q_below, q_above),
+               live = std::clamp(rate, low, high);  // those above it have turned
+  double sum = 0;
+  if (most > least)
+    sum +=
+        (most - least) * mean(least, most, [&](double q) {
+          return 2 * rate * q * time(std::clamp(low + rate * ((most - q) * (most + q)), low, high), q, rate);
+        });
+  if (high > live && !is_from_turn)
+    sum += (high - live) * mean(live, high, [&](double h) { return time(h, 0, h); });
+  return sum / spread;
 }
 
 }  // namespace curved_front_detail

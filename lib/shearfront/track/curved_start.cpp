@@ -204,7 +204,7 @@ double step_height(const LevelCurves& grid, std::size_t p, State below, State ab
 
 /// Where `value`, which rises or falls from lo to hi, is 0: by bisection and secants.
 template <class Value>
-double crossing(double lo, double hi, bool rises, const Value& value) {
+double height_of_zero(double lo, double hi, bool rises, const Value& value) {
   constexpr int kMostHalvings = 200;
   double at_lo = value(lo), at_hi = value(hi);
   if ((at_lo >= 0) == rises) return lo;
@@ -253,7 +253,7 @@ void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& r
   std::vector<double> cuts{low, high};
   double at_top = low;
   if (above_low * above_high < 0) {
-    at_top = crossing(low, high, above_low < 0, [&](double z) { return course->u(z) - top; });
+    at_top = height_of_zero(low, high, above_low < 0, [&](double z) { return course->u(z) - top; });
     cuts.push_back(at_top);
   }
   const auto carried = [&](double z) { return capacity_of(flux, rate.rate(z), course->u(z)); };
@@ -359,8 +359,8 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
   const double spread = relative_flux(grid.flux(), segment.u_low);
   const auto height_of = [&](double h, double lo) {
     if (!shape) return piece.height_of(h / spread);
-    return crossing(lo, segment.z_high, s > 0,
-                    [&](double z) { return capacity_of(grid.flux(), piece.rate(z), shape->u(z)) - h; });
+    return height_of_zero(lo, segment.z_high, s > 0,
+                          [&](double z) { return capacity_of(grid.flux(), piece.rate(z), shape->u(z)) - h; });
   };
   const auto lack = [&](double lo, double hi) {
     const double width = hi - lo;
