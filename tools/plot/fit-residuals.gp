@@ -5,7 +5,7 @@
 # Variables: those of fit.gp
 load 'panel.gp'
 left = 0.72
-right = 0.93
+right = 0.9
 bottom = 0.095
 top = 0.4
 eval place
@@ -22,13 +22,13 @@ if (data eq 'heights') {
 } else {
   stats 'residuals.csv' using (column("t")) nooutput
   set cbrange [STATS_min:STATS_max > STATS_min ? STATS_max : STATS_min + 1]
+  set cblabel label('time {/:Italic t}', unit_t) offset 0.3,0
   set cbtics round_up(max(STATS_max - STATS_min, 1e-300) / 3) scale 0 offset -0.8,0
   set colorbox vertical noborder user origin screen right+0.01,bottom size screen 0.012,top-bottom
   eval "set palette defined (" . phi_palette . ")"
   set xrange [-largest:largest]
   set xtics round_up(largest / 2.5)
   eval height_axis
-  set title 'observed − fitted, by {/:Italic t}' . (unit_t eq '' ? '' : ' (' . unit_t . ')') offset 0,-0.6
   set yzeroaxis lw 0.8 dt (8,6) lc rgb '#8c8c8c'
   plot 'residuals.csv' using "residual":"z":"t" with points pt 7 ps size lc palette
 }
