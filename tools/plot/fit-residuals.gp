@@ -5,7 +5,7 @@
 # Variables: those of fit.gp
 load 'panel.gp'
 left = 0.72
-right = 0.93
+right = 0.9
 bottom = 0.095
 top = 0.4
 eval place
@@ -27,7 +27,7 @@ if (data eq 'heights') {
   set colorbox vertical noborder user origin screen right+0.01,bottom size screen 0.012,top-bottom
   eval "set palette defined (" . phi_palette . ")"
   set xrange [-largest:largest]
-  set xtics round_up(largest / 1.5)
+  set xtics round_up(largest / 2.5)
   eval height_axis
   set yzeroaxis lw 0.8 dt (8,6) lc rgb '#8c8c8c'
   plot 'residuals.csv' using "residual":"z":"t" with points pt 7 ps size lc palette
