@@ -126,10 +126,10 @@ struct Kinetic : KineticBed<Scalar> {
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
 
   static std::vector<Kinetic> samples() {
-    const auto make = [](double amplitude, double length, double load, double ground, double lid) {
+    const auto make = [](double rate, double l, double weight, double low, double high) {
       Kinetic a;
-      a.amplitude = Scalar(amplitude), a.length = Scalar(length), a.load = Scalar(load);
-      a.ground = Scalar(ground), a.lid = Scalar(lid);
+      a.amplitude = Scalar(rate), a.length = Scalar(l), a.load = Scalar(weight);
+      a.ground = Scalar(low), a.lid = Scalar(high);
       return a;
     };
     return {make(1, 0.1, 1, 0, 1), make(2, 0.3, 0.2, -0.25, 1.5), make(0.5, 0.05, 5, 0, 1)};

@@ -53,6 +53,7 @@ struct Scaling {
   static constexpr std::string_view kName = ScalingText<Shear>::kName;
   static constexpr std::string_view kFormula = ScalingText<Shear>::kFormula;
   static constexpr bool kIsLayered = false;
+  static constexpr bool kIsGuessable = false;
   /// Whether the shear rate knows how much bed there is above a height.
   static constexpr bool kKnowsDepth = requires(const Shear& shear, Scalar z) { shear.depth(z); };
 
