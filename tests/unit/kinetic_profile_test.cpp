@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The granular temperature of a sheared bed: values of an independent integration (Runge-Kutta of the Riccati equation in extended precision,
 // 40 000 and 80 000 steps alike in all digits given), limits and laws.
-#include "shearfront/model/rheology/kinetic_profile.hpp"
+#include "shearfront/model/depth/kinetic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -166,6 +166,8 @@ std::string ModelChoice::text(const Model& model) {
 std::string refusal(const ModelChoice::Model& model) {
   const auto function = new_function(model.name);
   if (!function) return "must be one of: " + DepthFunctionList<double>::names();
+  if (!std::visit([](const auto& m) { return is_guessable(m); }, *function))
+    return "must be one whose numbers data can tell, not those of a flow and its grains";
   const bool needs_number = has_arrays(*function);
   if (needs_number && model.n < 2)
     return "must say of how many numbers, at least 2, such as " + model.name + ":6";

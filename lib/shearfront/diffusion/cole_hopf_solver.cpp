@@ -76,7 +76,7 @@ class ColeHopfRun final : public Run {
   [[nodiscard]] std::string message() const {
     if (status_ == Status::interrupted) return "interrupted at t = " + number_text(field_.t);
     if (status_ == Status::unsupported && is_steady_)
-      return "the option steady gives the steady state only, t = inf";
+      return "the option steady gives the steady state only: ask for that time, steady";
     if (status_ == Status::unsupported)
       return "the closed form is that of an endless bed, and its phi_z at the ends of this one is no longer "
              "0 at "

@@ -34,15 +34,6 @@ bool is_exponential_scene(const Scene<Scalar>& scene) {
   return is_between_knots(scene, [](const auto& model) { return is_exponential_between_knots(model); });
 }
 
-/// Likewise (kIsRoot) that the square of a(z) is, and falls.
-template <class Model>
-[[nodiscard]] constexpr bool is_root_between_knots(const Model& /*model*/) {
-  if constexpr (requires { Model::kIsRoot; })
-    return Model::kIsRoot;
-  else
-    return false;
-}
-
 /// Whether the square of the rate is linear and the bed one piece.
 template <Real Scalar>
 bool is_root_scene(const Scene<Scalar>& scene) {

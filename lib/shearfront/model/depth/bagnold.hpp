@@ -29,6 +29,7 @@ struct Bagnold {
       "(I/grain) sqrt(gravity cos(angle) (surface - z)), angle in radian";
   static constexpr bool kIsLayered = false;
   static constexpr bool kIsRoot = true;
+  static constexpr bool kIsGuessable = false;
 
   Scalar angle{0}, grain{0}, static_friction{0.38}, friction_range{0.26}, inertial_number{0.3}, gravity{9.81};
   Scalar surface{0};
@@ -100,10 +101,9 @@ struct Bagnold {
   }
 
   static std::vector<Bagnold> samples() {
-    const auto make = [](double angle, double grain, double gravity, double surface) {
+    const auto make = [](double slope, double diameter, double g, double top) {
       Bagnold a;
-      a.angle = Scalar(angle), a.grain = Scalar(grain), a.gravity = Scalar(gravity);
-      a.surface = Scalar(surface);
+      a.angle = Scalar(slope), a.grain = Scalar(diameter), a.gravity = Scalar(g), a.surface = Scalar(top);
       return a;
     };
     return {make(0.43, 0.04, 1, 1), make(0.5, 0.01, 9.81, 1.25)};

@@ -32,6 +32,25 @@ template <class Model>
     return false;
 }
 
+/// Likewise (kIsRoot) that the square of a(z) is, and falls.
+template <class Model>
+[[nodiscard]] constexpr bool is_root_between_knots(const Model& /*model*/) {
+  if constexpr (requires { Model::kIsRoot; })
+    return Model::kIsRoot;
+  else
+    return false;
+}
+
+/// Whether a fit may choose all of its numbers to come close to a given a(z); a model whose numbers must be known of the flow and
+/// the grains says kIsGuessable = false.
+template <class Model>
+[[nodiscard]] constexpr bool is_guessable(const Model& /*model*/) {
+  if constexpr (requires { Model::kIsGuessable; })
+    return Model::kIsGuessable;
+  else
+    return true;
+}
+
 /// Whether a(z) jumps at a knot: jumps_at() of the model if it has it; models that are constant between knots may at each.
 template <class Model, class Scalar>
 [[nodiscard]] bool may_jump_at(const Model& model, const Scalar& knot) {

@@ -46,6 +46,9 @@ struct SkeletonDepthFunction {
   }
   /// Which entry each of knots() is, in their order; kNoEntry for none.
   [[nodiscard]] std::vector<std::size_t> knot_entries() const { return {}; }
+  // What takes long, or depends on the ends of the domain, is found in prepare(bottom, top), called where a scene is made. bool
+  // vanishes_at(end): a is 0 there, as a root of the distance or so. Scalar shear_rate(z): what a is made of, for diffusion.
+  // static constexpr bool kIsGuessable = false, if its numbers must be known. kIsRoot = true, if a^2 is linear and falls.
   // static constexpr bool kIsLinear = true, if a(z) is linear between knots(), or kIsExponential = true, if log a(z) is: the exact
   // engine then takes it as it is. Then always end_value_derivatives(lo, hi, add_low, add_high), and, where a jumps at a
   // knot, bool jumps_at(z) and EndValues<Scalar> end_values(lo, hi): see model.hpp.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/model/rheology/kinetic_profile.hpp"
+#include "shearfront/model/depth/kinetic.hpp"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
