@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How Sphinx builds the pages; scripts/docs calls it. Nothing is loaded from the network when a page is read."""
 
+import inspect
 import pathlib
 import re
 import sys
@@ -17,9 +18,29 @@ author = "the shearfront authors"
 copyright = "the shearfront authors, BSD-3-Clause"
 version = release = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE).group(1)
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathml", "program_help", "gallery", "outside_links", "interfaces"]
+extensions = [
+    "myst_nb",
+    "breathe",
+    "sphinx.ext.autodoc",
+    "numpydoc",
+    "mathml",
+    "program_help",
+    "gallery",
+    "outside_links",
+    "interfaces",
+]
 exclude_patterns = ["_extensions", "drawings"]
 nitpicky = False
+# Notebooks (pages with code-cell) are run at every build; an error in one is an error of the build.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_merge_streams = True
+nb_ipywidgets_js = {}
+breathe_projects = {"shearfront": str(ROOT / "build" / "docs" / "doxygen" / "xml")}
+breathe_default_project = "shearfront"
+breathe_show_include = False
+# Every header opens the namespace again.
+suppress_warnings = ["duplicate_declaration.cpp"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4
@@ -58,6 +79,19 @@ def _docstring(app, what, name, obj, options, lines):
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
+def _signature(app, what, name, obj, options, signature, return_annotation):
+    """Options of methods are spelt out for completion; pages name them once, as **options."""
+    spelt_out = getattr(obj, "__signature__", None) if what in ("function", "method") else None
+    if spelt_out is None:
+        return None
+    del obj.__signature__
+    shown = inspect.signature(obj)
+    obj.__signature__ = spelt_out
+    parameters = [p.replace(annotation=p.empty) for p in shown.parameters.values() if p.name != "self"]
+    return str(inspect.Signature(parameters)), None
+
+
 def setup(app):
     """Called by Sphinx."""
+    app.connect("autodoc-process-signature", _signature)
     app.connect("autodoc-process-docstring", _docstring, priority=0)

@@ -141,7 +141,7 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   const auto n_free = static_cast<Index>(parts.free.size());
   const MatrixXd moved = noise_to_coordinates(rows, observations, parts.pseudo_inverse);
   // How much of the noise the fit takes out of the residuals: the rank of J if they are independent.
-  const MatrixXd jacobian = at.jacobian(Eigen::all, parts.free);
+  const MatrixXd jacobian = at.jacobian(Eigen::seqN(0, at.jacobian.rows()), parts.free);
   const double fitted = (jacobian.transpose() * jacobian * moved).cwiseProduct(moved).sum();
   const LossEffect effect = effect_of(loss, at, noise, fitted);
   const MatrixXd cov = effect.variance * moved * moved.transpose();
@@ -154,7 +154,8 @@ Covariance covariance(const ResidualRows& rows, const Observations& observations
   result.determined.assign(static_cast<std::size_t>(n), false);
   result.misfit_scale = VectorXd::Constant(n, kUnknown);
   result.matrix(parts.free, parts.free) = cov;
-  if (parts.null.cols() > 0) result.null_directions(parts.free, Eigen::all) = parts.null;
+  if (parts.null.cols() > 0)
+    result.null_directions(parts.free, Eigen::seqN(0, parts.null.cols())) = parts.null;
   for (Index a = 0; a < n_free; ++a) {
     const Index j = parts.free[static_cast<std::size_t>(a)];
     const bool determined = (parts.null.row(a).array() == 0).all();

@@ -59,7 +59,7 @@ std::optional<ResolutionShift> resolution_shift(const Objective& objective, cons
     if (estimate.parameters[static_cast<std::size_t>(j)].std_error) free.push_back(j);
   ResolutionShift result{VectorXd::Zero(u.size()), 0};
   if (free.empty()) return result;
-  const MatrixXd jacobian = weight.asDiagonal() * at.jacobian.topRows(n)(Eigen::all, free);
+  const MatrixXd jacobian = weight.asDiagonal() * at.jacobian(Eigen::seqN(0, n), free);
   const VectorXd moved = jacobian.colPivHouseholderQr().solve(factor * weight.cwiseProduct(change));
   VectorXd step = VectorXd::Zero(u.size());
   for (std::size_t k = 0; k < free.size(); ++k) step[free[k]] = moved[static_cast<Index>(k)];
