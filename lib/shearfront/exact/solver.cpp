@@ -168,7 +168,8 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
       return result;
     }
     heights.clear();
-    for (; to < order.size() && to - from < kPlacesPerCall && places[order[to]].t == t; ++to) heights.push_back(places[order[to]].z);
+    for (; to < order.size() && to - from < kPlacesPerCall && places[order[to]].t == t; ++to)
+      heights.push_back(places[order[to]].z);
     if (!derivatives) {
       const auto values = solution.at(heights, t);
       for (std::size_t n = 0; n < values.size(); ++n)
