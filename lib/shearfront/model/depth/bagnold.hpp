@@ -94,6 +94,13 @@ struct Bagnold {
   }
   [[nodiscard]] std::vector<Scalar> knots() const { return {}; }
 
+  /// (I / grain) sqrt(gravity cos(angle)): a at a depth of 1.
+  [[nodiscard]] Scalar factor() const {
+    using std::cos, std::sqrt, std::tan;
+    const Scalar t = tan(angle);
+    const Scalar I = inertial_number * (t - static_friction) / ((static_friction - t) + friction_range);
+    return I / grain * sqrt(Scalar(gravity * cos(angle)));
+  }
   /// u(z) - u(ground).
   [[nodiscard]] Scalar velocity(const Scalar& ground, const Scalar& z) const {
     const Scalar low = root(ground), high = root(z);
@@ -120,12 +127,6 @@ struct Bagnold {
   [[nodiscard]] Scalar by_surface(const Scalar& z) const {
     const Scalar r = root(z);
     return r > 0 ? Scalar(Scalar(1) / (Scalar(2) * r)) : Scalar(0);
-  }
-  [[nodiscard]] Scalar factor() const {
-    using std::cos, std::sqrt, std::tan;
-    const Scalar t = tan(angle);
-    const Scalar I = inertial_number * (t - static_friction) / ((static_friction - t) + friction_range);
-    return I / grain * sqrt(Scalar(gravity * cos(angle)));
   }
   template <class Add>
   void add_factor(const Scalar& value, Add& add) const {

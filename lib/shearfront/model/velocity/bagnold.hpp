@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shearfront/model/depth/bagnold.hpp"
 #include "shearfront/model/field.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/numeric/scalar.hpp"
@@ -42,15 +43,7 @@ struct BagnoldVelocity {
   }
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {
-    using std::atan;
-    using std::tan;
-    const Scalar highest = static_friction + friction_range;
-    if (!(angle > 0 && static_friction > 0 && friction_range > 0)) return;  // reported elsewhere
-    if (!(angle > Scalar(atan(static_friction)) && angle < Scalar(atan(highest))))
-      complaints.push_back({prefix + "angle", number_text(angle),
-                            "must be between " + number_text(to_double(Scalar(atan(static_friction))), 6) +
-                                " and " + number_text(to_double(Scalar(atan(highest))), 6) +
-                                " (radian): at other angles nothing flows steadily"});
+    shear_rate().check(prefix, bottom, surface, complaints);
     if (ground > bottom)
       complaints.push_back({prefix + "ground", number_text(ground),
                             "must not lie above the bottom of the domain (" + number_text(bottom) + ")"});
@@ -59,13 +52,10 @@ struct BagnoldVelocity {
                             "must not lie below the top of the domain (" + number_text(top) + ")"});
   }
 
-  [[nodiscard]] Scalar value(const Scalar& z) const {
-    const Scalar h = surface - ground, y = surface - z;
-    return Scalar(2) / Scalar(3) * strength() * (power(h, 3) - power(y, 3));
-  }
+  [[nodiscard]] Scalar value(const Scalar& z) const { return shear_rate().velocity(ground, z); }
   [[nodiscard]] Scalar flow(const Scalar& lo, const Scalar& hi) const {
     const Scalar h = surface - ground;
-    return Scalar(2) / Scalar(3) * strength() *
+    return Scalar(2) / Scalar(3) * shear_rate().factor() *
            (power(h, 3) * (hi - lo) -
             Scalar(2) / Scalar(5) * (power(Scalar(surface - lo), 5) - power(Scalar(surface - hi), 5)));
   }
@@ -96,15 +86,14 @@ struct BagnoldVelocity {
     for (; n > 1; n -= 2) x *= y;
     return x;
   }
-  /// (I / grain) sqrt(gravity cos(angle)).
-  [[nodiscard]] Scalar strength() const {
-    using std::cos;
-    using std::sqrt;
-    using std::tan;
-    const Scalar slope = tan(angle);
-    const Scalar inertial =
-        inertial_number * (slope - static_friction) / (static_friction + friction_range - slope);
-    return inertial / grain * Scalar(sqrt(Scalar(gravity * cos(angle))));
+  /// Of the same layer.
+  [[nodiscard]] Bagnold<Scalar> shear_rate() const {
+    Bagnold<Scalar> a;
+    a.angle = angle, a.grain = grain, a.gravity = gravity;
+    a.static_friction = static_friction, a.friction_range = friction_range,
+    a.inertial_number = inertial_number;
+    a.prepare(ground, surface);
+    return a;
   }
 };
 
