@@ -120,8 +120,8 @@ struct NameOfSolver {
     return std::string(Solver::kName) == "engquist-osher" ? "engquist_osher" : std::string(Solver::kName);
   }
 };
-using Solvers = testing::Types<EngquistOsherSolver, GodunovSolver>;
-TYPED_TEST_SUITE(FvTraffic, Solvers, NameOfSolver);
+using SchemesWithEnds = testing::Types<EngquistOsherSolver, GodunovSolver>;
+TYPED_TEST_SUITE(FvTraffic, SchemesWithEnds, NameOfSolver);
 
 SceneSpec<double> road() {
   SceneSpec<double> spec;

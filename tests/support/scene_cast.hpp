@@ -33,10 +33,10 @@ template <Real To, Real From>
   return ys;
 }
 
-/// The same model in another scalar, entry by entry.
-template <Real To, template <class> class Model, Real From>
-[[nodiscard]] Model<To> model_cast(const Model<From>& model) {
-  Model<To> copy;
+/// The same entries in another scalar.
+template <Real To, Real From, class ModelTo, class ModelFrom>
+[[nodiscard]] ModelTo entries_cast(const ModelFrom& model) {
+  ModelTo copy;
   std::vector<std::vector<To>> arrays;
   std::vector<To> singles;
   const auto read = [&](const FieldInfo&, const auto& member) {
@@ -54,8 +54,8 @@ template <Real To, template <class> class Model, Real From>
       member = arrays[n_arrays++];
     }
   };
-  Model<From>::fields(model, read);
-  Model<To>::fields(copy, write);
+  ModelFrom::fields(model, read);
+  ModelTo::fields(copy, write);
   std::vector<std::size_t> choices;
   visit_choices(model,
                 [&](const ChoiceInfo&, auto member) { choices.push_back(static_cast<std::size_t>(member)); });
@@ -64,6 +64,16 @@ template <Real To, template <class> class Model, Real From>
     member = static_cast<std::decay_t<decltype(member)>>(choices[n_choices++]);
   });
   return copy;
+}
+
+/// The same model in another scalar, entry by entry.
+template <Real To, template <class> class Model, Real From>
+[[nodiscard]] Model<To> model_cast(const Model<From>& model) {
+  return entries_cast<To, From, Model<To>>(model);
+}
+template <Real To, template <class> class Shear, Real From>
+[[nodiscard]] Scaling<Shear<To>> model_cast(const Scaling<Shear<From>>& model) {
+  return entries_cast<To, From, Scaling<Shear<To>>>(model);
 }
 
 }  // namespace scene_detail
@@ -104,6 +114,10 @@ template <Real To, Real From>
   if (from.close_packing)
     to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
                                   *from.close_packing);
+  if (from.velocity)
+    to.velocity = std::visit([](const auto& model) -> Velocity<To> { return model_cast<To>(model); },
+                             *from.velocity);
+  if (from.slab) throw std::logic_error("slabs are computed in doubles");
   to.initial_breaks = numbers_cast<To>(from.initial_breaks);
   to.initial_values = numbers_cast<To>(from.initial_values);
   to.bottom = number_cast<To>(from.bottom);

@@ -15,7 +15,7 @@
 namespace shearfront {
 namespace {
 
-using Profile = KineticProfile<double>;
+using SolvedCell = KineticProfile<double>;
 
 struct Row {
   double length, load, nu, stress, w0, w25, w50, w75, t0, t1, u50;
@@ -34,7 +34,7 @@ const std::vector<Row> kRows{
 };
 
 /// The velocity at a height over that of the lid: u' ~ w / p. Simpson's rule.
-double velocity(const Profile& profile, double height) {
+double velocity(const SolvedCell& profile, double height) {
   const int n = 2000;
   const auto part = [&](double z) { return profile.value(z) / (profile.bed().load + profile.bed().lid - z); };
   const auto integral = [&](double to) {
@@ -47,7 +47,7 @@ double velocity(const Profile& profile, double height) {
 
 TEST(KineticProfile, HasTheValuesOfAnIndependentIntegration) {
   for (const Row& row : kRows) {
-    const Profile profile({row.length, row.load, 0, 1});
+    const SolvedCell profile({row.length, row.load, 0, 1});
     const auto expect = [&](double value, double reference) {
       EXPECT_NEAR(value, reference, 1e-9 * reference) << row.length << ' ' << row.load;
     };
@@ -66,7 +66,7 @@ TEST(KineticProfile, HasTheValuesOfAnIndependentIntegration) {
 
 TEST(KineticProfile, IsAiryFunctionUnderAHeavyLid) {
   const double zero = 1.0187929716474710890;  // of Ai', with the other sign
-  const Profile profile({4e-4, 1e4, 0, 1});
+  const SolvedCell profile({4e-4, 1e4, 0, 1});
   const double d = std::cbrt(4e-4 * 4e-4 * 1e4 / 2), order = d / 1e4;
   for (const double s : {0.05, 0.1, 0.2, 0.35, 0.5}) {
     const double airy = boost::math::airy_ai(s / d - zero) / boost::math::airy_ai(-zero);
@@ -76,9 +76,9 @@ TEST(KineticProfile, IsAiryFunctionUnderAHeavyLid) {
 }
 
 TEST(KineticProfile, IsConstantWhereConductionIsEasyOrTheLidHeavy) {
-  for (const auto& bed : {Profile::Bed{1e3, 1, 0, 1}, Profile::Bed{0.2, 1e7, 0, 1}}) {
+  for (const auto& bed : {SolvedCell::Bed{1e3, 1, 0, 1}, SolvedCell::Bed{0.2, 1e7, 0, 1}}) {
     const double bend = 1 / (bed.length * bed.length) / bed.load;  // w''/w is of that order
-    EXPECT_NEAR(Profile(bed).value(0), 1, bend);
+    EXPECT_NEAR(SolvedCell(bed).value(0), 1, bend);
   }
 }
 
@@ -86,8 +86,8 @@ TEST(KineticProfile, StressIsBetweenItsBounds) {
   support::SceneMaker make(support::seed_of(2101));
   for (int n = 0; n < 50; ++n) {
     const double length = std::exp(make.uniform(-4, 2)), load = std::exp(make.uniform(-5, 5));
-    if (Profile::n_nodes({length, load, 0, 1}) > Profile::kMostNodes) continue;
-    const double stress = Profile({length, load, 0, 1}).stress();
+    if (SolvedCell::n_nodes({length, load, 0, 1}) > SolvedCell::kMostNodes) continue;
+    const double stress = SolvedCell({length, load, 0, 1}).stress();
     const double pressures = load + 0.5, inverse = std::log((load + 1) / load);
     EXPECT_GE(stress, 1) << length << ' ' << load;
     EXPECT_LE(stress, std::sqrt(pressures / inverse) / load * (1 + 1e-12)) << length << ' ' << load;
@@ -97,7 +97,7 @@ TEST(KineticProfile, StressIsBetweenItsBounds) {
 /// Lengths in another unit.
 TEST(KineticProfile, KnowsNoUnit) {
   for (const double unit : {2.0, 1e3, 1e-3}) {
-    const Profile one({0.1, 0.7, 0, 1}), other({0.1 * unit, 0.7 * unit, 0, unit});
+    const SolvedCell one({0.1, 0.7, 0, 1}), other({0.1 * unit, 0.7 * unit, 0, unit});
     EXPECT_NEAR(other.stress(), one.stress(), 1e-14);
     for (const double z : {0.0, 0.3, 0.8})
       EXPECT_NEAR(other.value(z * unit), one.value(z), 1e-13 * one.value(z)) << unit << ' ' << z;
@@ -107,7 +107,7 @@ TEST(KineticProfile, KnowsNoUnit) {
 /// Against 110 digits, over a contrast of 1e19.
 TEST(KineticProfile, LosesNothingOverAnyContrast) {
   const double length = 0.015;
-  const Profile profile({length, 1, 0, 1});
+  const SolvedCell profile({length, 1, 0, 1});
   const KineticProfile<Real110> exact({Real110(length), Real110(1), Real110(0), Real110(1)});
   EXPECT_LT(profile.value(0), 1e-18);
   for (const double z : {0.0, 0.1, 0.5, 0.9, 0.99}) {
@@ -123,7 +123,7 @@ TEST(KineticProfile, DerivativesKnowItsSymmetries) {
   for (int n = 0; n < 20; ++n) {
     const double length = make.uniform(0.05, 0.5), load = make.uniform(0.1, 5),
                  ground = make.uniform(-0.5, 0), lid = make.uniform(1, 1.5), z = make.uniform(0, 1);
-    const Profile profile({length, load, ground, lid});
+    const SolvedCell profile({length, load, ground, lid});
     const auto v = profile.with_derivatives(z);
     const double h = 1e-3, slope = (8 * (profile.value(z + h) - profile.value(z - h)) -
                                     (profile.value(z + 2 * h) - profile.value(z - 2 * h))) /
@@ -135,10 +135,10 @@ TEST(KineticProfile, DerivativesKnowItsSymmetries) {
 }
 
 TEST(KineticProfile, TellsBedsWithoutNumbers) {
-  EXPECT_GT(Profile::n_nodes({1e-4, 1, 0, 1}), Profile::kMostNodes);
-  EXPECT_LT(Profile::n_nodes({1e-3, 1, 0, 1}), Profile::kMostNodes);
-  for (const auto& bed : {Profile::Bed{1e-4, 1, 0, 1}, Profile::Bed{1, 0, 0, 1}, Profile::Bed{1, 1, 1, 0}})
-    EXPECT_TRUE(std::isnan(Profile(bed).value(0.5)));
+  EXPECT_GT(SolvedCell::n_nodes({1e-4, 1, 0, 1}), SolvedCell::kMostNodes);
+  EXPECT_LT(SolvedCell::n_nodes({1e-3, 1, 0, 1}), SolvedCell::kMostNodes);
+  for (const auto& bed : {SolvedCell::Bed{1e-4, 1, 0, 1}, SolvedCell::Bed{1, 0, 0, 1}, SolvedCell::Bed{1, 1, 1, 0}})
+    EXPECT_TRUE(std::isnan(SolvedCell(bed).value(0.5)));
 }
 
 }  // namespace

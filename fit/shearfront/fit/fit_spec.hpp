@@ -73,7 +73,7 @@ struct FitSpec {
   MisfitSpec misfit;
   SearchSpec search;
   UncertaintySpec uncertainty;
-  std::vector<Prior> priors;
+  std::vector<Prior> priors = {};
 };
 
 }  // namespace shearfront::fit
