@@ -69,8 +69,8 @@ struct EventTable {
   TextTable table{{"event", "meaning",
                    std::string(units.is_chute ? "distance" : "time") +
                        (units.t.empty() ? "" : " [" + printable(units.t, 20) + "]"),
-                   bands ? "95 %" : "", exact ? "exact" : "", exact ? "relative difference" : "",
-                   "closed form"}};
+                   bands ? "+-" : "", bands ? "95 %" : "", exact ? "exact" : "",
+                   exact ? "relative difference" : "", "closed form"}};
 
   void add(const std::string& event, const std::string& meaning, const std::optional<double>& time,
            const std::optional<std::string>& shown, const std::optional<ClosedForm>& form,

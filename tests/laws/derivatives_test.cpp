@@ -215,6 +215,8 @@ TYPED_TEST(ExactDerivatives, OfMeansAreTheSameForAModelThatLeavesThemOut) {
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
       for (const double part : {1.0, 0.5, 0.0625}) {
         const double lo = cuts[i], hi = part == 1 ? cuts[i + 1] : lo + part * (cuts[i + 1] - lo);
+        // At its end a rate that vanishes there has a derivative to one side only.
+        if (model.value(hi) == 0) continue;
         std::vector<double> mine(64, 0.0), theirs(64, 0.0);
         harmonic_mean_derivatives(model, lo, hi, [&](std::size_t e, double by) { mine[e] += by; });
         harmonic_mean_derivatives(bare, lo, hi, [&](std::size_t e, double by) { theirs[e] += by; });

@@ -115,8 +115,8 @@ template <Real To, Real From>
     to.close_packing = std::visit([](const auto& law) -> ClosePacking<To> { return model_cast<To>(law); },
                                   *from.close_packing);
   if (from.velocity)
-    to.velocity = std::visit([](const auto& model) -> Velocity<To> { return model_cast<To>(model); },
-                             *from.velocity);
+    to.velocity =
+        std::visit([](const auto& model) -> Velocity<To> { return model_cast<To>(model); }, *from.velocity);
   if (from.slab) throw std::logic_error("slabs are computed in doubles");
   to.initial_breaks = numbers_cast<To>(from.initial_breaks);
   to.initial_values = numbers_cast<To>(from.initial_values);

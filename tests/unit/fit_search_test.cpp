@@ -123,7 +123,7 @@ TEST(InterruptedFit, EndsWithinARunWithTheBestPoint) {
   EXPECT_EQ(estimate.status, Status::interrupted) << estimate.message;
   ASSERT_TRUE(estimate.usable()) << estimate.message;
   // That of the run that was broken off, and the differences that were not made.
-  EXPECT_LE(estimate.evaluations, at_stop + 1 + 2 * estimate.parameters.size());
+  EXPECT_LE(estimate.evaluations, at_stop + 2 + 2 * estimate.parameters.size());
   EXPECT_EQ(estimate.misfit, best);
   EXPECT_TRUE(std::isfinite(best));
   for (const ParameterEstimate& p : estimate.parameters) EXPECT_TRUE(std::isfinite(p.estimate)) << p.name;

@@ -137,7 +137,8 @@ TEST(KineticProfile, DerivativesKnowItsSymmetries) {
 TEST(KineticProfile, TellsBedsWithoutNumbers) {
   EXPECT_GT(SolvedCell::n_nodes({1e-4, 1, 0, 1}), SolvedCell::kMostNodes);
   EXPECT_LT(SolvedCell::n_nodes({1e-3, 1, 0, 1}), SolvedCell::kMostNodes);
-  for (const auto& bed : {SolvedCell::Bed{1e-4, 1, 0, 1}, SolvedCell::Bed{1, 0, 0, 1}, SolvedCell::Bed{1, 1, 1, 0}})
+  for (const auto& bed :
+       {SolvedCell::Bed{1e-4, 1, 0, 1}, SolvedCell::Bed{1, 0, 0, 1}, SolvedCell::Bed{1, 1, 1, 0}})
     EXPECT_TRUE(std::isnan(SolvedCell(bed).value(0.5)));
 }
 

@@ -100,7 +100,9 @@ std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
   const auto knots = knots_of(scene.shear_rate());
   const auto entry_of = std::visit([](const auto& model) { return knot_entries(model); }, scene.shear_rate());
   for (std::size_t i = 0; i < knots.size(); ++i)
-    if (entry_of[i] == found && is_twice(knots, knots[i])) return entry.name() + " is one side of a jump";
+    if (entry_of[i] == found &&
+        (is_twice(knots, knots[i]) || (!scene.is_layered() && scene.jumps_at(knots[i]))))
+      return entry.name() + " is one side of a jump";
   for (std::size_t i = 0; i < knots.size(); ++i)
     if (entry_of[i] == found && material_jumps(scene, knots[i]))
       return entry.name() + " lies on a jump of solid fraction, temperature or flux";

@@ -23,7 +23,7 @@ constexpr double kRestChange = 4 * March::kQuantum;
 // M of a bed at rest this near to that of the steady state, relative to what the bed holds, has reached it.
 constexpr double kSteadyTolerance = 1e-9;
 // For the time of the settled state, which itself needs no march.
-constexpr double kMostUpdatesForRestTime = 0x1p29;
+constexpr double kMostUpdatesForRestTime = 0x1p22;
 // Steps per cell after which a bed that does not come to rest is given up, if its last state is asked for.
 constexpr double kMostStepsPerCell = 1000;
 // Times the waves cross a bed between walls before it rests, at most.

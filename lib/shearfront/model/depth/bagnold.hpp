@@ -36,13 +36,16 @@ struct Bagnold {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(FieldInfo{"angle", Range::positive}, self.angle);
+    visit(FieldInfo{.key = "angle", .range = Range::positive, .also = "with steady flow"}, self.angle);
     visit(FieldInfo{"grain", Range::positive}, self.grain);
     visit(FieldInfo{"static_friction", Range::positive, true}, self.static_friction);
     visit(FieldInfo{"friction_range", Range::positive, true}, self.friction_range);
     visit(FieldInfo{"inertial_number", Range::positive, true}, self.inertial_number);
     visit(FieldInfo{"gravity", Range::positive, true}, self.gravity);
-    visit(FieldInfo{"surface", Range::any, true, Measure::height}, self.surface);
+    visit(
+        FieldInfo{
+            .key = "surface", .is_optional = true, .measure = Measure::height, .also = "not below the top"},
+        self.surface);
   }
   void prepare(const Scalar& /*bottom*/, const Scalar& top) { top_ = top; }
   void check(const std::string& prefix, const Scalar& /*bottom*/, const Scalar& top,

@@ -159,10 +159,16 @@ struct Kinetic : KineticBed<Scalar> {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit(FieldInfo{"amplitude", Range::positive}, self.amplitude);
-    visit(FieldInfo{"length", Range::positive}, self.length);
+    visit(FieldInfo{.key = "length", .range = Range::positive, .also = "not far below the bed's"},
+          self.length);
     visit(FieldInfo{"load", Range::positive}, self.load);
-    visit(FieldInfo{"ground", Range::any, true, Measure::height}, self.ground);
-    visit(FieldInfo{"lid", Range::any, true, Measure::height}, self.lid);
+    visit(
+        FieldInfo{
+            .key = "ground", .is_optional = true, .measure = Measure::height, .also = "not above the bottom"},
+        self.ground);
+    visit(
+        FieldInfo{.key = "lid", .is_optional = true, .measure = Measure::height, .also = "not below the top"},
+        self.lid);
   }
 
   [[nodiscard]] Scalar value(const Scalar& z) const { return amplitude * this->profile().value(z); }

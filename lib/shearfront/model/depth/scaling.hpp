@@ -193,14 +193,17 @@ struct Scaling {
   static void fields(Self& self, Visit&& visit) {
     Shear::fields(self.shear, visit);
     visit(FieldInfo{"small_diameter", Range::positive}, self.small_diameter);
-    visit(FieldInfo{"size_ratio", Range::positive}, self.size_ratio);
-    visit(FieldInfo{"share", Range::any, true}, self.share);
+    visit(FieldInfo{.key = "size_ratio", .range = Range::positive, .also = "above 1"}, self.size_ratio);
+    visit(FieldInfo{.key = "share", .is_optional = true, .also = "of all grains, 0 to 1"}, self.share);
     visit(FieldInfo{"packing", Range::positive, true}, self.packing);
     if constexpr (!kKnowsDepth) {
-      visit(FieldInfo{"pressure", Range::any, true}, self.pressure);
+      visit(FieldInfo{.key = "pressure", .is_optional = true, .also = "not negative"}, self.pressure);
       visit(FieldInfo{"density", Range::positive, true}, self.density);
       visit(FieldInfo{"gravity", Range::positive, true}, self.gravity);
-      visit(FieldInfo{"lid", Range::any, true, Measure::height}, self.lid);
+      visit(
+          FieldInfo{
+              .key = "lid", .is_optional = true, .measure = Measure::height, .also = "not below the top"},
+          self.lid);
     }
     visit(FieldInfo{"B", Range::positive, true}, self.B);
     visit(FieldInfo{"C", Range::positive, true}, self.C);
