@@ -160,7 +160,7 @@ def _make(list_name: str, model: dict[str, Any], name: str) -> type[Model]:
 
 def _make_all() -> dict[str, type[Model]]:
     classes: dict[str, type[Model]] = {}
-    for list_name in ("depth", "flux", "start", "close_packing"):
+    for list_name in ("depth", "flux", "start", "velocity", "close_packing"):
         for model in _core.models()[list_name]:
             name = _PREFIX[list_name] + _camel(model["name"]) + _SUFFIX[list_name]
             if name in classes:  # a table of fluxes beside one of heights

@@ -52,6 +52,8 @@ class Options(TypedDict, total=False):
     """halve cells, beginning with the number given, where phi bends by more than this from one to the next, >= 1e-06 and <= 0.1 (crank-nicolson)."""
     monotone: bool
     """fitted fluxes, which do not wiggle where cells are coarse (first order there) (crank-nicolson)."""
+    steady: bool
+    """only the steady state, t = inf, but of any a(z), T(z) and D(z) (cole-hopf)."""
     cells_x: int
     """number of cells along x, from 3 to 10000 (slab)."""
     threads: int

@@ -35,7 +35,7 @@ def _columns(samples: Any, names: list[str]) -> tuple[list[str], list[list[str]]
 def _summary(samples: Any, names: list[str]) -> str:
     import arviz
 
-    table = arviz.summary(samples, var_names=sorted({n.split("[")[0] for n in names}), round_to="none")
+    table: Any = arviz.summary(samples, var_names=sorted({n.split("[")[0] for n in names}), round_to="none")
     lines = [f"{'unknown':24} {'mean':>12} {'sd':>10} {'2.5 %':>12} {'97.5 %':>12} {'R-hat':>7} {'bulk ESS':>9} {'tail ESS':>9}"]
     quantiles = samples.posterior.quantile([0.025, 0.975], dim=("chain", "draw"))
     for name in names:

@@ -44,7 +44,7 @@ def method_for(scene: sf.Scene) -> str:
     raise AssertionError("no method solves it")
 
 
-@pytest.mark.parametrize("path", SCENES, ids=ident)
+@pytest.mark.parametrize("path", [p for p in SCENES if "[slab]" not in p.read_text()], ids=ident)
 def test_solve(path: Path, run) -> None:
     scene = sf.read(path)
     method = method_for(scene)
@@ -73,8 +73,11 @@ def test_events(path: Path, run, refuses) -> None:
 
 
 def same_events(expected: dict[str, object], events: sf.Events) -> None:
-    for key in ("mass", "steady_height", "t0", "t1", "t_star"):
+    along = "x" if "x_star" in expected else "t"  # of a steady chute
+    for key in ("mass", "steady_height"):
         assert expected[key] == getattr(events, key), key
+    for which in ("0", "1", "_star"):
+        assert expected[along + which] == getattr(events, "t" + which), which
     assert expected["interfaces"] == [{"z": i.z, "first": i.first, "last": i.last} for i in events.interfaces]
 
 

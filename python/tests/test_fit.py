@@ -119,7 +119,9 @@ def test_bands(may: sf.Scene, seen: sf.Observations) -> None:
     assert np.all((prediction.M_lower <= prediction.M) & (prediction.M_upper >= prediction.M))
     np.testing.assert_array_equal(prediction.M, found.scene.M([0.2, 0.6], [[0.4], [3]]))
     drawn = np.array([s.M(0.6, 3.0) for s in found.draw(200)])
-    assert prediction.M_lower[1, 1] == pytest.approx(np.quantile(drawn, 0.025, method="weibull"), abs=1e-12)
+    # By derivatives where a straight line holds; a quantile of 200 draws is known to a fifth of a standard error.
+    error = (prediction.M_upper[1, 1] - prediction.M_lower[1, 1]) / (2 * 1.96)
+    assert prediction.M_lower[1, 1] == pytest.approx(np.quantile(drawn, 0.025, method="weibull"), abs=0.6 * error)
     band = found.rate_band()
     low, high = found.parameters["shear_rate.values[1]"].ci95
     assert (band.lower[-1], band.upper[-1]) == (pytest.approx(low), pytest.approx(high))
