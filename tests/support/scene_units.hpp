@@ -13,8 +13,8 @@ namespace shearfront::support {
 inline double unit_factor(const Entry& entry, double L, double T) {
   const std::string_view name = entry.field;
   // Positive lengths are found by their logarithm in fits and do not say that they are heights.
-  if (entry.measure == Measure::height || name.ends_with(".decay") || name.ends_with(".width") ||
-      name.ends_with(".wavelength"))
+  if (entry.measure == Measure::height || name.ends_with(".decay") || name.ends_with(".length") ||
+      name.ends_with(".load") || name.ends_with(".width") || name.ends_with(".wavelength"))
     return L;
   if (name == "shear_rate.scale") return L / T;
   if (name == "diffusion.D") return L * L / T;
