@@ -12,6 +12,7 @@ _LINES = {
     "scene": ("scene = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))", "sf"),
     "seen": ('seen = scene.observe([0.5, 1, 2], [0.1, 0.3, 0.5, 0.7], quantity="cumulative", noise=1e-4)', "scene"),
     "found": ('found = sf.fit(scene, seen, "shear_rate.values")', "seen"),
+    "posterior": ('posterior = sf.problem(scene, seen, "shear_rate.values").posterior()', "seen"),
     "bed": ("bed = scene.track(0.1)", "scene"),
 }
 _HEAD = re.compile(r"( *)Examples\n *--------\n")

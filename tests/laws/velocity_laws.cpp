@@ -73,6 +73,13 @@ TYPED_TEST(VelocityLaws, HeightOfIsTheInverseOfFlow) {
       }
 }
 
+/// What is in a scene: the models of the list.
+template <class Model>
+class ChuteLaws : public testing::Test {};
+
+using ChuteLawsTypes = support::ModelTypes<VelocityList<double>>::Type;
+TYPED_TEST_SUITE(ChuteLaws, ChuteLawsTypes, support::ModelName);
+
 /// A bed in which everything varies.
 SceneSpec<double> rich_bed() {
   SceneSpec<double> spec;
@@ -84,55 +91,52 @@ SceneSpec<double> rich_bed() {
   return spec;
 }
 
-TYPED_TEST(VelocityLaws, HeightsOfTheBedGoThereAndBack) {
-  if constexpr (!VelocityList<double>::contains(TypeParam::kName)) {
-    GTEST_SKIP() << "a skeleton is in no scene";
-  } else {
-    for (const auto& model : TypeParam::samples()) {
-      SceneSpec<double> spec = rich_bed();
-      spec.velocity = model;
-      const Scene<double> scene(spec);
-      const SteadyChute<double> chute(scene);
-      EXPECT_EQ(chute.bed_height(0), 0);
-      EXPECT_EQ(chute.bed_height(1), 1);
-      for (const double z : scene.knots()) EXPECT_EQ(chute.height(chute.bed_height(z)), z);
-      for (int k = 0; k < 100; ++k) {
-        const double z = (k + 0.5) / 100;
-        EXPECT_LT(chute.bed_height(z), chute.bed_height(z + 0.005));
-        EXPECT_NEAR(chute.height(chute.bed_height(z)), z, 1e-13);
-      }
+TYPED_TEST(ChuteLaws, HeightsOfTheBedGoThereAndBack) {
+  for (const auto& model : TypeParam::samples()) {
+    SceneSpec<double> spec = rich_bed();
+    spec.velocity = model;
+    const Scene<double> scene(spec);
+    const SteadyChute<double> chute(scene);
+    EXPECT_EQ(chute.bed_height(0), 0);
+    EXPECT_EQ(chute.bed_height(1), 1);
+    for (const double z : scene.knots()) EXPECT_EQ(chute.height(chute.bed_height(z)), z);
+    for (int k = 0; k < 100; ++k) {
+      const double z = (k + 0.5) / 100;
+      EXPECT_LT(chute.bed_height(z), chute.bed_height(z + 0.005));
+      EXPECT_NEAR(chute.height(chute.bed_height(z)), z, 1e-13);
     }
   }
 }
 
-TYPED_TEST(VelocityLaws, WhatPassesIsWhatTheBedHolds) {
-  if constexpr (!VelocityList<double>::contains(TypeParam::kName)) {
-    GTEST_SKIP() << "a skeleton is in no scene";
-  } else {
-    for (const auto& model : TypeParam::samples())
-      for (const bool is_smooth : {false, true}) {
-        SceneSpec<double> spec = rich_bed();
-        spec.velocity = model;
-        if (is_smooth) {
-          spec.initial_breaks = {}, spec.initial_values = {};
-          spec.initial_state = SineInitial<double>{0.5, 0.3, 0.7, 0.1};
-        }
-        const Scene<double> scene(spec);
-        const SteadyChute<double> chute(scene);
-        // c and a smooth start stand as tables in the bed.
-        EXPECT_NEAR(chute.mean_velocity() * chute.bed().mass(), scene.mass(), 2e-5 * scene.mass());
-        double by_quadrature = 0, from = 0;
-        for (const double to :
-             {0.25, 0.3, 0.35, 0.6, 0.75, 1.0}) {  // where c, u or the start has a kink or a jump
-          const double last = std::nextafter(to, 0.0);
-          by_quadrature += boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-              [&](double z) { return model.value(z) * scene.initial_phi(std::min(z, last)); }, from, to, 8,
-              1e-11);
-          from = to;
-        }
-        EXPECT_NEAR(scene.mass(), by_quadrature, 1e-10 * scene.mass());
+/// The same by quadrature over everything that varies: some 10 s for a model.
+template <class Model>
+class SlowChuteLaws : public testing::Test {};
+TYPED_TEST_SUITE(SlowChuteLaws, ChuteLawsTypes, support::ModelName);
+
+TYPED_TEST(SlowChuteLaws, WhatPassesIsWhatTheBedHolds) {
+  for (const auto& model : TypeParam::samples())
+    for (const bool is_smooth : {false, true}) {
+      SceneSpec<double> spec = rich_bed();
+      spec.velocity = model;
+      if (is_smooth) {
+        spec.initial_breaks = {}, spec.initial_values = {};
+        spec.initial_state = SineInitial<double>{0.5, 0.3, 0.7, 0.1};
       }
-  }
+      const Scene<double> scene(spec);
+      const SteadyChute<double> chute(scene);
+      // c and a smooth start stand as tables in the bed.
+      EXPECT_NEAR(chute.mean_velocity() * chute.bed().mass(), scene.mass(), 2e-5 * scene.mass());
+      double by_quadrature = 0, from = 0;
+      for (const double to :
+           {0.25, 0.3, 0.35, 0.6, 0.75, 1.0}) {  // where c, u or the start has a kink or a jump
+        const double last = std::nextafter(to, 0.0);
+        by_quadrature += boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+            [&](double z) { return model.value(z) * scene.initial_phi(std::min(z, last)); }, from, to, 8,
+            1e-11);
+        from = to;
+      }
+      EXPECT_NEAR(scene.mass(), by_quadrature, 1e-10 * scene.mass());
+    }
 }
 
 TEST(BagnoldVelocity, HasTheNumbersOfTheSource) {

@@ -21,12 +21,12 @@ struct ModelName {
   }
 };
 
-/// All models of a list, and the skeleton of its folder.
-template <class List, class Skeleton>
+/// All models of a list, and the skeleton of its folder if it is given.
+template <class List, class... Skeleton>
 struct ModelTypes;
-template <class... Model, class Skeleton>
-struct ModelTypes<TypeList<Model...>, Skeleton> {
-  using Type = testing::Types<Model..., Skeleton>;
+template <class... Model, class... Skeleton>
+struct ModelTypes<TypeList<Model...>, Skeleton...> {
+  using Type = testing::Types<Model..., Skeleton...>;
 };
 
 /// Of a list of models those that have a property, for laws that hold for them only: Property<Model>::value.
