@@ -86,7 +86,7 @@ class CurvedMeetings {
   /// interpolation, in a bracket; `to` is looked at only if they lead there.
   [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, double from, const Passage& at_from,
                                                         double to) const {
-    constexpr int kMostSteps = 200, kPatience = 8;
+    constexpr int kMostEvaluations = 200, kPatience = 8;
     constexpr double kLastStep = 1e-9;  // the next one would be its square at least
     constexpr double kRounding = 2e-16;
     const double length = std::abs(to - from);
@@ -102,7 +102,7 @@ class CurvedMeetings {
       const Pair both = pair_at(z);
       const Point now{z, {sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)}};
       if (z == to && !has_bracket && now.d.t > 0) return std::nullopt;
-      if (n == kMostSteps) return meeting(both, z);
+      if (n == kMostEvaluations) return meeting(both, z);
       has_bracket = has_bracket || now.d.t < 0;
       (now.d.t < 0 ? beyond : positive) = z;
       if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
