@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/method.hpp"
 #include "cli/table.hpp"
+#include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
 #include "shearfront/fit/search/search.hpp"
@@ -184,6 +185,7 @@ int list() {
   all += "\nEntries of a scene that can be unknown (unknown.parameters of a fit file)\n" + unknowns();
   all += "\nQuantities compared in a fit (misfit.quantity)\n" + described_list<fit::MisfitList>();
   all += "\nLosses of a fit (misfit.loss)\n" + described_list<fit::LossList>();
+  all += fmt::format("\nNoise of a fit (noise.model)\n  {}\n", fmt::join(fit::kNoiseModelNames, "\n  "));
   all += fmt::format("\nSearches of a fit (search.algorithm)\n  {}\n",
                      fmt::join(fit::algorithm_names(), "\n  "));
   OutputFile out("-");

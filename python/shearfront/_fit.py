@@ -160,6 +160,7 @@ def problem(
     bootstrap: int | None = None,
     bootstrap_seed: int | None = None,
     threads: int | None = None,
+    noise: str | Mapping[str, object] | None = None,
     name: str | None = None,
     **options: Any,
 ) -> Problem:
@@ -186,6 +187,7 @@ def problem(
             "tolerance": tolerance,
         },
         "uncertainty": {"profile": profile, "bootstrap": bootstrap, "seed": bootstrap_seed, "threads": threads},
+        "noise": {"model": noise} if isinstance(noise, str) else noise,
     }
     for key in ("start", "lower", "upper"):
         if tables["unknown"][key] is not None:
@@ -220,6 +222,7 @@ def fit(
         loss : "squared", "huber" or "cauchy"; loss_scale; two_stage;
         algorithm : "ceres", "global" or "nlopt:NAME"; starts; seed; max_evaluations; tolerance;
         profile : bool, bootstrap : int, bootstrap_seed, threads : more intervals;
+        noise : "independent", "exponential" or "discrepancy", or a mapping as [noise]: ``{"model": "exponential", "length_z": 0.1}``;
         name.
         They are those of a fit file (docs/reference/formats.md), with the same defaults.
 

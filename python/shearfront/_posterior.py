@@ -31,7 +31,8 @@ class Posterior:
     """log posterior density of the unknowns of a fit, and samples of it.
 
     Data with sigma: Gaussian, -sum r^2 / 2. Without: sigma is unknown with density 1 / sigma and integrated out, which leaves
-    -n / 2 log sum r^2 of n residuals; draws of it come with the samples. The loss of the fit plays no part.
+    -n / 2 log sum r^2 of n residuals; draws of it come with the samples. The loss of the fit plays no part. Correlated noise
+    of the fit whitens r, with the lengths as the fit found them.
 
     Attributes
     ----------
@@ -51,6 +52,8 @@ class Posterior:
     """
 
     def __init__(self, problem: Problem, priors: Mapping[str, Prior] | None = None) -> None:
+        if problem._engine.has_noise_model:
+            problem = type(problem)(problem._engine.with_noise_of(problem.run()._engine))
         self._problem = problem
         self._misfit = Misfit(problem)
         self.names = list(self._misfit.names)

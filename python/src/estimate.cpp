@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -84,6 +85,21 @@ nb::dict facts_of(const Fitted& self) {
     structure["runs_z_score"] = e.structure->runs_z_score;
     structure["is_structured"] = e.structure->is_structured;
     all["structure"] = structure;
+  }
+  all["noise"] = nb::none();
+  if (e.noise) {
+    nb::dict noise;
+    noise["model"] = e.noise->model;
+    const auto add = [&](const char* key, double x, const std::optional<fit::Interval>& interval) {
+      if (std::isnan(x)) return;
+      noise[key] = x;
+      if (interval) noise[(std::string(key) + "95").c_str()] = nb::make_tuple(interval->low, interval->high);
+    };
+    add("length_z", e.noise->length_z, e.noise->length_z95);
+    add("length_t", e.noise->length_t, e.noise->length_t95);
+    add("independent", e.noise->independent, e.noise->independent95);
+    add("tau", e.noise->tau, e.noise->tau95);
+    all["noise"] = noise;
   }
   all["warnings"] = e.warnings;
   all["status"] = std::string(name_of(e.status));

@@ -56,6 +56,12 @@ void members(T& x, Visit&& visit) {
   visit(x.lag1_height), visit(x.lag1_time), visit(x.runs_z_score), visit(x.is_structured);
 }
 
+template <python::Of<NoiseEstimate> T, class Visit>
+void members(T& x, Visit&& visit) {
+  visit(x.model), visit(x.length_z), visit(x.length_t), visit(x.independent), visit(x.tau), visit(x.length_z95);
+  visit(x.length_t95), visit(x.independent95), visit(x.tau95), visit(x.estimated);
+}
+
 template <python::Of<ParameterEstimate> T, class Visit>
 void members(T& x, Visit&& visit) {
   visit(x.name), visit(x.start), visit(x.estimate), visit(x.std_error), visit(x.ci95), visit(x.profile95);
@@ -68,7 +74,7 @@ void members(T& x, Visit&& visit) {
   visit(x.name), visit(x.method), visit(x.algorithm), visit(x.quantity), visit(x.loss), visit(x.parameters);
   visit(x.misfit), visit(x.residual_norm), visit(x.sigma), visit(x.freedom), visit(x.sigma_is_given);
   visit(x.observations), visit(x.left_out), visit(x.evaluations), visit(x.iterations), visit(x.wall_s);
-  visit(x.correlation), visit(x.aic), visit(x.bic), visit(x.structure), visit(x.predicted), visit(x.steps);
+  visit(x.correlation), visit(x.aic), visit(x.bic), visit(x.structure), visit(x.noise), visit(x.predicted), visit(x.steps);
   visit(x.warnings), visit(x.status), visit(x.message);
 }
 

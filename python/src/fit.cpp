@@ -16,6 +16,7 @@
 #include "scene.hpp"
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/model_comparison.hpp"
+#include "shearfront/fit/noise_reml.hpp"
 
 namespace shearfront::python {
 namespace {
@@ -38,6 +39,13 @@ FitProblem with_uncertainty(const FitProblem& problem, bool profile, std::size_t
                             std::uint64_t seed, std::size_t threads) {
   auto spec = std::make_shared<fit::FitSpec>(*problem.spec);
   spec->uncertainty = {profile, bootstrap, seed, threads};
+  return {std::move(spec), problem.remarks};
+}
+
+/// The same fit with the correlation of its noise as this fit found it, so that it is known.
+FitProblem with_noise_of(const FitProblem& problem, const Fitted& found) {
+  auto spec = std::make_shared<fit::FitSpec>(*problem.spec);
+  spec->noise = fit::known_noise(*found.spec, *found.estimate);
   return {std::move(spec), problem.remarks};
 }
 
@@ -73,6 +81,9 @@ void bind_fit(nb::module_& m) {
                    })
       .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
       .def("with_uncertainty", &with_uncertainty)
+      .def_prop_ro("has_noise_model",
+                   [](const FitProblem& self) { return self.spec->noise.model != fit::NoiseModel::independent; })
+      .def("with_noise_of", &with_noise_of)
       .def("run", &run_fit);
   bind_fit_state(m, problem);
   m.def("read_fit", [](const std::string& path) { return problem_of(fit::read_fit_file(path)); });

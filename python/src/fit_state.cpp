@@ -66,6 +66,23 @@ std::string settings_text(const fit::FitSpec& spec) {
   line("bootstrap", std::to_string(spec.uncertainty.bootstrap));
   line("seed", std::to_string(spec.uncertainty.seed));
   line("threads", std::to_string(spec.uncertainty.threads));
+  if (spec.noise.model != fit::NoiseModel::independent) {
+    text += "[noise]\n";
+    const auto estimated = [&](const char* key, const std::optional<double>& value) {
+      line(key, value ? number(*value) : word("estimated"));
+    };
+    line("model", word(std::string(fit::kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)])));
+    estimated("length_z", spec.noise.length_z);
+    estimated("length_t", spec.noise.length_t);
+    if (spec.noise.model == fit::NoiseModel::exponential) {
+      estimated("independent", spec.noise.independent);
+    } else {
+      estimated("tau", spec.noise.tau);
+      if (spec.noise.length_z_prior) line("length_z_prior", number(*spec.noise.length_z_prior));
+      if (spec.noise.length_t_prior) line("length_t_prior", number(*spec.noise.length_t_prior));
+      if (spec.noise.tau_prior) line("tau_prior", number(*spec.noise.tau_prior));
+    }
+  }
   text += "[prior]\n";
   for (const fit::Prior& prior : spec.priors) {
     text += word(prior.parameter) + " = { " +

@@ -17,6 +17,7 @@
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/misfit_rows.hpp"
+#include "shearfront/fit/noise_reml.hpp"
 #include "shearfront/fit/objective.hpp"
 
 namespace shearfront::python {
@@ -24,6 +25,20 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// The rows of a misfit; with correlated noise that is known, whitened.
+fit::ResidualRows whitened_rows(const fit::FitSpec& spec, const fit::Parameters& parameters) {
+  fit::ResidualRows rows = fit::rows_of(fit::quantity_of(spec), spec, parameters);
+  if (spec.noise.model == fit::NoiseModel::independent) return rows;
+  if (const std::string refusal = fit::noise_refusal(spec, rows); !refusal.empty())
+    throw InputError("noise.model", "", refusal);
+  const auto places = fit::noise_places(spec, rows);
+  const auto numbers = fit::given_noise(spec.noise, *places);
+  if (!numbers)
+    throw InputError("noise", "estimated", "must have numbers for the misfit alone: a fit finds them");
+  rows.noise = std::make_shared<fit::NoiseCovariance>(places, numbers->shape);
+  return rows;
+}
 
 /// The misfit of a fit's last stage as a function of its unknowns p: F(p) = sum rho(r_i(p)^2) / 2, for searches and
 /// samplers of others. All observations are in it: none is left out for being near a shock.
@@ -35,7 +50,7 @@ class CallableMisfit {
         coordinates_(parameters_),
         control_(std::numeric_limits<std::size_t>::max()),
         loss_(fit::find_loss(fit::loss_of(*spec_), spec_->misfit.loss_scale.value_or(0))),
-        rows_(fit::rows_of(fit::quantity_of(*spec_), *spec_, parameters_)),
+        rows_(whitened_rows(*spec_, parameters_)),
         forward_(parameters_, spec_->forward, rows_.field, rows_.points),
         objective_(parameters_, coordinates_, spec_->forward, rows_, loss_, control_) {}
   CallableMisfit(const CallableMisfit&) = delete;

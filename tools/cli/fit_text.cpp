@@ -30,6 +30,20 @@ std::string interval_text(const std::optional<fit::Interval>& i, int digits) {
   return fmt::format("{:.{}g} to {:.{}g}", i->low, digits, i->high, digits);
 }
 
+/// "exponential, length 0.31 (0.24 to 0.4) in z, 2 in t"
+std::string noise_text(const fit::NoiseEstimate& noise) {
+  std::string text = noise.model;
+  const auto add = [&](const char* before, double x, const std::optional<fit::Interval>& interval, const char* after) {
+    if (std::isnan(x)) return;
+    text += fmt::format(", {}{:.3g}{}{}", before, x, interval ? fmt::format(" ({})", interval_text(interval, 3)) : "", after);
+  };
+  add("tau ", noise.tau, noise.tau95, "");
+  add("length ", noise.length_z, noise.length_z95, " in z");
+  add("length ", noise.length_t, noise.length_t95, " in t");
+  if (noise.independent > 0) add("independent part ", noise.independent, noise.independent95, "");
+  return text;
+}
+
 std::string shown(const std::optional<double>& x, const char* format) {
   return x ? fmt::format(fmt::runtime(format), *x) : "none";
 }
@@ -57,6 +71,7 @@ std::string estimate_text(const fit::Estimate& estimate) {
                       estimate.sigma_is_given      ? "as given by the data"
                       : std::isnan(estimate.sigma) ? "not known"
                                                    : fmt::format("{:.3g} (estimated)", estimate.sigma));
+  if (estimate.noise) text += "correlated noise: " + noise_text(*estimate.noise) + "\n";
   if (estimate.aic && estimate.bic)
     text += fmt::format("AIC {:.6g}, BIC {:.6g}\n", *estimate.aic, *estimate.bic);
   text += fmt::format("{} observations", estimate.observations);

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "shearfront/fit/noise_reml.hpp"
 #include "shearfront/fit/quantile.hpp"
 #include "shearfront/fit/search/nlopt_algorithm.hpp"
 #include "shearfront/solution/observe.hpp"
@@ -47,6 +48,7 @@ class Replicates {
         estimate_(estimate),
         refit_(refit),
         progress_(progress),
+        noise_(noise_of_draws(spec.observations, estimate)),
         found_(spec.uncertainty.bootstrap) {}
 
   std::vector<std::optional<VectorXd>> operator()() {
@@ -65,7 +67,7 @@ class Replicates {
   void work() {
     FitSpec mine = one_;
     for (std::size_t b = next_++; b < found_.size() && !stop_; b = next_++) {
-      draw_observations(mine.observations, estimate_, stream_seed(spec_.uncertainty.seed, b));
+      draw_observations(mine.observations, estimate_, noise_.get(), stream_seed(spec_.uncertainty.seed, b));
       try {
         found_[b] = refit_(mine, [this](std::size_t, double) { return goes_on(); });
       } catch (const std::exception&) {
@@ -87,6 +89,7 @@ class Replicates {
   const Estimate& estimate_;
   const Refit& refit_;
   const Progress& progress_;
+  std::shared_ptr<const NoiseCovariance> noise_;
   std::vector<std::optional<VectorXd>> found_;  // one element per replicate, each written by one thread
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
@@ -124,12 +127,23 @@ FitSpec replicate_of(const FitSpec& spec, const Parameters& parameters, const Es
   return replicate;
 }
 
-void draw_observations(Observations& observations, const Estimate& estimate, std::uint64_t seed) {
+std::shared_ptr<const NoiseCovariance> noise_of_draws(const Observations& observations, const Estimate& estimate) {
+  if (!estimate.noise) return nullptr;
+  const bool has_tau = std::isfinite(estimate.noise->tau);
+  return std::make_shared<NoiseCovariance>(std::make_shared<NoisePlaces>(observations.rows, has_tau),
+                                           shape_of(*estimate.noise, estimate.sigma));
+}
+
+void draw_observations(Observations& observations, const Estimate& estimate, const NoiseCovariance* noise,
+                       std::uint64_t seed) {
   boost::random::mt19937_64 engine(seed);
   boost::random::normal_distribution<double> normal;
+  VectorXd drawn(static_cast<Index>(observations.rows.size()));
+  for (double& x : drawn) x = normal(engine);
+  if (noise) drawn = noise->coloured(drawn);
   for (std::size_t k = 0; k < observations.rows.size(); ++k) {
     Observation& o = observations.rows[k];
-    o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * normal(engine);
+    o.value = estimate.predicted[k] + (o.sigma > 0 ? o.sigma : estimate.sigma) * drawn[static_cast<Index>(k)];
   }
 }
 

@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/fit/noise_covariance.hpp"
 #include "shearfront/fit/parameters.hpp"
 
 namespace shearfront::fit {
@@ -29,7 +31,7 @@ struct Bootstrap {
 using Refit = std::function<std::optional<Eigen::VectorXd>(const FitSpec& spec, const Progress& progress)>;
 
 /// Parametric bootstrap: spec.uncertainty.bootstrap replicates of the data, each the prediction at the
-/// estimate plus independent Gaussian noise (sigma of the rows, otherwise estimate.sigma), fitted from the
+/// estimate plus Gaussian noise (sigma of the rows, otherwise estimate.sigma; correlated as the fit found), fitted from the
 /// estimate with the same settings and a local search. Noise is not clipped to [0, 1].
 ///
 /// An interval runs from the 2.5 % to the 97.5 % quantile of the estimates, (B + 1) p-th in order with linear
@@ -47,6 +49,11 @@ inline constexpr std::size_t kFewestReplicates = 40;
 [[nodiscard]] FitSpec replicate_of(const FitSpec& spec, const Parameters& parameters,
                                    const Estimate& estimate);
 /// Predictions of the estimate with fresh noise in place of the values. Preconditions: they are finite, sigma > 0.
-void draw_observations(Observations& observations, const Estimate& estimate, std::uint64_t seed);
+/// `noise`: noise_of_draws().
+void draw_observations(Observations& observations, const Estimate& estimate, const NoiseCovariance* noise,
+                       std::uint64_t seed);
+/// How the noise of an estimate is correlated; null where it is not.
+[[nodiscard]] std::shared_ptr<const NoiseCovariance> noise_of_draws(const Observations& observations,
+                                                                    const Estimate& estimate);
 
 }  // namespace shearfront::fit

@@ -90,6 +90,7 @@ Decomposition decompose(const Objective::Evaluation& at, const std::vector<bool>
 /// K B: how the noise of each observation, in units of sigma_k, moves the coordinates (column x observation).
 MatrixXd noise_to_coordinates(const ResidualRows& rows, const Observations& observations,
                               const MatrixXd& pseudo_inverse) {
+  if (rows.noise) return pseudo_inverse;  // whitened: as many independent numbers as residuals
   MatrixXd moved = MatrixXd::Zero(pseudo_inverse.rows(), static_cast<Index>(observations.rows.size()));
   VectorXd sum = VectorXd::Zero(pseudo_inverse.rows());  // of the rows that go on from row i, and itself
   for (Index i = rows.size(); i-- > 0;) {

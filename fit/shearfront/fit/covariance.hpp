@@ -28,7 +28,7 @@ struct Covariance {
 ///     cov(u) = v K B B^T K^T,   K = (J^T J)^-1 J^T,   B = W D S,   S = diag(sigma_k),
 ///
 /// v = noise^2 for squared residuals (for D the identity this is noise^2 (J^T J)^-1; rows that share
-/// observations are propagated as the correlated numbers they are). A robust loss takes
+/// observations are propagated as the correlated numbers they are; correlated noise is whitened in r and J already). A robust loss takes
 /// v = mean psi^2 / (mean psi')^2 from the residuals, times n / (n - |J K B|^2), and needs no noise (Huber 1981,
 /// section 7.6). Coordinates marked `held` are known: left out. The pseudo-inverse is by singular values of J with
 /// columns scaled to norm one; those below kRankTolerance of the largest (or below the error of a numeric J) are

@@ -61,6 +61,18 @@ struct ResidualStructure {
   bool is_structured = false;             ///< 1 % level
 };
 
+/// What was found about correlated noise: covariance sigma_i sigma_j (independent delta_ij + (1 - independent) k_ij), or
+/// sigma_i^2 delta_ij + tau^2 k_ij with a discrepancy, k_ij = exp(-|dz| / length_z - |dt| / length_t).
+struct NoiseEstimate {
+  std::string model;
+  double length_z = kUnknown, length_t = kUnknown;  ///< NaN where all observations have one height (time)
+  double independent = 0;                           ///< of exponential noise; NaN otherwise
+  double tau = kUnknown;                            ///< of a discrepancy, in the unit of the data
+  /// 95 % intervals of those that were estimated; empty beside a bound and where the data do not tell.
+  std::optional<Interval> length_z95, length_t95, independent95, tau95;
+  std::size_t estimated = 0;  ///< how many of them were
+};
+
 /// The result of a fit.
 struct Estimate {
   std::string name;
@@ -70,7 +82,8 @@ struct Estimate {
 
   double misfit = 0;         ///< sum rho(r^2) / 2 of the last stage, r in units of sigma
   double residual_norm = 0;  ///< sqrt(sum r^2), in the unit of the data
-  double sigma = 0;    ///< noise per observation: estimated from the residuals; 1 if the data have their own
+  double sigma = 0;    ///< noise per observation: estimated from the residuals; 1 if the data have their own; without the
+                       ///< discrepancy
   double freedom = 0;  ///< degrees of freedom of sigma, if estimated
   bool sigma_is_given = false;
   std::size_t observations = 0;  ///< used in the last stage
@@ -81,6 +94,7 @@ struct Estimate {
   Eigen::MatrixXd correlation;
   std::optional<double> aic, bic;  ///< of all observations, Gaussian; smaller is better
   std::optional<ResidualStructure> structure;
+  std::optional<NoiseEstimate> noise;  ///< empty: independent
 
   /// Of every observation in its own quantity, in the order of the data (NaN: no prediction).
   std::vector<double> predicted;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/estimate_json.hpp"
 
+#include <cmath>
+#include <string>
+
 namespace shearfront::fit {
 namespace {
 
@@ -29,6 +32,22 @@ Json to_json(const std::optional<ResidualStructure>& s) {
           {"lag1_time", s->lag1_time},
           {"runs_z_score", s->runs_z_score},
           {"is_structured", s->is_structured}};
+}
+
+/// A number that does not belong to the model is left out, with its interval.
+Json to_json(const std::optional<NoiseEstimate>& e) {
+  if (!e) return {};
+  Json all{{"model", e->model}};
+  const auto add = [&](const char* key, double x, const std::optional<Interval>& interval) {
+    if (std::isnan(x)) return;
+    all[key] = x;
+    if (interval) all[std::string(key) + "95"] = to_json(interval);
+  };
+  add("length_z", e->length_z, e->length_z95);
+  add("length_t", e->length_t, e->length_t95);
+  add("independent", e->independent, e->independent95);
+  add("tau", e->tau, e->tau95);
+  return all;
 }
 
 Json to_json(const Eigen::MatrixXd& matrix) {
@@ -78,6 +97,7 @@ Json to_json(const Estimate& estimate) {
           {"correlation", to_json(estimate.correlation)},
           {"covariance", to_json(covariance_of(estimate))},
           {"structure", to_json(estimate.structure)},
+          {"noise", to_json(estimate.noise)},
           {"warnings", estimate.warnings},
           {"status", name_of(estimate.status)},
           {"message", estimate.message}};

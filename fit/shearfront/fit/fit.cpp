@@ -80,6 +80,12 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
   }
 }
 
+Estimate report_of(const StagedSearch& search) {
+  Estimate estimate = report(search.spec(), search.parameters(), search.objective(), search.result(), search.noise());
+  if (!search.noise_warning().empty()) estimate.warnings.push_back(search.noise_warning());
+  return estimate;
+}
+
 /// Goes on with a finer model while its resolution shifts the estimates by more than noise makes worth while; says
 /// so, and what shift is left.
 void refine(StagedSearch& search, Estimate& estimate) {
@@ -100,7 +106,7 @@ void refine(StagedSearch& search, Estimate& estimate) {
     const bool may_refine = round < kMostRefinements && fine->now < fine->before && has_own_noise;
     if (shift > kMostShift && may_refine && !search.must_stop()) {
       search.go_on_with(fine->method);
-      estimate = report(search.spec(), search.parameters(), search.objective(), search.result());
+      estimate = report_of(search);
       continue;
     }
     if (shift > kMostShift && has_own_noise)
@@ -131,7 +137,7 @@ Estimate fit(const FitSpec& spec, const Progress& progress) {
   StagedSearch search(spec, progress);
   check_uncertainty(spec);
   search.find();
-  Estimate estimate = report(search.spec(), search.parameters(), search.objective(), search.result());
+  Estimate estimate = report_of(search);
   refine(search, estimate);
   estimate.iterations = search.iterations();
   estimate.left_out = search.left_out();

@@ -93,6 +93,7 @@ class FitReader {
     if (auto table = root.table("search", Need::optional, "must be a table with algorithm")) search(*table);
     if (auto table = root.table("uncertainty", Need::optional, "must be a table with profile and bootstrap"))
       uncertainty(*table);
+    if (auto table = root.table("noise", Need::optional, "must be a table with model")) noise(*table);
     if (root.table("prior", Need::optional, "must be a table of unknowns with distributions"))
       priors_ = read_priors(source_, report_);
     root.finish();
@@ -108,7 +109,7 @@ class FitReader {
     remarks_.insert(remarks_.begin(), scene_->spec().remarks.begin(), scene_->spec().remarks.end());
     return {FitSpec{name.value_or(std::filesystem::path(source_.name()).stem().string()), std::move(*scene_),
                     std::move(*data_), std::move(unknown_), std::move(forward_), std::move(misfit_),
-                    std::move(search_), uncertainty_, std::move(priors_)},
+                    std::move(search_), uncertainty_, std::move(priors_), noise_},
             scene_path.value_or(""), data_path.value_or(""), std::move(remarks_), std::move(choice_)};
   }
 
@@ -206,6 +207,48 @@ class FitReader {
     table.finish();
   }
 
+  void noise(TableReader& table) {
+    const auto model = table.place("model", Need::optional, kNoiseModelNames);
+    if (model) noise_.model = static_cast<NoiseModel>(*model);
+    const bool is_correlated = noise_.model != NoiseModel::independent,
+               has_tau = noise_.model == NoiseModel::discrepancy, is_good = model || !table.node("model");
+    const auto number = [&](const char* key, bool belongs, std::optional<double>& value, double most = HUGE_VAL) {
+      if (!is_good) return;
+      const bool is_share = most < HUGE_VAL;
+      number_or_estimated(table, key, value, is_share ? "must be >= 0 and < 1" : "must be > 0",
+                          [&](double x) { return (is_share ? x >= 0 : x > 0) && x < most; });
+      if (!belongs && table.node(key))
+        add({table.path(key), "", fmt::format("must be left out of {} noise", kNoiseModelNames[static_cast<std::size_t>(noise_.model)])});
+    };
+    number("length_z", is_correlated, noise_.length_z);
+    number("length_t", is_correlated, noise_.length_t);
+    number("independent", is_correlated && !has_tau, noise_.independent, 1);
+    number("tau", has_tau, noise_.tau);
+    number("length_z_prior", has_tau, noise_.length_z_prior);
+    number("length_t_prior", has_tau, noise_.length_t_prior);
+    number("tau_prior", has_tau, noise_.tau_prior);
+    if (is_good) table.finish();
+  }
+
+  /// A number, or "estimated": nothing.
+  template <class IsGood>
+  void number_or_estimated(TableReader& table, std::string_view key, std::optional<double>& value,
+                           std::string_view constraint, const IsGood& is_good) {
+    const toml::node* node = table.node(key);
+    if (!node) return;
+    const std::string what = fmt::format("{}, or \"estimated\"", constraint);
+    if (node->is_string()) {
+      value.reset();
+      if (table.text(key, Need::optional, what).value_or("") != "estimated") table.add(*node, table.path(key), what);
+      return;
+    }
+    double number = 0;
+    table.number(key, Need::optional, number);
+    if (!table.is_good(key)) return;
+    value = number;
+    if (!std::isfinite(number) || !is_good(number)) add({table.path(key), "", what});
+  }
+
   /// Reads another file. One that cannot be read at all is a complaint about the entry that names it; those
   /// inside it are its own.
   template <class Read>
@@ -270,6 +313,7 @@ class FitReader {
   SearchSpec search_;
   UncertaintySpec uncertainty_;
   std::vector<Prior> priors_;
+  NoiseSpec noise_;
   std::vector<std::string> remarks_;
   std::optional<ModelChoice> choice_;
   bool has_bad_numbers_ = false;  ///< in start, lower or upper

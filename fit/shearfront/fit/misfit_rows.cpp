@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/misfit_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/loss/all.hpp"
 #include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/objective.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::fit {
@@ -36,6 +40,25 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Param
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);
   return with_unit(std::move(rows), spec, parameters);
+}
+
+std::shared_ptr<const NoisePlaces> noise_places(const FitSpec& spec, const ResidualRows& rows) {
+  std::vector<Observation> measured;
+  for (std::size_t i = 0; i < rows.rows.size(); ++i)
+    measured.push_back(spec.observations.rows[rows.data(i).front().index]);
+  return std::make_shared<NoisePlaces>(measured, spec.noise.model == NoiseModel::discrepancy);
+}
+
+std::string noise_refusal(const FitSpec& spec, const ResidualRows& rows) {
+  if (!rows.are_single())
+    return fmt::format("needs data compared as what they are: misfit.quantity must be {}",
+                       quoted_text(name_of(spec.observations.quantity)));
+  if (quantity_of(spec) == PointMisfit::kName && !spec.scene.has_diffusion())
+    return "needs a misfit without steps: points near shocks have them; measure means over bins";
+  if (find_loss(loss_of(spec), 0).is_robust) return "needs misfit.loss = \"squared\": whitened residuals are no single errors";
+  if (spec.noise.tau && !spec.observations.has_sigma())
+    return "needs the sigma of the data beside noise.tau: without it only their ratio is known";
+  return noise_places(spec, rows)->refusal();
 }
 
 void set_size(ResidualRows& rows, double size) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <memory>
+#include <string>
 #include <string_view>
 
 #include "shearfront/fit/fit_spec.hpp"
@@ -16,6 +18,12 @@ namespace shearfront::fit {
 /// or refuses the observations.
 [[nodiscard]] ResidualRows rows_of(std::string_view quantity, const FitSpec& spec,
                                    const Parameters& parameters);
+
+/// Why [noise] does not go with what is compared; empty if it does.
+[[nodiscard]] std::string noise_refusal(const FitSpec& spec, const ResidualRows& rows);
+
+/// Places of the noise of these rows. Precondition: noise_refusal() is empty.
+[[nodiscard]] std::shared_ptr<const NoisePlaces> noise_places(const FitSpec& spec, const ResidualRows& rows);
 
 /// Residuals beside `size`, which has their unit.
 void set_size(ResidualRows& rows, double size);

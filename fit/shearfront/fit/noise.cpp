@@ -76,7 +76,7 @@ Noise noise_of(const Objective& objective, const Observations& observations, con
   std::vector<double> residuals;
   if (objective.rows().are_single()) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (depends[i]) residuals.push_back(at.residuals[static_cast<Index>(i)]);
+      if (depends[i] || objective.rows().noise) residuals.push_back(at.residuals[static_cast<Index>(i)]);
     return noise_from(residuals, n_free, is_robust);
   }
   std::vector<bool> is_used(predicted.size(), false);

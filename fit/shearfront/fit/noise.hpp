@@ -21,7 +21,7 @@ struct Noise {
 /// correlated residuals; there the observations' own differences (predicted - value) are taken, for points
 /// robustly, for they are gross where a shock is a little off. Only rows that depend on an unknown count,
 /// which leaves sigma unbiased: the others (beds at rest, all of one kind) may have been measured, or made,
-/// without noise. Cost: O(rows n).
+/// without noise. Whitened residuals all count. Cost: O(rows n).
 [[nodiscard]] Noise noise_of(const Objective& objective, const Observations& observations,
                              const Objective::Evaluation& at, const std::vector<double>& predicted,
                              std::size_t n_free);

@@ -45,7 +45,8 @@ Objective::Objective(const Parameters& parameters, const Coordinates& coordinate
     for (const Term& term : rows_.model(i)) terms += std::abs(term.coefficient);
     n = (row.continues ? n : 0) + rows_.data(i).size();
     terms *= 1 + static_cast<double>(n);
-    const double error = kUlps * std::numeric_limits<double>::epsilon() * row.weight * size * terms;
+    const double error = kUlps * std::numeric_limits<double>::epsilon() * row.weight * size * terms *
+                         (rows_.noise ? rows_.noise->gain() : 1);
     rounding_misfit_ += error * error / 2;
   }
 }

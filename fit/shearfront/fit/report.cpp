@@ -51,20 +51,23 @@ PredictedObservations predictions(const FitSpec& spec, const Parameters& paramet
 }
 
 /// Gaussian log likelihood up to a constant that depends on the data alone.
-void set_information_criteria(const FitSpec& spec, Estimate& estimate) {
+void set_information_criteria(const FitSpec& spec, const Minimum& minimum, Estimate& estimate) {
+  const NoiseCovariance* noise = minimum.objective.rows().noise.get();
   double chi2 = 0;
   for (std::size_t i = 0; i < estimate.predicted.size(); ++i) {
     const Observation& o = spec.observations.rows[i];
     const double r = (estimate.predicted[i] - o.value) / (o.sigma > 0 ? o.sigma : 1);
     chi2 += r * r;
   }
+  if (noise) chi2 = minimum.at.residuals.squaredNorm();
   const auto n = static_cast<double>(estimate.predicted.size());
-  auto p = static_cast<double>(estimate.parameters.size());
+  auto p = static_cast<double>(estimate.parameters.size() + (estimate.noise ? estimate.noise->estimated : 0));
   if (!estimate.sigma_is_given) {
     if (!(chi2 > 0) || !(estimate.freedom > 0)) return;
     chi2 = n * std::log(chi2 / n);
     p += 1;  // the noise is estimated as well
   }
+  if (noise) chi2 += noise->log_determinant();
   if (!std::isfinite(chi2)) return;
   estimate.aic = chi2 + 2 * p;
   estimate.bic = chi2 + p * std::log(n);
@@ -95,6 +98,17 @@ void set_error_bars(const Minimum& minimum, Estimate& estimate) {
       if (has_error(b))
         estimate.correlation(a, b) = a == b ? 1 : cov(a, b) / std::sqrt(cov(a, a) * cov(b, b));
   }
+}
+
+/// The predictions, or what they would be if the noise were what is left of it when it is whitened.
+std::vector<double> with_white_residuals(const FitSpec& spec, const ResidualRows& rows, const VectorXd& residuals,
+                                         std::vector<double> predicted) {
+  for (std::size_t i = 0; rows.noise && i < rows.rows.size(); ++i) {
+    const std::size_t k = rows.data(i).front().index;
+    const Observation& o = spec.observations.rows[k];
+    predicted[k] = o.value + (o.sigma > 0 ? o.sigma : 1) * residuals[static_cast<Index>(i)];
+  }
+  return predicted;
 }
 
 /// Distance from a bound, in standard errors, below which an estimate is at it: searches without derivatives
@@ -162,8 +176,9 @@ std::string text_of(const Parameters& parameters, const VectorXd& values) {
 }  // namespace
 
 Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
-                const SearchResult& found) {
+                const SearchResult& found, std::optional<NoiseEstimate> noise) {
   Estimate estimate;
+  estimate.noise = std::move(noise);
   estimate.name = spec.name;
   estimate.method = spec.forward.method.name();
   estimate.algorithm = spec.search.algorithm;
@@ -207,8 +222,9 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   estimate.predicted = std::move(predicted);
   estimate.observations = static_cast<std::size_t>(best.residuals.size());
   double squares = 0;
-  for (Index i = 0; i < best.residuals.size(); ++i)
-    squares += std::pow(best.residuals[i] / objective.rows().rows[static_cast<std::size_t>(i)].weight, 2);
+  const VectorXd residuals = objective.rows().coloured(best.residuals);
+  for (Index i = 0; i < residuals.size(); ++i)
+    squares += std::pow(residuals[i] / objective.rows().rows[static_cast<std::size_t>(i)].weight, 2);
   estimate.residual_norm = std::sqrt(squares);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     estimate.parameters[i].estimate = values[static_cast<Index>(i)];
@@ -224,13 +240,14 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     set_errors(minimum, held, estimate);
   mark_bounds(minimum, estimate);
   set_error_bars(minimum, estimate);
-  set_information_criteria(spec, estimate);
+  set_information_criteria(spec, minimum, estimate);
   if (!control.is_interrupted()) {
     auto checks = check_intervals(minimum, estimate);
     for (std::size_t i = 0; i < checks.size() && !control.is_interrupted(); ++i)
       estimate.parameters[i].check = std::move(checks[i]);
   }
-  estimate.structure = residual_structure(spec.observations, estimate.predicted);
+  estimate.structure =
+      residual_structure(spec.observations, with_white_residuals(spec, objective.rows(), best.residuals, estimate.predicted));
   estimate.warnings = warnings(minimum, estimate);
   if (!remark.empty()) estimate.warnings.push_back(std::string(spec.forward.method.name()) + ": " + remark);
   return estimate;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct Minimum {
   double quantile = 0;  ///< half width of a 95 % interval in standard errors
 };
 
-/// What a search found, with error bars, predictions and warnings.
+/// What a search found, with error bars, predictions and warnings. `noise`: by which the rows of the objective are whitened.
 [[nodiscard]] Estimate report(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
-                              const SearchResult& found);
+                              const SearchResult& found, std::optional<NoiseEstimate> noise = {});
 
 /// What a reader of the estimate must know, one sentence each: parameters at a bound, not seen by the data,
 /// or confounded with others (with the direction that cannot be determined); intervals that are not to be

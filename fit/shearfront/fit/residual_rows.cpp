@@ -18,7 +18,7 @@ Eigen::VectorXd ResidualRows::residuals(const Eigen::VectorXd& values) const {
       model += term.coefficient * values[static_cast<Index>(term.index)];
     r[i] = row.weight * (model - row.target);
   }
-  return r;
+  return noise ? noise->whitened(r) : r;
 }
 
 Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const {
@@ -31,7 +31,7 @@ Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const
       model += term.coefficient * derivatives.row(static_cast<Index>(term.index));
     j.row(i) = row.weight * model;
   }
-  return j;
+  return noise ? noise->whitened(j) : j;
 }
 
 bool ResidualRows::are_single() const {

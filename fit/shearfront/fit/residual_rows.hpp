@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "shearfront/fit/forward.hpp"
+#include "shearfront/fit/noise_covariance.hpp"
 #include "shearfront/solution/observation.hpp"
 
 namespace shearfront::fit {
@@ -25,7 +27,7 @@ struct Term {
 ///     r_i = weight_i ( sum_j c_ij X(point_j) - sum_k d_ik y_k ),     X = phi or M, y_k the observations.
 ///
 /// weight_i = 1 / sigma_i with sigma_i^2 = sum_k d_ik^2 sigma_k^2 from the noise of the observations, taken
-/// as independent; 1 in place of sigma_k where it is not known. Running sums are kept as what each row adds to
+/// as independent unless `noise` says otherwise; 1 in place of sigma_k where it is not known. Running sums are kept as what each row adds to
 /// the one before: memory and time are linear in the observations.
 struct ResidualRows {
   struct Row {
@@ -42,6 +44,8 @@ struct ResidualRows {
       data_terms;  ///< of all rows: one block each, for there may be a million rows
   /// Size of what the residuals are differences of: they are numbers beside it. 1 where they are in units of sigma.
   double unit = 1;
+  /// Of correlated noise in units of sigma_i: the residuals are whitened by it. Null: independent. Rows are then single.
+  std::shared_ptr<const NoiseCovariance> noise;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
   /// c_ij of row i, index into points.
@@ -52,10 +56,14 @@ struct ResidualRows {
   [[nodiscard]] std::span<const Term> data(std::size_t i) const {
     return terms(data_terms, i > 0 ? rows[i - 1].data_end : 0, rows[i].data_end);
   }
-  /// weight_i (model - target) for values at the points.
+  /// weight_i (model - target) for values at the points, whitened.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& values) const;
   /// The same combination of derivatives at the points (row = point).
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::MatrixXd& derivatives) const;
+  /// What was whitened, back in units of sigma_i.
+  [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& whitened) const {
+    return noise ? noise->coloured(whitened) : whitened;
+  }
   /// Whether every row is one observation, so that residuals are as independent as these.
   [[nodiscard]] bool are_single() const;
   /// Only the rows marked; the points stay. Precondition: no row continues another.

@@ -14,6 +14,7 @@
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/search/starts.hpp"
 #include "shearfront/fit/shock_rows.hpp"
+#include "shearfront/io/text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -43,6 +44,11 @@ constexpr int kMostScales = 3;
 /// The scale of a robust loss need not be better known than this.
 constexpr double kScaleTolerance = 0.05;
 
+/// Refits with the correlation of the noise estimated anew; a few do, for most are nearly linear.
+constexpr int kMostNoiseRounds = 20;
+/// It stands still when no length changes by more than this part.
+constexpr double kNoiseStands = 1e-3;
+
 /// The noise of the rows that depend on an unknown; the others (beds at rest, all of one kind) may fit
 /// exactly and say nothing.
 double median_noise(const Objective::Evaluation& at) {
@@ -67,11 +73,17 @@ StagedSearch::StagedSearch(const FitSpec& spec, const Progress& progress)
   const auto names = algorithm_names();
   if (std::find(names.begin(), names.end(), spec.search.algorithm) == names.end())
     throw unknown_algorithm(spec.search.algorithm);
+  if (spec.noise.model == NoiseModel::independent) return;
+  if (const std::string refusal = noise_refusal(spec, rows_); !refusal.empty())
+    throw InputError("noise.model", quoted_text(kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)]), refusal);
+  places_ = noise_places(spec, rows_);
+  if (auto given = given_noise(spec.noise, *places_)) whiten(std::move(*given));
 }
 
 void StagedSearch::go_on_with(const Method& method) {
   spec_.forward.method = method;
   settle(has_stages_ && has_jumps());
+  settle_noise();
 }
 
 void StagedSearch::find() {
@@ -95,6 +107,63 @@ void StagedSearch::find() {
     break;
   }
   leave_bounds(start);
+  settle_noise();
+}
+
+std::optional<NoiseEstimate> StagedSearch::noise() const {
+  if (!correlation_) return std::nullopt;
+  return correlation_->estimate;
+}
+
+void StagedSearch::whiten(NoiseNumbers numbers) {
+  rows_.noise = std::make_shared<NoiseCovariance>(places_, numbers.shape);
+  correlation_ = std::move(numbers);
+}
+
+NoiseData StagedSearch::noise_data() const {
+  const Objective::Evaluation at = objective_->inspect(u_, true);
+  NoiseData data;
+  if (!at.is_valid || !(at.residuals.norm() > at.rounding)) return data;
+  data.places = places_;
+  const Observations& observations = spec_.observations;
+  data.sigma_is_given = observations.has_sigma();
+  double low = observations.rows.front().value, high = low, sum = 0;
+  for (const Observation& o : observations.rows) {
+    low = std::min(low, o.value);
+    high = std::max(high, o.value);
+    sum += o.sigma;
+  }
+  if (data.sigma_is_given) data.mean_sigma = sum / static_cast<double>(observations.rows.size());
+  if (high > low) data.range = high - low;
+  std::vector<Eigen::Index> free;
+  const std::vector<bool> held = coordinates_.at_bound(u_);
+  for (Eigen::Index j = 0; j < u_.size(); ++j)
+    if (!held[static_cast<std::size_t>(j)]) free.push_back(j);
+  data.residuals = objective_->rows().coloured(at.residuals);
+  data.jacobian = objective_->rows().coloured(at.jacobian)(Eigen::all, free);
+  return data;
+}
+
+void StagedSearch::settle_noise() {
+  if (!places_ || given_noise(spec_.noise, *places_)) return;
+  noise_warning_.clear();
+  for (int round = 0; round < kMostNoiseRounds && result_.status == Status::ok && !control_.must_stop(); ++round) {
+    const NoiseData data = noise_data();
+    auto now = data.places ? estimated_noise(spec_.noise, data, correlation_ ? correlation_->place : VectorXd())
+                           : std::nullopt;
+    if (!now) {
+      noise_warning_ = data.places ? "too few observations to estimate how their noise is correlated: error bars take it as independent"
+                                   : "the residuals are rounding and say nothing about how noise is correlated: error bars take it as independent";
+      return;
+    }
+    const bool stands = correlation_ && (now->place - correlation_->place).cwiseAbs().maxCoeff() <= kNoiseStands;
+    whiten(std::move(*now));
+    objective_ = make_objective(rows_, loss_);
+    search_from_here(*objective_, 0);
+    if (stands) return;
+  }
+  if (result_.status == Status::ok)
+    noise_warning_ = "the correlation of the noise does not stand still: give noise.length_z or noise.length_t";
 }
 
 void StagedSearch::leave_bounds(const VectorXd& start) {

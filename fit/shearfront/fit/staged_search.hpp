@@ -11,6 +11,7 @@
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/fit/loss/loss.hpp"
+#include "shearfront/fit/noise_reml.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/residual_rows.hpp"
@@ -44,6 +45,10 @@ class StagedSearch {
   [[nodiscard]] std::size_t iterations() const { return iterations_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
   [[nodiscard]] bool must_stop() const { return control_.must_stop(); }
+  /// Of correlated noise; empty while it is independent.
+  [[nodiscard]] std::optional<NoiseEstimate> noise() const;
+  /// What is to be said of it; empty if nothing.
+  [[nodiscard]] const std::string& noise_warning() const { return noise_warning_; }
 
  private:
   void find_from(const Eigen::VectorXd& start);
@@ -81,6 +86,11 @@ class StagedSearch {
   /// as that, until it stays; the last search is fine.
   void settle(bool leaves_out_jumps);
 
+  /// Estimates the correlation of the noise from what the fit leaves and refits, until both stand still.
+  void settle_noise();
+  [[nodiscard]] NoiseData noise_data() const;
+  void whiten(NoiseNumbers numbers);
+
   /// Whether other rows than before have no jump near them.
   bool renew_rows(std::vector<bool>& keep);
 
@@ -103,6 +113,9 @@ class StagedSearch {
   std::size_t iterations_ = 0, left_out_ = 0;
   double noise_ = 0;  ///< of the residuals, for a robust loss
   int n_scales_ = 0;
+  std::shared_ptr<const NoisePlaces> places_;  ///< of correlated noise
+  std::optional<NoiseNumbers> correlation_;
+  std::string noise_warning_;
 };
 
 }  // namespace shearfront::fit

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "shearfront/fit/flat.hpp"
+#include "shearfront/fit/misfit_rows.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/report.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -293,11 +294,20 @@ class Writer {
                                   s.runs_z_score < 0 ? "fewer" : "more", s.runs_z_score));
     const bool is_smooth =
         finite(s.lag1_height) + finite(s.lag1_time) - std::min(finite(s.runs_z_score), 0.0) > 0;
+    const std::string size = is_smooth ? "too small" : "wrong";
+    if (estimate_.noise) {
+      texts_.push_back(fmt::format(
+          "{} noise does not describe these residuals: whitened, they still have {}; error bars may be {}",
+          estimate_.noise->model, listed(signs), size));
+      return;
+    }
+    const bool may_correlate = noise_refusal(spec_, minimum_.objective.rows()).empty();
     texts_.push_back(
-        fmt::format("{}: residuals (rms {}) have {}; error bars, which assume independent noise, are {}",
+        fmt::format("{}: residuals (rms {}) have {}; error bars, which assume independent noise, are {}{}",
                     is_smooth ? "the model does not describe these data, or their noise is not independent"
                               : "the noise of these data is not independent",
-                    short_text(rms()), listed(signs), is_smooth ? "too small" : "wrong"));
+                    short_text(rms()), listed(signs), size,
+                    may_correlate ? ": noise.model = \"exponential\" takes it as correlated" : ""));
   }
   static double finite(double x) { return std::isfinite(x) ? x : 0; }
   /// Of the residuals in the unit of the data.

@@ -121,6 +121,7 @@ void StudyRuns::prepare_replicates() {
       !std::all_of(estimate_->predicted.begin(), estimate_->predicted.end(), is_known))
     throw InputError("fit", "", "gives no replicates: the noise of its data is not known");
   replicate_ = replicate_of(fit_spec, Parameters(fit_spec.scene, fit_spec.unknown), *estimate_);
+  noise_ = noise_of_draws(fit_spec.observations, *estimate_);
   spec_.scene = estimate_->scene;
   points_.resize(spec_.runs);
 }
@@ -137,7 +138,7 @@ void fail_row(StudyRow& row, const std::string& why) {
 StudyRow StudyRuns::run_replicate(std::size_t i, const std::function<bool()>& goes_on) const {
   StudyRow row{i, {}, std::vector<double>(spec_.outputs.size(), kNothing), ""};
   FitSpec spec = *replicate_;
-  draw_observations(spec.observations, *estimate_, stream_seed(spec_.seed, i));
+  draw_observations(spec.observations, *estimate_, noise_.get(), stream_seed(spec_.seed, i));
   try {
     const Estimate found = fit(spec, [&](std::size_t, double) { return !goes_on || goes_on(); });
     if (!found.usable()) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ class StudyRuns {
   StudySpec spec_;
   std::optional<FitSpec> replicate_;  ///< of design replicates, and the fit whose predictions get noise
   std::optional<Estimate> estimate_;
+  std::shared_ptr<const NoiseCovariance> noise_;  ///< of the draws; null: independent
   std::vector<std::vector<double>> points_;
   std::vector<std::string> entries_;
   std::vector<std::size_t> places_;  ///< of the entries among entry_places()
