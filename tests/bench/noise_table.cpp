@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "shearfront/fit.hpp"
+#include "shearfront/fit/parameters.hpp"
 #include "support/identification.hpp"
 
 namespace {
@@ -39,12 +40,15 @@ struct Model {
 };
 
 std::vector<Model> models() {
-  fit::NoiseSpec exponential{fit::NoiseModel::exponential}, with_part = exponential;
+  fit::NoiseSpec independent, exponential, discrepancy;
+  exponential.model = fit::NoiseModel::exponential;
+  discrepancy.model = fit::NoiseModel::discrepancy;
+  fit::NoiseSpec with_part = exponential;
   with_part.independent.reset();
-  return {{"independent", {}},
+  return {{"independent", independent},
           {"exponential", exponential},
           {"exponential, independent = \"estimated\"", with_part},
-          {"discrepancy", {fit::NoiseModel::discrepancy}}};
+          {"discrepancy", discrepancy}};
 }
 
 /// What the fits of one model said of one unknown.

@@ -3,11 +3,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "shearfront/fit/bootstrap.hpp"
@@ -22,7 +24,17 @@ using namespace shearfront::support;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Engine = boost::random::mt19937_64;
+using Engine = std::mt19937_64;
+
+NoiseSpec noise_spec(NoiseModel model, std::optional<double> length_z = {}, std::optional<double> length_t = {},
+                   double independent = 0) {
+  NoiseSpec spec;
+  spec.model = model;
+  spec.length_z = length_z;
+  spec.length_t = length_t;
+  spec.independent = independent;
+  return spec;
+}
 
 std::vector<Observation> grid_of(const std::vector<double>& times, const std::vector<double>& heights) {
   std::vector<Observation> all;
@@ -120,7 +132,7 @@ TEST(FitNoise, LikelihoodRecoversTheLengthsOfAutoregression) {
   const auto places = grid_of(evenly(kTimes, kStep), evenly(kHeights, kStep));
   double sum_z = 0, sum_t = 0, squares = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto found = estimated_noise({NoiseModel::exponential},
+    const auto found = estimated_noise(noise_spec(NoiseModel::exponential),
                                        data_of(places, autoregressive(kTimes, kHeights, kCorrelation, kCorrelation, engine)));
     ASSERT_TRUE(found && found->estimate.length_z95 && found->estimate.length_t95);
     const auto score = [&](double length, const Interval& interval) {
@@ -144,7 +156,7 @@ TEST(FitNoise, LikelihoodFindsTheIndependentPart) {
   const auto places = grid_of(evenly(24, 1), evenly(24, 1));
   VectorXd field = std::sqrt(0.6) * autoregressive(24, 24, 0.8, 0.8, engine);
   for (double& x : field) x += std::sqrt(0.4) * normal(engine);
-  NoiseSpec spec{NoiseModel::exponential};
+  NoiseSpec spec = noise_spec(NoiseModel::exponential);
   spec.independent.reset();
   const auto found = estimated_noise(spec, data_of(places, field));
   ASSERT_TRUE(found && found->estimate.independent95);
@@ -157,11 +169,11 @@ TEST(FitNoise, LikelihoodFindsTheIndependentPart) {
 TEST(FitNoise, UnitsOfHeightsAndTimesAreThoseOfTheLengths) {
   Engine engine(4);
   const VectorXd field = autoregressive(12, 15, 0.9, 0.7, engine);
-  const auto found = estimated_noise({NoiseModel::exponential}, data_of(grid_of(evenly(12, 1), evenly(15, 1)), field));
+  const auto found = estimated_noise(noise_spec(NoiseModel::exponential), data_of(grid_of(evenly(12, 1), evenly(15, 1)), field));
   ASSERT_TRUE(found);
   for (const int power : {-12, -3, 7}) {
     const double z = std::pow(10, power), t = std::pow(10, -power);
-    const auto there = estimated_noise({NoiseModel::exponential},
+    const auto there = estimated_noise(noise_spec(NoiseModel::exponential),
                                        data_of(grid_of(evenly(12, t), evenly(15, z)), 1e5 * field));
     ASSERT_TRUE(there);
     EXPECT_NEAR(there->estimate.length_z / z, found->estimate.length_z, 2e-3 * found->estimate.length_z);
@@ -178,7 +190,7 @@ FitSpec fan_of_bins(std::uint64_t seed, bool with_sigma) {
 
 TEST(FitNoise, KnownLengthsGiveGeneralisedLeastSquares) {
   FitSpec spec = fan_of_bins(5, true);
-  spec.noise = {NoiseModel::exponential, 0.2, 0.3, 0.25};
+  spec.noise = noise_spec(NoiseModel::exponential, 0.2, 0.3, 0.25);
   const Estimate estimate = fit(spec);
   ASSERT_TRUE(estimate.usable() && estimate.noise);
   EXPECT_EQ(estimate.noise->estimated, 0U);
@@ -212,7 +224,8 @@ TEST(FitNoise, KnownDiscrepancyIsGeneralisedLeastSquares) {
   FitSpec spec = fan_of_bins(6, true);
   for (std::size_t k = 0; k < spec.observations.rows.size(); ++k)
     spec.observations.rows[k].sigma = k % 2 == 0 ? 0.01 : 0.02;
-  spec.noise = {NoiseModel::discrepancy, 0.2, 0.3, 0.0, 0.03};
+  spec.noise = noise_spec(NoiseModel::discrepancy, 0.2, 0.3);
+  spec.noise.tau = 0.03;
   const Estimate estimate = fit(spec);
   ASSERT_TRUE(estimate.usable() && estimate.noise);
   const auto& rows = spec.observations.rows;
@@ -246,7 +259,7 @@ TEST(FitNoise, OneTimeHasNoLengthInTimeAndOneHeightNoneInZ) {
 
 TEST(FitNoise, MissingValuesKeepTheirPlaces) {
   FitSpec spec = fan_of_bins(8, false);
-  spec.noise = {NoiseModel::exponential, 0.2, 0.3};
+  spec.noise = noise_spec(NoiseModel::exponential, 0.2, 0.3);
   auto& rows = spec.observations.rows;
   rows.erase(rows.begin() + 5);
   rows.erase(rows.begin() + 11, rows.begin() + 13);
@@ -254,7 +267,8 @@ TEST(FitNoise, MissingValuesKeepTheirPlaces) {
   ASSERT_TRUE(known.usable());
   // Values so uncertain that they say nothing are as good as missing.
   FitSpec whole = fan_of_bins(8, true);
-  whole.noise = {NoiseModel::discrepancy, 0.2, 0.3, 0.0, 0.01};
+  whole.noise = noise_spec(NoiseModel::discrepancy, 0.2, 0.3);
+  whole.noise.tau = 0.01;
   std::size_t k = 0;
   for (Observation& o : whole.observations.rows) {
     const bool is_kept = k < rows.size() && rows[k].t == o.t && rows[k].z == o.z;
@@ -269,21 +283,25 @@ TEST(FitNoise, MissingValuesKeepTheirPlaces) {
 }
 
 TEST(FitNoise, TooFewObservationsStayIndependent) {
-  FitSpec spec = fan_of_bins(9, false);
-  spec.observations.rows.resize(2);
-  spec.noise.model = NoiseModel::exponential;
-  const Estimate estimate = fit(spec);
-  ASSERT_TRUE(estimate.usable());
-  EXPECT_FALSE(estimate.noise);
-  EXPECT_TRUE(std::any_of(estimate.warnings.begin(), estimate.warnings.end(), [](const std::string& text) {
-    return text.find("too few observations to estimate how their noise is correlated") == 0;
-  }));
+  // Two unknowns through two values leave rounding; a third value of the same time leaves one number for one length.
+  for (const std::size_t n : {std::size_t{2}, std::size_t{3}}) {
+    FitSpec spec = fan_of_bins(9, false);
+    spec.observations.rows.resize(n);
+    spec.noise.model = NoiseModel::exponential;
+    const Estimate estimate = fit(spec);
+    ASSERT_TRUE(estimate.usable());
+    EXPECT_FALSE(estimate.noise);
+    const std::string expected = n == 2 ? "the residuals are rounding" : "too few observations to estimate";
+    EXPECT_TRUE(std::any_of(estimate.warnings.begin(), estimate.warnings.end(),
+                            [&](const std::string& text) { return text.starts_with(expected); }))
+        << n;
+  }
 }
 
 // The covariance of 4000 draws: entries are good to sqrt((1 + rho^2) / 4000) of the variance.
 TEST(FitNoise, ReplicatesDrawTheCorrelationFound) {
   FitSpec spec = fan_of_bins(10, false);
-  spec.noise = {NoiseModel::exponential, 0.2, 0.3, 0.25};
+  spec.noise = noise_spec(NoiseModel::exponential, 0.2, 0.3, 0.25);
   const Estimate estimate = fit(spec);
   ASSERT_TRUE(estimate.usable() && estimate.noise);
   const auto noise = noise_of_draws(spec.observations, estimate);
@@ -326,7 +344,8 @@ TEST(FitNoise, WhatCannotBeWhitenedIsRefused) {
   points.noise.model = NoiseModel::exponential;
   EXPECT_NE(refusal_of(points).find("needs a misfit without steps"), std::string::npos);
   FitSpec tau = fan_of_bins(11, false);
-  tau.noise = {NoiseModel::discrepancy, 0.2, 0.3, 0.0, 0.03};
+  tau.noise = noise_spec(NoiseModel::discrepancy, 0.2, 0.3);
+  tau.noise.tau = 0.03;
   EXPECT_NE(refusal_of(tau).find("needs the sigma of the data beside noise.tau"), std::string::npos);
 }
 

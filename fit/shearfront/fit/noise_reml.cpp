@@ -69,9 +69,12 @@ class RestrictedLikelihood {
   RestrictedLikelihood(const NoiseSpec& spec, const NoiseData& data)
       : spec_(spec), data_(data), sought_(sought_in(spec, *data.places)) {
     // Any basis of what the unknowns move: another adds a constant.
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(data.jacobian.colwise().normalized());
-    qr.setThreshold(kNoiseRank);
-    moved_ = qr.householderQ() * MatrixXd::Identity(data.jacobian.rows(), qr.rank());
+    moved_.resize(data.residuals.size(), 0);
+    if (data.jacobian.cols() > 0) {
+      Eigen::ColPivHouseholderQR<MatrixXd> qr(data.jacobian.colwise().normalized());
+      qr.setThreshold(kNoiseRank);
+      moved_ = qr.householderQ() * MatrixXd::Identity(data.jacobian.rows(), qr.rank());
+    }
     freedom_ = static_cast<double>(data.residuals.size() - moved_.cols());
   }
 
@@ -103,13 +106,15 @@ class RestrictedLikelihood {
   [[nodiscard]] Value operator()(const VectorXd& place) const {
     const NoiseShape s = shape(place);
     const NoiseCovariance covariance(data_.places, s);
-    const VectorXd residuals = covariance.whitened(data_.residuals);
-    const Eigen::HouseholderQR<MatrixXd> qr(covariance.whitened(moved_));
-    const VectorXd turned = qr.householderQ().transpose() * residuals;
+    VectorXd residuals = covariance.whitened(data_.residuals);
     const Index p = moved_.cols();
-    const double squares = turned.tail(turned.size() - p).squaredNorm();
     double sum = covariance.log_determinant();
-    for (Index i = 0; i < p; ++i) sum += 2 * std::log(std::abs(qr.matrixQR()(i, i)));
+    if (p > 0) {
+      const Eigen::HouseholderQR<MatrixXd> qr(covariance.whitened(moved_));
+      residuals.applyOnTheLeft(qr.householderQ().adjoint());
+      for (Index i = 0; i < p; ++i) sum += 2 * std::log(std::abs(qr.matrixQR()(i, i)));
+    }
+    const double squares = residuals.tail(residuals.size() - p).squaredNorm();
     sum += data_.sigma_is_given ? squares : freedom_ * std::log(squares / freedom_);
     const double sigma = data_.sigma_is_given ? 1 : std::sqrt(squares / freedom_);
     if (spec_.model == NoiseModel::discrepancy) sum += minus_2_log_prior(s, sigma);
@@ -300,7 +305,8 @@ NoiseSpec known_noise(const FitSpec& spec, const Estimate& estimate) {
   } else if (estimate.sigma_is_given) {
     known.tau = found.tau;
   } else {
-    known = {NoiseModel::exponential, known.length_z, known.length_t, 1 / (1 + std::pow(found.tau / estimate.sigma, 2))};
+    known.model = NoiseModel::exponential;
+    known.independent = 1 / (1 + std::pow(found.tau / estimate.sigma, 2));
   }
   return known;
 }

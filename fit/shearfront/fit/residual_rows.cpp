@@ -18,7 +18,8 @@ Eigen::VectorXd ResidualRows::residuals(const Eigen::VectorXd& values) const {
       model += term.coefficient * values[static_cast<Index>(term.index)];
     r[i] = row.weight * (model - row.target);
   }
-  return noise ? noise->whitened(r) : r;
+  if (noise) r = noise->whitened(r);
+  return r;
 }
 
 Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const {
