@@ -20,8 +20,8 @@ struct CurvedMeeting {
 /// fluxes is not convex, and two fronts can touch and separate again: there the least difference is found first.
 class CurvedMeetings {
  public:
-  CurvedMeetings(const LevelCurves& grid, const CurvedNode& f, const CurvedNode& g)
-      : grid_(grid), f_(f), g_(g) {}
+  /// Both keep when they are at their ends, once that was asked for.
+  CurvedMeetings(const LevelCurves& grid, CurvedNode& f, CurvedNode& g) : grid_(grid), f_(f), g_(g) {}
 
   [[nodiscard]] std::optional<CurvedMeeting> find() const {
     if (f_.direction <= 0 && g_.direction >= 0) return std::nullopt;
@@ -41,10 +41,10 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
-  /// The same without the slope; when a front turns is known.
-  [[nodiscard]] double lag(const CurvedNode& later, const CurvedNode& sooner, double z) const {
-    const auto time = [&](const CurvedNode& f) {
-      return f.turns && z == f.end ? f.end_t : passage(grid_, f, z).t;
+  /// The same without the slope; when a front is at its end is known.
+  [[nodiscard]] double lag(CurvedNode& later, CurvedNode& sooner, double z) const {
+    const auto time = [&](CurvedNode& f) {
+      return z == f.end ? f.end_t = time_at_end(grid_, f) : passage(grid_, f, z).t;
     };
     return time(later) - time(sooner);
   }
@@ -59,6 +59,13 @@ class CurvedMeetings {
   [[nodiscard]] CurvedMeeting meeting(const Pair& near, double z) const {
     const Passage& of = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? near.f : near.g;
     return {z == near.z ? of.t : of.t + of.slope * (z - near.z), z};
+  }
+  /// The same by the cubic through the times at both heights.
+  [[nodiscard]] CurvedMeeting meeting(const Pair& far, const Pair& near, double z) const {
+    const bool is_f = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z);
+    const Passage &a = is_f ? far.f : far.g, &b = is_f ? near.f : near.g;
+    const double h = far.z - near.z, x = (z - near.z) / h, y = 1 - x;
+    return {b.t + x * x * (3 - 2 * x) * (a.t - b.t) + h * x * y * (b.slope * y - a.slope * x), z};
   }
   [[nodiscard]] CurvedMeeting at(double z) const { return meeting(pair_at(z), z); }
   /// Of the time, in units of rounding: of heights, which are found to a part of their piece, and of areas.
@@ -81,26 +88,35 @@ class CurvedMeetings {
     const double h = b.d.t - a.d.t, x = -a.d.t / h, y = 1 - x;
     return b.z + (a.z - b.z) * ((1 + 2 * x) * y * y) + h * x * y * (y / a.d.slope - x / b.d.slope);
   }
-  /// The first place from `from`, where the difference times `sign` of the times of f and g is positive, on the way to `to` at
+  /// The difference of the times of f and g, times `sign`.
+  [[nodiscard]] static Point point(const Pair& at, int sign) {
+    return {at.z, {sign * (at.f.t - at.g.t), sign * (at.f.slope - at.g.slope)}};
+  }
+  /// The first place from `start`, where the difference times `sign` of the times of f and g is positive, on the way to `to` at
   /// which it is 0; none if it is positive there. Precondition: it changes its sign once at most. Newton's method, then cubic
-  /// interpolation, in a bracket; `to` is looked at only if they lead there.
-  [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, double from, const Passage& at_from,
-                                                        double to) const {
+  /// interpolation, in a bracket; `to` is looked at only if they lead there, at once where nothing is known of `start`.
+  [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, const Pair& start, double to,
+                                                        bool is_start_known = true) const {
     constexpr int kMostEvaluations = 200, kPatience = 8;
     constexpr double kLastStep = 1e-9;  // the next one would be its square at least
     constexpr double kRounding = 2e-16;
-    const double length = std::abs(to - from);
+    const double from = start.z, length = std::abs(to - from);
     double positive = from, beyond = to;
     bool has_bracket = false;
     const auto is_inside = [&](double z) {
       return positive < beyond ? z > positive && z < beyond : z < positive && z > beyond;
     };
-    Point last{from, at_from};
-    double z = from - at_from.t / at_from.slope;
-    if (!is_inside(z)) z = to;
+    Pair previous = start;
+    Point last = is_start_known ? point(start, sign) : Point{from, {1, 0}};
+    double z = from - last.d.t / last.d.slope;
+    enum class By { newton, cubic, other } by = By::newton;  // how z was found
+    if (!is_inside(z)) {
+      z = to;
+      by = By::other;
+    }
     for (int n = 0;; ++n) {
       const Pair both = pair_at(z);
-      const Point now{z, {sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)}};
+      const Point now = point(both, sign);
       if (z == to && !has_bracket && now.d.t > 0) return std::nullopt;
       if (n == kMostEvaluations) return meeting(both, z);
       has_bracket = has_bracket || now.d.t < 0;
@@ -108,7 +124,8 @@ class CurvedMeetings {
       if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
       const double newton = z - now.d.t / now.d.slope;
       double next = interpolated(last, now);
-      if (!is_inside(next)) next = newton;
+      const bool is_cubic = is_inside(next);
+      if (!is_cubic) next = newton;
       bool is_guess = is_inside(next);
       if (is_guess && has_bracket && n > kPatience && n % 3 == 0) is_guess = false;
       if (!is_guess) next = has_bracket ? positive + (beyond - positive) / 2 : to;
@@ -116,8 +133,18 @@ class CurvedMeetings {
       if (has_bracket && (next == positive || next == beyond)) return meeting(both, next);
       if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
       // Where one front stands for a while the cubic may stay at a place that is no root.
-      if (is_guess && std::max(step, std::abs(newton - z)) < kLastStep * std::abs(beyond - positive))
-        return meeting(both, next);
+      const double larger = std::max(step, std::abs(newton - z));
+      if (is_guess && larger < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
+      // d apart, Newton's step has left k d^2: then the cubic is off by about k^3 of the product of both squares, and K of them if it
+      // was a cubic that has left K d^4 at most.
+      const double apart = std::abs(z - last.z), share = larger / apart, cube = share * share * share;
+      constexpr double kSmallShare = 0.01, kPartOfRounding = 0.01;
+      if (is_guess && is_cubic && by != By::other && share < kSmallShare &&
+          cube * (by == By::newton ? share * larger : apart) <=
+              kPartOfRounding * kRounding * (length + std::abs(z)))
+        return meeting(previous, both, next);
+      by = is_guess && is_cubic ? By::cubic : By::other;
+      previous = both;
       last = now;
       z = next;
     }
@@ -136,6 +163,14 @@ class CurvedMeetings {
       if (f_.z < g_.z) return std::nullopt;  // they turn before
       return CurvedMeeting{std::max(f_.t, g_.t), f_.z};
     }
+    if (hi == g_.z && g_.t > f_.t && !(g_.turns && lo == g_.end)) {
+      // The younger one has not come far.
+      const Pair both = pair_at(hi);
+      if (!(both.f.t > both.g.t)) return meeting(both, hi);
+      if (const auto met = first_zero(1, both, lo)) return met;
+      if (lo == f_.z) return at(lo);
+      return std::nullopt;
+    }
     const Pair both = pair_at(lo);
     const Passage at_lo{both.g.t - both.f.t, both.g.slope - both.f.slope};
     if (g_.turns && lo == g_.end && lo > f_.z && at_lo.t <= tie(both)) return std::nullopt;
@@ -148,14 +183,13 @@ class CurvedMeetings {
       return std::nullopt;
     }
     if (at_lo.t == 0) return at(lo);
-    if (const auto met = first_zero(-1, lo, at_lo, hi)) return met;
+    if (const auto met = first_zero(-1, both, hi)) return met;
     if (hi == g_.z) return at(hi);
     return std::nullopt;
   }
 
   /// `rear` follows `lead` in the direction s.
-  [[nodiscard]] std::optional<CurvedMeeting> overtaking(const CurvedNode& rear, const CurvedNode& lead,
-                                                        int s) const {
+  [[nodiscard]] std::optional<CurvedMeeting> overtaking(CurvedNode& rear, CurvedNode& lead, int s) const {
     if (f_.below == g_.above) return std::nullopt;  // they run in parallel
     const auto ahead = [s](double x, double y) { return s > 0 ? x > y : x < y; };
     const double lo = ahead(rear.z, lead.z) ? rear.z : lead.z;
@@ -172,19 +206,18 @@ class CurvedMeetings {
       if (!ahead(hi, dead)) return std::nullopt;
       if (lag(rear, lead, hi) >= 0) return std::nullopt;
       const double from = ahead(dead, lo) ? (ahead(dead, hi) ? hi : dead) : lo;
-      const Passage at_from = difference(rear, lead, from);
-      if (!(at_from.t > 0)) return at(from);
-      return first_zero(s, from, at_from, hi);
+      const Pair both = pair_at(from);
+      if (!(point(both, s).d.t > 0)) return meeting(both, from);
+      return first_zero(s, both, hi);
     }
     const Pair both = pair_at(lo);
-    const int sign = &rear == &f_ ? 1 : -1;
-    const Passage at_lo{sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)};
+    const Passage at_lo = point(both, s).d;
     // A front that has just turned is faster than any other: where another is then they touch and separate.
     const bool touches = s * at_lo.slope > 0 && std::abs(at_lo.t) <= tie(both);
-    if (at_lo.t <= 0 && !touches) return at(lo);
-    const bool may_part = gets_smaller && ahead(hi, dead);
-    if (!touches && !may_part) return first_zero(s, lo, at_lo, hi);
-    if (lag(rear, lead, hi) <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
+    if (at_lo.t <= 0 && !touches) return meeting(both, lo);
+    const bool may_part = gets_smaller && ahead(hi, dead), is_end_of_both = hi == rear.end && hi == lead.end;
+    if (!touches && !may_part && !is_end_of_both) return first_zero(s, both, hi);
+    if (lag(rear, lead, hi) <= 0) return first_zero(s, both, hi, !touches);
     if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
   }
@@ -193,7 +226,7 @@ class CurvedMeetings {
                                                       double lo, double from, double hi, int s) const {
     const auto growth = [&](double z) { return s * (slope_of(grid_, rear, z) - slope_of(grid_, lead, z)); };
     // Where one of them touches the other at lo, the place to begin with is not that.
-    const auto zero_before = [&](double z) { return first_zero(s, lo, Passage{1, 0}, z); };
+    const auto zero_before = [&](double z) { return first_zero(s, {lo, {}, {}}, z, false); };
     if (difference(rear, lead, from).t <= 0) return zero_before(from);
     if (!(growth(from) < 0) || !(growth(hi) > 0)) return std::nullopt;
     double falling = from, rising = hi;
@@ -209,7 +242,7 @@ class CurvedMeetings {
   }
 
   const LevelCurves& grid_;
-  const CurvedNode &f_, &g_;
+  CurvedNode &f_, &g_;
 };
 
 }  // namespace shearfront

@@ -344,11 +344,13 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
   };
   if (grid_->level(ahead) == level) {
     set_turned(f);
-    if (rises)
-      set_below(over, label);
-    else
-      set_above(under, label);
-    schedule_all(!rises && fronts_[under].prev != kNoFront ? fronts_[under].prev : under, rises ? over : f);
+    if (rises) {
+      const bool is_as_before = set_below(over, label);
+      schedule_all(under, is_as_before ? f : over);
+    } else {
+      const bool is_as_before = set_above(under, label);
+      schedule_all(is_as_before || fronts_[under].prev == kNoFront ? under : fronts_[under].prev, f);
+    }
     return;
   }
   if (rises) {
@@ -365,29 +367,46 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
 }
 
 /// Before the label of a level changes of a front that has passed its turning height, its path begins anew there: on the live
-/// side it was that of the old label.
+/// side it was that of the old label. Whether it does.
 template <class Observer>
-void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
+bool CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
   const std::size_t piece = f.layer;
-  if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return;
+  if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return false;
   const double z = grid_->turning_height(piece, level);
-  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
+  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return false;
   const double turned = f.turned, t = passage(*grid_, f, z).t;
   f.is_edge = false;
   if constexpr (Observer::kActive) observer_.ended(f, t, z);
   set_course(*grid_, f, z, t);
   f.turned = turned;
+  return true;
 }
 
+/// Whether what node i and the one above it will do is as before.
 template <class Observer>
-void CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
-  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
-  fronts_[i].below = state;
+bool CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
+  if (is_boundary(i)) {
+    fronts_[i].below = state;
+    return true;
+  }
+  Node& n = fronts_[i];
+  const bool is_anew = anchor_beyond(n, grid_->level(state));
+  const State old = n.below, over = fronts_[n.next].above;
+  n.below = state;
+  return !is_anew && (old < n.above) == (state < n.above) && (old == over) == (state == over);
 }
+/// Whether what node i and the one below it will do is as before.
 template <class Observer>
-void CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
-  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
-  fronts_[i].above = state;
+bool CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
+  if (is_boundary(i)) {
+    fronts_[i].above = state;
+    return true;
+  }
+  Node& n = fronts_[i];
+  const bool is_anew = anchor_beyond(n, grid_->level(state));
+  const State old = n.above, under = fronts_[n.prev].below;
+  n.above = state;
+  return !is_anew && (n.below < old) == (n.below < state) && (under == old) == (under == state);
 }
 
 template class CurvedSystem<NoObserver>;
