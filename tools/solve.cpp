@@ -213,6 +213,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
       last_time(request.times));
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
+  if (!arguments.json) note_approximation(task.method, result.summary);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)

@@ -60,12 +60,19 @@ class CurvedMeetings {
     const Passage& of = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? near.f : near.g;
     return {z == near.z ? of.t : of.t + of.slope * (z - near.z), z};
   }
-  /// The same by the cubic through the times at both heights.
-  [[nodiscard]] CurvedMeeting meeting(const Pair& far, const Pair& near, double z) const {
-    const bool is_f = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z);
-    const Passage &a = is_f ? far.f : far.g, &b = is_f ? near.f : near.g;
-    const double h = far.z - near.z, x = (z - near.z) / h, y = 1 - x;
-    return {b.t + x * x * (3 - 2 * x) * (a.t - b.t) + h * x * y * (b.slope * y - a.slope * x), z};
+  /// The cubic through the times and slopes at two heights.
+  [[nodiscard]] static double time_between(double z_a, const Passage& a, double z_b, const Passage& b,
+                                           double z) {
+    const double h = z_a - z_b, x = (z - z_b) / h, y = 1 - x;
+    return b.t + x * x * (3 - 2 * x) * (a.t - b.t) + h * x * y * (b.slope * y - a.slope * x);
+  }
+  /// The same by cubics through the times at both heights, if they too meet there.
+  [[nodiscard]] std::optional<CurvedMeeting> meeting(const Pair& far, const Pair& near, double z,
+                                                     double tolerance) const {
+    const double f = time_between(far.z, far.f, near.z, near.f, z),
+                 g = time_between(far.z, far.g, near.z, near.g, z);
+    if (!(std::abs(f - g) <= tolerance)) return std::nullopt;
+    return CurvedMeeting{uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? f : g, z};
   }
   [[nodiscard]] CurvedMeeting at(double z) const { return meeting(pair_at(z), z); }
   /// Of the time, in units of rounding: of heights, which are found to a part of their piece, and of areas.
@@ -100,7 +107,8 @@ class CurvedMeetings {
     constexpr int kMostEvaluations = 200, kPatience = 8;
     constexpr double kLastStep = 1e-9;  // the next one would be its square at least
     constexpr double kRounding = 2e-16;
-    const double from = start.z, length = std::abs(to - from);
+    const RatePiece& piece = grid_.piece(f_.layer);
+    const double from = start.z, length = std::abs(to - from), height = piece.z_high - piece.z_low;
     double positive = from, beyond = to;
     bool has_bracket = false;
     const auto is_inside = [&](double z) {
@@ -136,13 +144,15 @@ class CurvedMeetings {
       const double larger = std::max(step, std::abs(newton - z));
       if (is_guess && larger < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
       // d apart, Newton's step has left k d^2: then the cubic is off by about k^3 of the product of both squares, and K of them if it
-      // was a cubic that has left K d^4 at most.
+      // was a cubic that has left K d^4 at most. Where that is not so the cubics of both times do not meet there.
       const double apart = std::abs(z - last.z), share = larger / apart, cube = share * share * share;
-      constexpr double kSmallShare = 0.01, kPartOfRounding = 0.01;
-      if (is_guess && is_cubic && by != By::other && share < kSmallShare &&
+      constexpr double kSmallShare = 0.01, kPartOfRounding = 0.01, kNear = 1.0 / 256;
+      if (is_guess && is_cubic && by != By::other && apart < kNear * height && share < kSmallShare &&
           cube * (by == By::newton ? share * larger : apart) <=
               kPartOfRounding * kRounding * (length + std::abs(z)))
-        return meeting(previous, both, next);
+        if (const auto met = meeting(previous, both, next,
+                                     kRounding * (std::abs(now.d.slope) * (length + std::abs(z)) + both.f.t)))
+          return met;
       by = is_guess && is_cubic ? By::cubic : By::other;
       previous = both;
       last = now;

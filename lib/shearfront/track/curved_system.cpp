@@ -367,46 +367,48 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
 }
 
 /// Before the label of a level changes of a front that has passed its turning height, its path begins anew there: on the live
-/// side it was that of the old label. Whether it does.
+/// side it was that of the old label. One that comes back to the live side goes on there as the new label says. Whether neither is
+/// so: then its path is what it was.
 template <class Observer>
-bool CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
+bool CurvedSystem<Observer>::keeps_path(Node& f, std::size_t level) {
   const std::size_t piece = f.layer;
-  if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return false;
+  if (level == 0 || f.direction == 0) return true;
+  if (f.direction * grid_->piece(piece).bend > 0) {
+    f.end_t = Node::kUnknown;
+    return false;
+  }
+  if (!(grid_->q(piece, level, f.z, f.rate) > 0)) return true;
   const double z = grid_->turning_height(piece, level);
-  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return false;
+  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return true;
   const double turned = f.turned, t = passage(*grid_, f, z).t;
   f.is_edge = false;
   if constexpr (Observer::kActive) observer_.ended(f, t, z);
   set_course(*grid_, f, z, t);
   f.turned = turned;
-  return true;
+  return false;
 }
 
 /// Whether what node i and the one above it will do is as before.
 template <class Observer>
 bool CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
-  if (is_boundary(i)) {
-    fronts_[i].below = state;
-    return true;
-  }
   Node& n = fronts_[i];
-  const bool is_anew = anchor_beyond(n, grid_->level(state));
-  const State old = n.below, over = fronts_[n.next].above;
+  const bool has_path = is_boundary(i) || keeps_path(n, grid_->level(state));
+  const State old = n.below;
   n.below = state;
-  return !is_anew && (old < n.above) == (state < n.above) && (old == over) == (state == over);
+  if (is_boundary(i)) return true;
+  const State over = fronts_[n.next].above;
+  return has_path && (old < n.above) == (state < n.above) && (old == over) == (state == over);
 }
 /// Whether what node i and the one below it will do is as before.
 template <class Observer>
 bool CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
-  if (is_boundary(i)) {
-    fronts_[i].above = state;
-    return true;
-  }
   Node& n = fronts_[i];
-  const bool is_anew = anchor_beyond(n, grid_->level(state));
-  const State old = n.above, under = fronts_[n.prev].below;
+  const bool has_path = is_boundary(i) || keeps_path(n, grid_->level(state));
+  const State old = n.above;
   n.above = state;
-  return !is_anew && (n.below < old) == (n.below < state) && (under == old) == (under == state);
+  if (is_boundary(i)) return true;
+  const State under = fronts_[n.prev].below;
+  return has_path && (n.below < old) == (n.below < state) && (under == old) == (under == state);
 }
 
 template class CurvedSystem<NoObserver>;

@@ -77,7 +77,7 @@ class CurvedSystem {
   void turn(FrontIndex f);
   bool set_below(FrontIndex i, State state);
   bool set_above(FrontIndex i, State state);
-  bool anchor_beyond(Node& f, std::size_t level);
+  bool keeps_path(Node& f, std::size_t level);
   void end_course(const Node& f, double z);
   void note(double z, std::size_t boundary, std::size_t incoming, std::size_t outgoing);
   void set_edge(FrontIndex i, double t);
