@@ -26,7 +26,7 @@ struct CurvedNode {
   double rate = 0;                  ///< r(z)
   double q_below = 0, q_above = 0;  ///< of its levels at z
   double end = 0;                   ///< height at which it ends or turns
-  double end_t = 0;                 ///< when: of those that turn, and others once it was asked for
+  double end_t = 0;                 ///< when it turns there
   double meets = 0, meeting_z = 0;  ///< next event: when, and where
   double turned = kNever;           ///< when a mean characteristic of its levels turned there
   State below = 0, above = 0;
@@ -40,7 +40,6 @@ struct CurvedNode {
   double edge_t = 0;          ///< of an edge: when the characteristic of that state was at z
 
   static constexpr double kNever = std::numeric_limits<double>::infinity();
-  static constexpr double kUnknown = -1;
   /// At its next event.
   [[nodiscard]] double position(double /*time*/) const { return meeting_z; }
 };
@@ -294,11 +293,6 @@ namespace curved_front_detail {
                      grid.q(p, grid.level(f.above), z, rate));
 }
 
-/// When a front that moves is at its end.
-[[nodiscard]] inline double time_at_end(const LevelCurves& grid, const CurvedNode& f) {
-  return f.end_t == CurvedNode::kUnknown ? passage(grid, f, f.end).t : f.end_t;
-}
-
 /// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there. Its lower state may be
 /// the upper one of another front that begins there.
 inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t,
@@ -313,7 +307,6 @@ inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double 
   f.turns = false;
   f.end = z;
   f.direction = 0;
-  f.end_t = CurvedNode::kUnknown;
   if (i == j) return;
   f.direction = (i > j) == (f.above > f.below) ? 1 : -1;
   f.end = f.direction > 0 ? piece.z_high : piece.z_low;
@@ -389,7 +382,7 @@ template <class Evaluate>
       z = next;
     }
   }
-  const double t_end = time_at_end(grid, f);
+  const double t_end = f.turns ? f.end_t : passage(grid, f, f.end).t;
   if (!(t < t_end)) return f.end;
   const double share = (t - f.t) / (t_end - f.t);
   return bracketed_root(f.z, f.end, f.z + (f.end - f.z) * std::clamp(share, 0.01, 0.99), late);

@@ -20,8 +20,8 @@ struct CurvedMeeting {
 /// fluxes is not convex, and two fronts can touch and separate again: there the least difference is found first.
 class CurvedMeetings {
  public:
-  /// Both keep when they are at their ends, once that was asked for.
-  CurvedMeetings(const LevelCurves& grid, CurvedNode& f, CurvedNode& g) : grid_(grid), f_(f), g_(g) {}
+  CurvedMeetings(const LevelCurves& grid, const CurvedNode& f, const CurvedNode& g)
+      : grid_(grid), f_(f), g_(g) {}
 
   [[nodiscard]] std::optional<CurvedMeeting> find() const {
     if (f_.direction <= 0 && g_.direction >= 0) return std::nullopt;
@@ -41,10 +41,10 @@ class CurvedMeetings {
     const Passage a = passage(grid_, later, z), b = passage(grid_, sooner, z);
     return {a.t - b.t, a.slope - b.slope};
   }
-  /// The same without the slope; when a front is at its end is known.
-  [[nodiscard]] double lag(CurvedNode& later, CurvedNode& sooner, double z) const {
-    const auto time = [&](CurvedNode& f) {
-      return z == f.end ? f.end_t = time_at_end(grid_, f) : passage(grid_, f, z).t;
+  /// The same without the slope; when a front turns is known.
+  [[nodiscard]] double lag(const CurvedNode& later, const CurvedNode& sooner, double z) const {
+    const auto time = [&](const CurvedNode& f) {
+      return f.turns && z == f.end ? f.end_t : passage(grid_, f, z).t;
     };
     return time(later) - time(sooner);
   }
@@ -173,14 +173,6 @@ class CurvedMeetings {
       if (f_.z < g_.z) return std::nullopt;  // they turn before
       return CurvedMeeting{std::max(f_.t, g_.t), f_.z};
     }
-    if (hi == g_.z && g_.t > f_.t && !(g_.turns && lo == g_.end)) {
-      // The younger one has not come far.
-      const Pair both = pair_at(hi);
-      if (!(both.f.t > both.g.t)) return meeting(both, hi);
-      if (const auto met = first_zero(1, both, lo)) return met;
-      if (lo == f_.z) return at(lo);
-      return std::nullopt;
-    }
     const Pair both = pair_at(lo);
     const Passage at_lo{both.g.t - both.f.t, both.g.slope - both.f.slope};
     if (g_.turns && lo == g_.end && lo > f_.z && at_lo.t <= tie(both)) return std::nullopt;
@@ -199,7 +191,8 @@ class CurvedMeetings {
   }
 
   /// `rear` follows `lead` in the direction s.
-  [[nodiscard]] std::optional<CurvedMeeting> overtaking(CurvedNode& rear, CurvedNode& lead, int s) const {
+  [[nodiscard]] std::optional<CurvedMeeting> overtaking(const CurvedNode& rear, const CurvedNode& lead,
+                                                        int s) const {
     if (f_.below == g_.above) return std::nullopt;  // they run in parallel
     const auto ahead = [s](double x, double y) { return s > 0 ? x > y : x < y; };
     const double lo = ahead(rear.z, lead.z) ? rear.z : lead.z;
@@ -225,8 +218,8 @@ class CurvedMeetings {
     // A front that has just turned is faster than any other: where another is then they touch and separate.
     const bool touches = s * at_lo.slope > 0 && std::abs(at_lo.t) <= tie(both);
     if (at_lo.t <= 0 && !touches) return meeting(both, lo);
-    const bool may_part = gets_smaller && ahead(hi, dead), is_end_of_both = hi == rear.end && hi == lead.end;
-    if (!touches && !may_part && !is_end_of_both) return first_zero(s, both, hi);
+    const bool may_part = gets_smaller && ahead(hi, dead);
+    if (!touches && !may_part) return first_zero(s, both, hi);
     if (lag(rear, lead, hi) <= 0) return first_zero(s, both, hi, !touches);
     if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
@@ -252,7 +245,7 @@ class CurvedMeetings {
   }
 
   const LevelCurves& grid_;
-  CurvedNode &f_, &g_;
+  const CurvedNode &f_, &g_;
 };
 
 }  // namespace shearfront

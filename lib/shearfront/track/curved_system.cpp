@@ -344,13 +344,11 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
   };
   if (grid_->level(ahead) == level) {
     set_turned(f);
-    if (rises) {
-      const bool is_as_before = set_below(over, label);
-      schedule_all(under, is_as_before ? f : over);
-    } else {
-      const bool is_as_before = set_above(under, label);
-      schedule_all(is_as_before || fronts_[under].prev == kNoFront ? under : fronts_[under].prev, f);
-    }
+    if (rises)
+      set_below(over, label);
+    else
+      set_above(under, label);
+    schedule_all(!rises && fronts_[under].prev != kNoFront ? fronts_[under].prev : under, rises ? over : f);
     return;
   }
   if (rises) {
@@ -367,48 +365,29 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
 }
 
 /// Before the label of a level changes of a front that has passed its turning height, its path begins anew there: on the live
-/// side it was that of the old label. One that comes back to the live side goes on there as the new label says. Whether neither is
-/// so: then its path is what it was.
+/// side it was that of the old label.
 template <class Observer>
-bool CurvedSystem<Observer>::keeps_path(Node& f, std::size_t level) {
+void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
   const std::size_t piece = f.layer;
-  if (level == 0 || f.direction == 0) return true;
-  if (f.direction * grid_->piece(piece).bend > 0) {
-    f.end_t = Node::kUnknown;
-    return false;
-  }
-  if (!(grid_->q(piece, level, f.z, f.rate) > 0)) return true;
+  if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return;
   const double z = grid_->turning_height(piece, level);
-  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return true;
+  if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
   const double turned = f.turned, t = passage(*grid_, f, z).t;
   f.is_edge = false;
   if constexpr (Observer::kActive) observer_.ended(f, t, z);
   set_course(*grid_, f, z, t);
   f.turned = turned;
-  return false;
 }
 
-/// Whether what node i and the one above it will do is as before.
 template <class Observer>
-bool CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
-  Node& n = fronts_[i];
-  const bool has_path = is_boundary(i) || keeps_path(n, grid_->level(state));
-  const State old = n.below;
-  n.below = state;
-  if (is_boundary(i)) return true;
-  const State over = fronts_[n.next].above;
-  return has_path && (old < n.above) == (state < n.above) && (old == over) == (state == over);
+void CurvedSystem<Observer>::set_below(FrontIndex i, State state) {
+  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
+  fronts_[i].below = state;
 }
-/// Whether what node i and the one below it will do is as before.
 template <class Observer>
-bool CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
-  Node& n = fronts_[i];
-  const bool has_path = is_boundary(i) || keeps_path(n, grid_->level(state));
-  const State old = n.above;
-  n.above = state;
-  if (is_boundary(i)) return true;
-  const State under = fronts_[n.prev].below;
-  return has_path && (n.below < old) == (n.below < state) && (under == old) == (under == state);
+void CurvedSystem<Observer>::set_above(FrontIndex i, State state) {
+  if (!is_boundary(i)) anchor_beyond(fronts_[i], grid_->level(state));
+  fronts_[i].above = state;
 }
 
 template class CurvedSystem<NoObserver>;

@@ -75,9 +75,9 @@ class CurvedSystem {
   void reach_boundary(FrontIndex mover, FrontIndex b);
   void merge(FrontIndex f, FrontIndex g);
   void turn(FrontIndex f);
-  bool set_below(FrontIndex i, State state);
-  bool set_above(FrontIndex i, State state);
-  bool keeps_path(Node& f, std::size_t level);
+  void set_below(FrontIndex i, State state);
+  void set_above(FrontIndex i, State state);
+  void anchor_beyond(Node& f, std::size_t level);
   void end_course(const Node& f, double z);
   void note(double z, std::size_t boundary, std::size_t incoming, std::size_t outgoing);
   void set_edge(FrontIndex i, double t);
