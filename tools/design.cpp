@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "plot/picture.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/io/detail/json.hpp"
+#include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -181,9 +183,11 @@ std::string design_text(const fit::Design& design, const Observations& candidate
   return text;
 }
 
-void write_csv(OutputFile& file, const fit::Design& design, const Observations& candidates) {
+void write_csv(OutputFile& file, const fit::Design& design, const Observations& candidates,
+               const SceneUnits& units) {
   const bool has_width = candidates.rows.front().width > 0;
-  file.write(fmt::format("t,z,{}weight,worth,chosen\n", has_width ? "width," : ""));
+  file.write(has_width ? csv_header({"t", "z", "width", "weight", "worth", "chosen"}, units)
+                       : csv_header({"t", "z", "weight", "worth", "chosen"}, units));
   for (const fit::DesignChoice& choice : design.choices)
     for (const std::size_t k : choice.rows) {
       const Observation& o = candidates.rows[k];
@@ -233,7 +237,7 @@ int draw_design(const std::string& path, const fit::FitSpec& spec, const fit::De
   picture.set("unit_z", without_markup(spec.scene.spec().units.z));
   picture.set("z_low", spec.scene.bottom());
   picture.set("z_high", spec.scene.top());
-  picture.add_file("design.csv", [&](OutputFile& file) { write_csv(file, design, candidates); });
+  picture.add_file("design.csv", [&](OutputFile& file) { write_csv(file, design, candidates, {}); });
   return picture.draw();
 }
 
@@ -293,8 +297,11 @@ int design_measurements(const DesignArguments& arguments) {
   print_remarks(file.remarks);
   print_remarks(spec.observations.notes);
 
-  const InterruptGuard guard;
-  const fit::Estimate estimate = run_fit(spec, arguments.file);
+  const fit::Estimate estimate = [&] {
+    const InterruptGuard guard;
+    return run_fit(spec, arguments.file);
+  }();
+  if (InterruptGuard::is_interrupted()) (void)std::raise(SIGINT);  // the fit is not what was asked for
   if (!estimate.usable())
     throw InputError(printable(arguments.file), "",
                      fmt::format("has no estimate ({}): {}", name_of(estimate.status), estimate.message));
@@ -312,7 +319,7 @@ int design_measurements(const DesignArguments& arguments) {
     const fit::Design design = best_design(spec, estimate, wanted, quantity);
     if (!arguments.output.empty()) {
       OutputFile table(arguments.output);
-      write_csv(table, design, wanted.candidates);
+      write_csv(table, design, wanted.candidates, spec.scene.spec().units);
       table.commit();
     }
     if (arguments.json)
@@ -321,8 +328,8 @@ int design_measurements(const DesignArguments& arguments) {
       out.write(design_text(design, wanted.candidates, quantity, wanted));
     if (!arguments.plot.empty())
       code = draw_design(arguments.plot, spec, design, wanted.candidates,
-                         fmt::format("{}, sigma {}; circles: the {} {} chosen", quantity.text,
-                                     number_text(*sigma), wanted.n, unit_name(wanted.unit, wanted.n)));
+                         fmt::format("{}, sigma {}; circles: the {} chosen", quantity.text,
+                                     number_text(*sigma, 3), wanted.n));
   }
   if (arguments.json) out.write(detail::json_document(all));
   out.commit();

@@ -174,13 +174,13 @@ PredictionPlan plan_of(const FitArguments& arguments, const Scene<double>& scene
 
 void write_prediction(OutputFile& file, const PredictionPlan& plan, const fit::FitSpec& spec,
                       const fit::Estimate& estimate) {
-  const fit::DrawnScenes draws = fit::draw_scenes(fit::Parameters(spec.scene, spec.unknown), estimate,
-                                                  kPredictionDraws, spec.search.seed);
+  const fit::DrawnScenes draws = fit::scenes_behind(fit::Parameters(spec.scene, spec.unknown), estimate,
+                                                    kPredictionDraws, spec.search.seed);
   const fit::PredictedSamples samples =
       fit::predict_samples(*estimate.scene, draws, spec.forward.method, plan.times, plan.heights);
   note_draws(draws, samples.n_failed);
-  note_bands(samples.n_by_draws, 2 * samples.phi.size());
-  write_prediction_csv(file, plan.times, plan.heights, samples);
+  note_bands(draws, samples.n_by_draws, 2 * samples.phi.size());
+  write_prediction_csv(file, plan.times, plan.heights, samples, spec.scene.spec().units);
 }
 
 int fit_files(const FitArguments& arguments) {
@@ -245,7 +245,7 @@ int fit_files(const FitArguments& arguments) {
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
   if (output && estimate.usable()) {
-    write_residuals_csv(*output, files[0].spec.observations, estimate);
+    write_residuals_csv(*output, files[0].spec.observations, estimate, files[0].spec.scene.spec().units);
     output->commit();
   }
   if (scene_out && estimate.usable()) {
@@ -253,9 +253,11 @@ int fit_files(const FitArguments& arguments) {
     scene_out->commit();
   }
   if (band && estimate.usable()) {
-    write_band_csv(*band,
-                   fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate));
+    const fit::RateBand rates =
+        fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate);
+    write_band_csv(*band, rates, files[0].spec.scene.spec().units);
     band->commit();
+    note_rate_band(rates);
   }
   if (prediction && estimate.usable() && !is_interrupted) {
     write_prediction(*prediction, plan, files[0].spec, estimate);
@@ -282,7 +284,9 @@ Command add_fit(CLI::App& program) {
       ->type_name("FILE");
   app->add_option("--truth", arguments->truth, "scene whose s a(z) --plot shows as well")->type_name("SCENE");
   app->add_option("--scene-out", arguments->scene_out, "the fitted scene, a scene file")->type_name("FILE");
-  app->add_option("--band", arguments->band, "s a(z) with its pointwise 95 % band as CSV")->type_name("FILE");
+  app->add_option("--band", arguments->band,
+                  "s a(z) with its 95 % bands as CSV, of each height by itself and of all at once")
+      ->type_name("FILE");
   app->add_option("--predict", arguments->predict,
                   "phi and M with their 95 % bands as CSV, at --times and --heights")
       ->type_name("FILE");

@@ -167,6 +167,23 @@ void note_size(std::size_t n_fronts) {
                      size / 1e6));
 }
 
+/// Columns H_lower, H_upper beside H, empty where there is no band.
+void add_bands(TimeTable& table, const std::vector<fit::PredictedNumber>& numbers) {
+  std::vector<std::string> names;
+  for (const std::string& name : table.columns)
+    for (const char* end : {"", "_lower", "_upper"}) names.push_back(name + end);
+  auto number = numbers.begin();
+  for (std::vector<double>& row : table.rows) {
+    std::vector<double> wider;
+    for (const double x : row) {
+      const auto& band = (number++)->band;
+      wider.insert(wider.end(), {x, band ? band->low : HUGE_VAL, band ? band->high : HUGE_VAL});
+    }
+    row = std::move(wider);
+  }
+  table.columns = std::move(names);
+}
+
 /// Numbers of the whole bed instead of concentrations.
 int solve_bed(const SolveArguments& arguments, const Task& task) {
   const bool is_mixed_flow =
@@ -178,13 +195,25 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
   note_before_run(arguments.method, task.method, task.scene);
-  const BedCourse course = with_progress(
+  BedCourse course = with_progress(
       [&](const Progress& progress) {
         return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
       },
       last_time(task.times));
   if (!course.summary.usable()) return report_unusable(course.summary);
   note_remark(course.summary);
+  const TimeTable without_bands = course.table;  // what is drawn
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
+    const fit::PredictedNumbers predicted = fit::predict_numbers(
+        task.scene, *draws,
+        [&](const Scene<double>& scene) {
+          return bed_numbers(quantity_of(arguments), scene, task.method, task.times);
+        },
+        task.method.guarantees().exact);
+    note_draws(*draws, predicted.n_failed);
+    note_bands(*draws, predicted.n_by_draws, predicted.numbers.size());
+    add_bands(course.table, predicted.numbers);
+  }
   const auto& lowest = course.lowest;
   NamedNumbers lowest_numbers{"lowest", {}};
   if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
@@ -197,6 +226,7 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   if (lowest && !arguments.json)
     note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(lowest->t, 7),
                      number_text(lowest->height, 10)));
+  course.table = without_bands;
   return arguments.plot.empty() ? kDone : draw_bed_course(arguments.plot, task.scene, task.method, course);
 }
 
@@ -221,8 +251,8 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
     const fit::PredictedSamples samples =
         fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
     note_draws(*draws, samples.n_failed);
-    note_bands(samples.n_by_draws, 2 * samples.phi.size());
-    write_prediction_csv(output, times, request.heights, samples);
+    note_bands(*draws, samples.n_by_draws, 2 * samples.phi.size());
+    write_prediction_csv(output, times, request.heights, samples, task.scene.spec().units);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary, task.scene.spec().units);

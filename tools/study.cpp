@@ -17,6 +17,7 @@
 #include "shearfront/fit/study/sobol_indices.hpp"
 #include "shearfront/fit/study/study_runs.hpp"
 #include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -47,6 +48,25 @@ Shard shard_of(const std::string& text) {
   return {static_cast<std::size_t>(*k), static_cast<std::size_t>(*n)};
 }
 
+std::string unit_of_output(const fit::StudyOutput& output, const fit::StudySpec& spec) {
+  using Kind = fit::StudyOutput::Kind;
+  if (!spec.scene) return {};
+  const SceneUnits& units = spec.scene->spec().units;
+  switch (output.kind) {
+    case Kind::t0:
+    case Kind::t1:
+    case Kind::t_star:
+    case Kind::first:
+    case Kind::last:
+      return units.t;
+    case Kind::M:
+    case Kind::height:
+      return units.z;
+    default:
+      return {};
+  }
+}
+
 /// What makes the result, in comments: version, study and scene, seed; then the header. The same for the same study.
 std::string head_of(const fit::StudyRuns& runs, const std::string& study_text, const Shard& shard) {
   const fit::StudySpec& spec = runs.spec();
@@ -65,7 +85,8 @@ std::string head_of(const fit::StudyRuns& runs, const std::string& study_text, c
   if (shard.n > 1) head += fmt::format("# shard {}/{}\n", shard.k, shard.n);
   head += "run";
   for (const std::string& name : runs.entries()) head += "," + detail::csv_field(name);
-  for (const fit::StudyOutput& output : spec.outputs) head += "," + detail::csv_field(output.name);
+  for (const fit::StudyOutput& output : spec.outputs)
+    head += "," + detail::csv_field(detail::heading_text(output.name, unit_of_output(output, spec)));
   return head + ",status\n";
 }
 

@@ -357,7 +357,7 @@ class Fit:
         return self._engine.predict_events(draws, seed)
 
     def rate_band(self) -> RateBand:
-        """s a(z) with its pointwise 95 % band.
+        """s a(z) with its pointwise 95 % band, of the bootstrap after a fit with one.
 
         Returns
         -------

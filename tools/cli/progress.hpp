@@ -61,7 +61,7 @@ auto with_progress(Work&& work, double t_end = 0) {
 void say_when_interrupted();
 
 /// While one of these exists, the first Ctrl-C (SIGINT) is only remembered, so that a long computation can
-/// end with what it has; the second one ends the program as usual.
+/// end with what it has, if it can within kPatience; else, and by a second one, the program ends as usual.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -71,8 +71,12 @@ class InterruptGuard {
 
   [[nodiscard]] static bool is_interrupted();
 
+  /// Not felt by who waits, with room below a fifth of a second for what the machine does besides.
+  static constexpr std::chrono::milliseconds kPatience{150};
+
  private:
-  struct sigaction before_ {};
+  struct sigaction before_ {
+  }, alarm_before_{};
 };
 
 }  // namespace shearfront::tools
