@@ -104,7 +104,7 @@ TEST(SlowFitPrediction, BandsOfExample4CoverTheTruth) {
                              {3.25, 2.32, 1.63, 1.05, 0.53}, 1e-3));
 }
 
-// Fewer data sets, for each has a bootstrap: 95 % are 95 +- 2 of them; the quantiles of 79 replicates are two percent short.
+// Fewer data sets, for each has a bootstrap: 95 +- 2.2 of 100. 79 replicates: (n + 1) p is whole.
 TEST(SlowFitPrediction, BandsOfABootstrapCoverTheTruth) {
   const Coverage covered = coverage_of(small_above_large({0.29}, {3.15, 0.5}), {3.15, 0.5}, 1e-3, 79, 100);
   std::printf("covered: %.2f %% of phi, %.2f %% of t*\n", 100 * covered.phi, 100 * covered.t_star);
