@@ -121,10 +121,14 @@ bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t
         std::llround(std::clamp(part, 0.0, 1.0) * static_cast<double>(xs.size() - 1)));
   };
   const double t_end =
-      std::min(std::isfinite(front.t_end) ? front.t_end : grid.times.back(), grid.times.back());
-  const double z_end = std::isfinite(front.z_end) ? front.z_end : front.z_begin;
+                   std::isfinite(front.t_end) ? std::min(front.t_end, grid.times.back()) : grid.times.back(),
+               z_end = std::isfinite(front.z_end) ? front.z_end : front.z_begin;
   const std::size_t i = nearest(grid.times, (front.t_begin + t_end) / 2),
                     j = nearest(grid.heights, (front.z_begin + z_end) / 2), last = grid.heights.size() - 1;
+  // A front may cross many heights of the grid between two of its times.
+  const double crossed = std::abs(z_end - front.z_begin) / (t_end - front.t_begin) *
+                         (grid.times[1] - grid.times[0]) / (grid.heights[1] - grid.heights[0]);
+  if (crossed > 0) reach += static_cast<std::size_t>(std::min(std::ceil(crossed), static_cast<double>(last)));
   const double jump = front.phi_above - front.phi_below,
                seen = grid.phi[grid.at(i, std::min(j + reach, last))] -
                       grid.phi[grid.at(i, j - std::min(j, reach))];
