@@ -230,8 +230,32 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   return arguments.plot.empty() ? kDone : draw_bed_course(arguments.plot, task.scene, task.method, course);
 }
 
+/// With --verbose: what half as many cells change. A tolerance is that of time steps; cells make an error of their own.
+void note_cells(const Task& task, const SolverRequest& request, const SolverResult& result) {
+  if (!ProgressLine::is_verbose() || !task.method.has_option("cells") || result.profiles.empty()) return;
+  if (task.method.has_option("cell-tolerance") && number_of(task.method, "cell-tolerance") > 0) return;
+  const std::size_t n = result.profiles.front().below().size();
+  if (n < 8) return;
+  Method half = task.method;
+  half.set("cells", std::uint64_t{n / 2});
+  const SolverResult coarse = with_progress(
+      [&](const Progress& progress) { return shearfront::solve(task.scene, half, request, progress); },
+      last_time(request.times));
+  if (!coarse.summary.usable()) return;
+  double phi = 0, M = 0;
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    phi = std::max(phi, std::abs(result.samples[i].phi - coarse.samples[i].phi));
+    M = std::max(M, std::abs(result.samples[i].M - coarse.samples[i].M));
+  }
+  note(fmt::format(
+      "half as many cells change phi by up to {} and M by up to {} at these places: the {} cells are "
+      "off by about as much or less",
+      number_text(phi, 2), number_text(M, 2), n));
+}
+
 int solve_concentration(const SolveArguments& arguments, const Task& task) {
-  const SolverRequest request = request_of(arguments, task);
+  SolverRequest request = request_of(arguments, task);
+  request.profiles = request.profiles || (ProgressLine::is_verbose() && task.method.has_option("cells"));
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   std::optional<OutputFile> fronts;
   if (request.fronts) fronts.emplace(arguments.fronts);
@@ -243,6 +267,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
       last_time(request.times));
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
+  note_cells(task, request, result);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)

@@ -310,7 +310,7 @@ class Fit:
         return self.problem.posterior(priors)
 
     def predict(self, t: Any, z: Any, *, draws: int = _DRAWS, seed: int | None = None) -> Prediction:
-        """phi and M with 95 % bands, from scenes drawn from the error bars.
+        """phi and M with 95 % bands, from the error bars, or from the replicates after a fit with a bootstrap.
 
         Parameters
         ----------

@@ -37,6 +37,7 @@ double seconds_between_lines = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-g
 }  // namespace
 
 void ProgressLine::set_verbose(double seconds) { seconds_between_lines = seconds; }
+bool ProgressLine::is_verbose() { return seconds_between_lines > 0; }
 
 void say_when_interrupted() {
   struct sigaction now {};

@@ -26,6 +26,7 @@ class ProgressLine {
 
   /// Lines where standard error is no terminal, so many seconds apart; 0: none.
   static void set_verbose(double seconds);
+  [[nodiscard]] static bool is_verbose();
 
   /// Must not outlive this object. Empty if there are no lines. `t_end` > 0: with the part that is done and the time that
   /// is left at the same pace.
