@@ -19,6 +19,7 @@
 #include "cli/command.hpp"
 #include "cli/fitted.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "cli/table.hpp"
 #include "plot/picture.hpp"
 #include "plot/pictures.hpp"
@@ -34,6 +35,7 @@ constexpr double kMostCandidates = 1e5;
 constexpr std::size_t kMostListed = 40;
 
 struct DesignArguments {
+  SceneChangesOption set;
   PictureOptions pictures;
   std::string file, times, heights, quantities, sigma, number = "20", unit = "measurement", criterion = "D",
                                                        draws = "1", seed, output, plot;
@@ -281,7 +283,7 @@ int design_measurements(const DesignArguments& arguments) {
   if (!is_fit_file(arguments.file))
     throw InputError(printable(arguments.file), "",
                      "must be a fit file: its unknowns are what is to be known better");
-  const fit::FitFile file = fit::read_fit_file(arguments.file);
+  const fit::FitFile file = fit::read_fit_file(arguments.file, arguments.set.changes());
   if (file.choice)
     throw InputError(printable(arguments.file), "", "must have one model; [compare] has several");
   const fit::FitSpec& spec = file.spec;
@@ -343,6 +345,7 @@ Command add_design(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "design", "Where to measure next: the times and heights that say most about the unknowns of a fit");
   app->add_option("FIT", arguments->file, "fit file")->type_name("")->required();
+  arguments->set.add_to(*app);
   app->add_option("--times", arguments->times, "times that could be measured; default those of the data")
       ->type_name("LIST");
   app->add_option("--heights", arguments->heights,

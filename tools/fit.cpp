@@ -13,6 +13,7 @@
 #include "cli/fit_text.hpp"
 #include "cli/fitted.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
@@ -27,19 +28,20 @@ namespace {
 
 struct FitArguments {
   PictureOptions pictures;
+  SceneChangesOption set;
   std::vector<std::string> files;
   std::string output, plot, truth, scene_out, band, predict, times, heights;
   bool json = false;
 };
 
 /// All files, with the complaints about all of them.
-std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
+std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths, const SceneChanges& changes) {
   std::vector<fit::FitFile> files;
   Complaints complaints;
   std::string report;
   for (const std::string& path : paths) {
     try {
-      files.push_back(fit::read_fit_file(path));
+      files.push_back(fit::read_fit_file(path, changes));
     } catch (const FileError& error) {
       complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
       report += (report.empty() ? "" : "\n") + std::string(error.what());
@@ -196,7 +198,7 @@ int fit_files(const FitArguments& arguments) {
       refuse(output.option, output.path, "needs a single fit file");
   arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
-  std::vector<fit::FitFile> files = read_files(arguments.files);
+  std::vector<fit::FitFile> files = read_files(arguments.files, arguments.set.changes());
   for (std::size_t i = 0; !is_one && i < files.size(); ++i)
     if (files[i].choice)
       throw InputError(printable(arguments.files[i]), "",
@@ -277,6 +279,7 @@ Command add_fit(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "fit", "Find entries of a scene from observations; several fit files are compared as models");
   app->add_option("FIT", arguments->files, "fit files")->type_name("")->required();
+  arguments->set.add_to(*app);
   app->add_option("-o", arguments->output, "observed and predicted values and residuals as CSV")
       ->type_name("FILE");
   app->add_option("--plot", arguments->plot,

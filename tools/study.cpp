@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/fit_text.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "shearfront/fit/study/sobol_indices.hpp"
 #include "shearfront/fit/study/study_runs.hpp"
 #include "shearfront/io/detail/csv.hpp"
@@ -28,6 +29,7 @@ namespace {
 constexpr unsigned long long kMostShards = 1'000'000, kMostThreads = 1024;
 
 struct StudyArguments {
+  SceneChangesOption set;
   std::vector<std::string> files;
   std::string output, shard, threads, indices;
   bool resume = false, merge = false;
@@ -177,7 +179,7 @@ int run_study(const StudyArguments& arguments) {
       arguments.threads.empty() ? 0 : count_option("--threads", arguments.threads, 0, kMostThreads);
   check_outputs(arguments.files[0], {{"-o", arguments.output}, {"--indices", arguments.indices}});
   const std::string study_text = detail::TextSource::read(arguments.files[0]).text();
-  fit::StudySpec spec = fit::read_study(arguments.files[0]);
+  fit::StudySpec spec = fit::read_study(arguments.files[0], arguments.set.changes());
   const bool has_indices = spec.design == fit::DesignKind::indices;
   if (!arguments.indices.empty() && (!has_indices || shard.n > 1))
     refuse("--indices", arguments.indices, "needs a whole study with design.kind = \"sobol-indices\"");
@@ -296,6 +298,7 @@ Command add_study(CLI::App& program) {
   app->add_option("STUDY", arguments->files, "study file; with --merge results of its shards")
       ->type_name("")
       ->required();
+  arguments->set.add_to(*app);
   app->add_option("-o", arguments->output, "result file, CSV, a row per run; default standard output")
       ->type_name("FILE");
   app->add_flag("--resume", arguments->resume, "go on with the result file where it ends");

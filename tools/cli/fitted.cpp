@@ -63,8 +63,8 @@ FittedModels run_models(const fit::FitFile& file, const std::string& path) {
   return result;
 }
 
-Fitted fitted(const std::string& path) {
-  fit::FitFile file = fit::read_fit_file(path);
+Fitted fitted(const std::string& path, const SceneChanges& changes) {
+  fit::FitFile file = fit::read_fit_file(path, changes);
   print_remarks(file.remarks);
   print_remarks(file.spec.observations.notes);
   fit::Estimate estimate;

@@ -26,9 +26,9 @@ struct Fitted {
 /// Whether a file is a fit file. Errors: FileError if it cannot be read or is no TOML.
 [[nodiscard]] bool is_fit_file(const std::string& path);
 
-/// Reads a fit file, fits it, says on standard error what there is to say, and draws scenes from the estimate.
+/// Reads a fit file, its scene with changes, fits it, says on standard error what there is to say, and draws scenes from the estimate.
 /// Errors: FileError; InputError if the fit has no usable estimate.
-[[nodiscard]] Fitted fitted(const std::string& path);
+[[nodiscard]] Fitted fitted(const std::string& path, const SceneChanges& changes = {});
 
 /// One fit with the line of its progress; Ctrl-C ends the search with what it has. Errors: FileError.
 [[nodiscard]] fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path);
