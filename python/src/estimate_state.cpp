@@ -58,7 +58,8 @@ void members(T& x, Visit&& visit) {
 
 template <python::Of<NoiseEstimate> T, class Visit>
 void members(T& x, Visit&& visit) {
-  visit(x.model), visit(x.length_z), visit(x.length_t), visit(x.independent), visit(x.tau), visit(x.length_z95);
+  visit(x.model), visit(x.length_z), visit(x.length_t), visit(x.independent), visit(x.tau),
+      visit(x.length_z95);
   visit(x.length_t95), visit(x.independent95), visit(x.tau95), visit(x.estimated);
 }
 

@@ -81,8 +81,9 @@ void bind_fit(nb::module_& m) {
                    })
       .def_prop_ro("remarks", [](const FitProblem& self) { return self.remarks; })
       .def("with_uncertainty", &with_uncertainty)
-      .def_prop_ro("has_noise_model",
-                   [](const FitProblem& self) { return self.spec->noise.model != fit::NoiseModel::independent; })
+      .def_prop_ro(
+          "has_noise_model",
+          [](const FitProblem& self) { return self.spec->noise.model != fit::NoiseModel::independent; })
       .def("with_noise_of", &with_noise_of)
       .def("run", &run_fit);
   bind_fit_state(m, problem);

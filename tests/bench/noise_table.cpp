@@ -58,7 +58,8 @@ struct Count {
 
 void run(const support::Identification& problem, double rho, std::size_t n) {
   const Observations exact = exact_data(problem, Quantity::bin);
-  const fit::Parameters truth(Scene<double>(problem.truth), {problem.parameters, {}, {}, {}, fit::Shape::none});
+  const fit::Parameters truth(Scene<double>(problem.truth),
+                              {problem.parameters, {}, {}, {}, fit::Shape::none});
   for (const Model& model : models()) {
     std::vector<Count> counts(truth.size());
     double length = 0, n_lengths = 0, structured = 0;
@@ -67,7 +68,8 @@ void run(const support::Identification& problem, double rho, std::size_t n) {
       Observations data = exact;
       const MatrixXd noise = autoregressive(static_cast<Index>(problem.heights.size()),
                                             static_cast<Index>(problem.times.size()), rho, engine);
-      for (std::size_t k = 0; k < data.rows.size(); ++k) data.rows[k].value += kSigma * noise.reshaped()[static_cast<Index>(k)];
+      for (std::size_t k = 0; k < data.rows.size(); ++k)
+        data.rows[k].value += kSigma * noise.reshaped()[static_cast<Index>(k)];
       fit::FitSpec spec = support::fit_of(problem, std::move(data));
       spec.noise = model.noise;
       const fit::Estimate found = fit::fit(spec);
@@ -86,10 +88,11 @@ void run(const support::Identification& problem, double rho, std::size_t n) {
     }
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const Count& c = counts[i];
-      std::printf("| %s | %g | %s | %s | %.1f | %.3f | %.2f | %.0f | %.1f | %.3f |\n", problem.name.c_str(), rho, model.name,
-                  truth[i].name().c_str(), 100 * c.covered / c.n, std::sqrt(c.squares / c.n),
+      std::printf("| %s | %g | %s | %s | %.1f | %.3f | %.2f | %.0f | %.1f | %.3f |\n", problem.name.c_str(),
+                  rho, model.name, truth[i].name().c_str(), 100 * c.covered / c.n, std::sqrt(c.squares / c.n),
                   std::sqrt(c.stated / c.squares), static_cast<double>(n) - c.n,
-                  100 * structured / static_cast<double>(n), n_lengths > 0 ? std::exp(length / n_lengths) : 0.0);
+                  100 * structured / static_cast<double>(n),
+                  n_lengths > 0 ? std::exp(length / n_lengths) : 0.0);
     }
     std::fflush(stdout);
   }
@@ -101,7 +104,8 @@ int main(int argc, char** argv) {
   const std::size_t n = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 500;
   std::printf("%zu sets of bins, noise %g; errors are those of the logarithm of an unknown.\n\n", n, kSigma);
   std::printf(
-      "| example | correlation | noise.model | unknown | covered %% | rmse | stated / rmse | without interval | structured %% | mean "
+      "| example | correlation | noise.model | unknown | covered %% | rmse | stated / rmse | without "
+      "interval | structured %% | mean "
       "length_z |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
   for (support::Identification problem : {support::example_3(), support::example_4()}) {

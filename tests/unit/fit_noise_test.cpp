@@ -26,8 +26,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Engine = std::mt19937_64;
 
-NoiseSpec noise_spec(NoiseModel model, std::optional<double> length_z = {}, std::optional<double> length_t = {},
-                   double independent = 0) {
+NoiseSpec noise_spec(NoiseModel model, std::optional<double> length_z = {},
+                     std::optional<double> length_t = {}, double independent = 0) {
   NoiseSpec spec;
   spec.model = model;
   spec.length_z = length_z;
@@ -62,8 +62,9 @@ MatrixXd dense(const std::vector<Observation>& places, const NoiseShape& s, bool
     for (Index j = 0; j < n; ++j) {
       const Observation &a = places[static_cast<std::size_t>(i)], &b = places[static_cast<std::size_t>(j)];
       const double w = in_unit_of_data ? 1 / (a.sigma * b.sigma) : 1;
-      c(i, j) = (i == j ? s.independent : 0) +
-                s.correlated * w * std::exp(-std::abs(a.z - b.z) / s.length_z - std::abs(a.t - b.t) / s.length_t);
+      c(i, j) =
+          (i == j ? s.independent : 0) +
+          s.correlated * w * std::exp(-std::abs(a.z - b.z) / s.length_z - std::abs(a.t - b.t) / s.length_t);
     }
   return c;
 }
@@ -94,7 +95,8 @@ TEST(FitNoise, WhiteningIsTheInverseRootOfTheDenseCovariance) {
       if (in_unit_of_data) o.sigma = trial % 8 == 3 ? 0.3 : 0.1 + uniform(engine);
     std::shuffle(places.begin(), places.end(), engine);
     if (trial % 3 == 2 && places.size() > 1) places.pop_back();
-    NoiseShape shape{0.05 + uniform(engine), 0.1 + 2 * uniform(engine), trial % 2 == 0 ? 0 : uniform(engine), 0.7};
+    NoiseShape shape{0.05 + uniform(engine), 0.1 + 2 * uniform(engine), trial % 2 == 0 ? 0 : uniform(engine),
+                     0.7};
     const auto at = std::make_shared<NoisePlaces>(places, in_unit_of_data);
     n_grids += at->is_grid() ? 1 : 0;
     const NoiseCovariance covariance(at, shape);
@@ -132,8 +134,9 @@ TEST(FitNoise, LikelihoodRecoversTheLengthsOfAutoregression) {
   const auto places = grid_of(evenly(kTimes, kStep), evenly(kHeights, kStep));
   double sum_z = 0, sum_t = 0, squares = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto found = estimated_noise(noise_spec(NoiseModel::exponential),
-                                       data_of(places, autoregressive(kTimes, kHeights, kCorrelation, kCorrelation, engine)));
+    const auto found = estimated_noise(
+        noise_spec(NoiseModel::exponential),
+        data_of(places, autoregressive(kTimes, kHeights, kCorrelation, kCorrelation, engine)));
     ASSERT_TRUE(found && found->estimate.length_z95 && found->estimate.length_t95);
     const auto score = [&](double length, const Interval& interval) {
       return std::log(length / truth) / (std::log(interval.high / interval.low) / (2 * 1.96));
@@ -169,7 +172,8 @@ TEST(FitNoise, LikelihoodFindsTheIndependentPart) {
 TEST(FitNoise, UnitsOfHeightsAndTimesAreThoseOfTheLengths) {
   Engine engine(4);
   const VectorXd field = autoregressive(12, 15, 0.9, 0.7, engine);
-  const auto found = estimated_noise(noise_spec(NoiseModel::exponential), data_of(grid_of(evenly(12, 1), evenly(15, 1)), field));
+  const auto found = estimated_noise(noise_spec(NoiseModel::exponential),
+                                     data_of(grid_of(evenly(12, 1), evenly(15, 1)), field));
   ASSERT_TRUE(found);
   for (const int power : {-12, -3, 7}) {
     const double z = std::pow(10, power), t = std::pow(10, -power);
@@ -183,9 +187,10 @@ TEST(FitNoise, UnitsOfHeightsAndTimesAreThoseOfTheLengths) {
 
 /// Bins in the fan, where beta and beta z0 are linear (fit_scenes.hpp).
 FitSpec fan_of_bins(std::uint64_t seed, bool with_sigma) {
-  const ObservationPlan plan{{0.3, 0.35, 0.4, 0.45}, {0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65}, Quantity::bin, 0.04};
-  return fit_of(fan_scene(), observed(fan_scene(), plan, 0.01, seed, with_sigma), {"shear_rate.scale", "initial.breaks"},
-                {1.2, 0.48});
+  const ObservationPlan plan{
+      {0.3, 0.35, 0.4, 0.45}, {0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65}, Quantity::bin, 0.04};
+  return fit_of(fan_scene(), observed(fan_scene(), plan, 0.01, seed, with_sigma),
+                {"shear_rate.scale", "initial.breaks"}, {1.2, 0.48});
 }
 
 TEST(FitNoise, KnownLengthsGiveGeneralisedLeastSquares) {
@@ -237,7 +242,8 @@ TEST(FitNoise, KnownDiscrepancyIsGeneralisedLeastSquares) {
     y[i] = o.value - 0.5;
     c(i, i) += o.sigma * o.sigma;
   }
-  const VectorXd x = (design.transpose() * c.inverse() * design).ldlt().solve(design.transpose() * c.inverse() * y);
+  const VectorXd x =
+      (design.transpose() * c.inverse() * design).ldlt().solve(design.transpose() * c.inverse() * y);
   EXPECT_NEAR(estimate.parameters[0].estimate, 1 / (2 * x[0]), 1e-7);
   EXPECT_NEAR(estimate.parameters[1].estimate, x[1] / x[0], 1e-7);
 }
@@ -245,9 +251,10 @@ TEST(FitNoise, KnownDiscrepancyIsGeneralisedLeastSquares) {
 TEST(FitNoise, OneTimeHasNoLengthInTimeAndOneHeightNoneInZ) {
   for (const bool one_time : {true, false}) {
     const std::vector<double> many{0.3, 0.32, 0.34, 0.36, 0.38, 0.4, 0.42, 0.44, 0.46, 0.48, 0.5, 0.52};
-    const ObservationPlan plan{one_time ? std::vector<double>{0.4} : many, one_time ? many : std::vector<double>{0.4},
-                               Quantity::bin, 0.02};
-    FitSpec spec = fit_of(fan_scene(), observed(fan_scene(), plan, 0.01, 7, false), {"shear_rate.scale"}, {1.2});
+    const ObservationPlan plan{one_time ? std::vector<double>{0.4} : many,
+                               one_time ? many : std::vector<double>{0.4}, Quantity::bin, 0.02};
+    FitSpec spec =
+        fit_of(fan_scene(), observed(fan_scene(), plan, 0.01, 7, false), {"shear_rate.scale"}, {1.2});
     spec.noise.model = NoiseModel::exponential;
     const Estimate estimate = fit(spec);
     ASSERT_TRUE(estimate.usable() && estimate.noise) << one_time;
@@ -292,9 +299,9 @@ TEST(FitNoise, TooFewObservationsStayIndependent) {
     ASSERT_TRUE(estimate.usable());
     EXPECT_FALSE(estimate.noise);
     const std::string expected = n == 2 ? "the residuals are rounding" : "too few observations to estimate";
-    EXPECT_TRUE(std::any_of(estimate.warnings.begin(), estimate.warnings.end(),
-                            [&](const std::string& text) { return text.starts_with(expected); }))
-        << n;
+    EXPECT_TRUE(std::any_of(estimate.warnings.begin(), estimate.warnings.end(), [&](const std::string& text) {
+      return text.starts_with(expected);
+    })) << n;
   }
 }
 

@@ -36,9 +36,11 @@ std::string interval_text(const std::optional<fit::Interval>& i, int digits) {
 /// "exponential, length 0.31 (0.24 to 0.4) in z, 2 in t"
 std::string noise_text(const fit::NoiseEstimate& noise) {
   std::string text = noise.model;
-  const auto add = [&](const char* before, double x, const std::optional<fit::Interval>& interval, const char* after) {
+  const auto add = [&](const char* before, double x, const std::optional<fit::Interval>& interval,
+                       const char* after) {
     if (std::isnan(x)) return;
-    text += fmt::format(", {}{:.3g}{}{}", before, x, interval ? fmt::format(" ({})", interval_text(interval, 3)) : "", after);
+    text += fmt::format(", {}{:.3g}{}{}", before, x,
+                        interval ? fmt::format(" ({})", interval_text(interval, 3)) : "", after);
   };
   add("tau ", noise.tau, noise.tau95, "");
   add("length ", noise.length_z, noise.length_z95, " in z");

@@ -127,7 +127,8 @@ FitSpec replicate_of(const FitSpec& spec, const Parameters& parameters, const Es
   return replicate;
 }
 
-std::shared_ptr<const NoiseCovariance> noise_of_draws(const Observations& observations, const Estimate& estimate) {
+std::shared_ptr<const NoiseCovariance> noise_of_draws(const Observations& observations,
+                                                      const Estimate& estimate) {
   if (!estimate.noise) return nullptr;
   const bool has_tau = std::isfinite(estimate.noise->tau);
   return std::make_shared<NoiseCovariance>(std::make_shared<NoisePlaces>(observations.rows, has_tau),

@@ -82,8 +82,9 @@ struct Estimate {
 
   double misfit = 0;         ///< sum rho(r^2) / 2 of the last stage, r in units of sigma
   double residual_norm = 0;  ///< sqrt(sum r^2), in the unit of the data
-  double sigma = 0;    ///< noise per observation: estimated from the residuals; 1 if the data have their own; without the
-                       ///< discrepancy
+  double sigma =
+      0;  ///< noise per observation: estimated from the residuals; 1 if the data have their own; without the
+          ///< discrepancy
   double freedom = 0;  ///< degrees of freedom of sigma, if estimated
   bool sigma_is_given = false;
   std::size_t observations = 0;  ///< used in the last stage

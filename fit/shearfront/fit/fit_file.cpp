@@ -213,13 +213,16 @@ class FitReader {
     if (model) noise_.model = static_cast<NoiseModel>(*model);
     const bool is_correlated = noise_.model != NoiseModel::independent,
                has_tau = noise_.model == NoiseModel::discrepancy, is_good = model || !table.node("model");
-    const auto number = [&](const char* key, bool belongs, std::optional<double>& value, double most = HUGE_VAL) {
+    const auto number = [&](const char* key, bool belongs, std::optional<double>& value,
+                            double most = HUGE_VAL) {
       if (!is_good) return;
       const bool is_share = most < HUGE_VAL;
       number_or_estimated(table, key, value, is_share ? "must be >= 0 and < 1" : "must be > 0",
                           [&](double x) { return (is_share ? x >= 0 : x > 0) && x < most; });
       if (!belongs && table.node(key))
-        add({table.path(key), "", fmt::format("must be left out of {} noise", kNoiseModelNames[static_cast<std::size_t>(noise_.model)])});
+        add({table.path(key), "",
+             fmt::format("must be left out of {} noise",
+                         kNoiseModelNames[static_cast<std::size_t>(noise_.model)])});
     };
     number("length_z", is_correlated, noise_.length_z);
     number("length_t", is_correlated, noise_.length_t);
@@ -240,7 +243,8 @@ class FitReader {
     const std::string what = fmt::format("{}, or \"estimated\"", constraint);
     if (node->is_string()) {
       value.reset();
-      if (table.text(key, Need::optional, what).value_or("") != "estimated") table.add(*node, table.path(key), what);
+      if (table.text(key, Need::optional, what).value_or("") != "estimated")
+        table.add(*node, table.path(key), what);
       return;
     }
     double number = 0;

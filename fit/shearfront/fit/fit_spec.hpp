@@ -69,7 +69,7 @@ struct UncertaintySpec {
 enum class NoiseModel {
   independent,
   exponential,  ///< correlation exp(-|dz| / length_z - |dt| / length_t): AR(1) over equal distances
-  discrepancy   ///< independent noise, and what the model is wrong by: a Gaussian process with that correlation
+  discrepancy  ///< independent noise, and what the model is wrong by: a Gaussian process with that correlation
 };
 inline constexpr std::array<std::string_view, 3> kNoiseModelNames{"independent", "exponential",
                                                                   "discrepancy"};
@@ -77,13 +77,13 @@ inline constexpr std::array<std::string_view, 3> kNoiseModelNames{"independent",
 /// [noise]; what is empty is estimated from the data (noise_reml.hpp).
 struct NoiseSpec {
   NoiseModel model = NoiseModel::independent;
-  std::optional<double> length_z, length_t;  ///< > 0
+  std::optional<double> length_z = {}, length_t = {};  ///< > 0
   /// exponential: the part of the variance that belongs to one observation alone, 0 <= s < 1.
   std::optional<double> independent = 0;
-  std::optional<double> tau;  ///< discrepancy: its standard deviation in the unit of the data, > 0
+  std::optional<double> tau = {};  ///< discrepancy: its standard deviation in the unit of the data, > 0
   /// discrepancy: standard deviations of half-normal priors of what is estimated; empty: how far the data reach in z and
   /// in t, and the range of their values.
-  std::optional<double> length_z_prior, length_t_prior, tau_prior;
+  std::optional<double> length_z_prior = {}, length_t_prior = {}, tau_prior = {};
 };
 
 /// A whole fit, checked entry by entry by the reader; fit() checks what holds between them.

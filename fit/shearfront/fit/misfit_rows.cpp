@@ -55,7 +55,8 @@ std::string noise_refusal(const FitSpec& spec, const ResidualRows& rows) {
                        quoted_text(name_of(spec.observations.quantity)));
   if (quantity_of(spec) == PointMisfit::kName && !spec.scene.has_diffusion())
     return "needs a misfit without steps: points near shocks have them; measure means over bins";
-  if (find_loss(loss_of(spec), 0).is_robust) return "needs misfit.loss = \"squared\": whitened residuals are no single errors";
+  if (find_loss(loss_of(spec), 0).is_robust)
+    return "needs misfit.loss = \"squared\": whitened residuals are no single errors";
   if (spec.noise.tau && !spec.observations.has_sigma())
     return "needs the sigma of the data beside noise.tau: without it only their ratio is known";
   return noise_places(spec, rows)->refusal();

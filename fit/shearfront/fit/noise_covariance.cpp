@@ -65,9 +65,9 @@ NoisePlaces::NoisePlaces(const std::vector<Observation>& observations, bool in_u
     time_.push_back(cell(k).first);
     height_.push_back(cell(k).second);
   }
-  const bool is_twice =
-      std::adjacent_find(order_.begin(), order_.end(), [&](Index a, Index b) { return cell(a) == cell(b); }) !=
-      order_.end();
+  const bool is_twice = std::adjacent_find(order_.begin(), order_.end(), [&](Index a, Index b) {
+                          return cell(a) == cell(b);
+                        }) != order_.end();
   is_grid_ = !is_twice && order_.size() == times_.size() * heights_.size();
   if (!in_unit_of_data || observations.empty() || !(observations.front().sigma > 0)) return;
   weight_.resize(size());
@@ -112,7 +112,8 @@ NoiseCovariance::NoiseCovariance(std::shared_ptr<const NoisePlaces> places, cons
       all(i, j) = common * in_time(of(places_->time_, i), of(places_->time_, j)) *
                   in_height(of(places_->height_, i), of(places_->height_, j));
     if (places_->weight_.size() > 0)
-      all.col(j).tail(n - j) = places_->weight_[j] * places_->weight_.tail(n - j).cwiseProduct(all.col(j).tail(n - j));
+      all.col(j).tail(n - j) =
+          places_->weight_[j] * places_->weight_.tail(n - j).cwiseProduct(all.col(j).tail(n - j));
     all(j, j) += shape.independent + kJitter * all(j, j);
   }
   factor_ = Eigen::LLT<MatrixXd>(all).matrixL();
@@ -120,9 +121,7 @@ NoiseCovariance::NoiseCovariance(std::shared_ptr<const NoisePlaces> places, cons
   gain_ = 1 / factor_.diagonal().minCoeff();
 }
 
-MatrixXd NoiseCovariance::sorted(const MatrixXd& x) const {
-  return x(places_->order_, Eigen::all);
-}
+MatrixXd NoiseCovariance::sorted(const MatrixXd& x) const { return x(places_->order_, Eigen::all); }
 
 MatrixXd NoiseCovariance::unsorted(const MatrixXd& x) const {
   MatrixXd all(x.rows(), x.cols());

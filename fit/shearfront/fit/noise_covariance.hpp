@@ -28,8 +28,8 @@ class NoisePlaces {
 
  private:
   friend class NoiseCovariance;
-  std::vector<double> times_, heights_;  ///< ascending, each once
-  std::vector<Eigen::Index> order_;      ///< observations by ascending time, then height
+  std::vector<double> times_, heights_;      ///< ascending, each once
+  std::vector<Eigen::Index> order_;          ///< observations by ascending time, then height
   std::vector<Eigen::Index> time_, height_;  ///< of each in that order
   Eigen::VectorXd weight_;                   ///< 1 / sigma_i in that order; empty: all are common_
   double common_ = 1;
@@ -57,8 +57,8 @@ class NoiseCovariance {
  public:
   NoiseCovariance(std::shared_ptr<const NoisePlaces> places, const NoiseShape& shape);
 
-  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const;  ///< W x; a row per observation
-  [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& x) const;  ///< W^-1 x
+  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const;    ///< W x; a row per observation
+  [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& x) const;    ///< W^-1 x
   [[nodiscard]] double log_determinant() const { return log_determinant_; }  ///< of C
   /// About the most that whitening enlarges a number by.
   [[nodiscard]] double gain() const { return gain_; }

@@ -45,18 +45,22 @@ double reach_of(const std::vector<double>& places) { return places.back() - plac
 Sought sought_length(NoiseNumber number, const std::vector<double>& places) {
   double least = reach_of(places);
   for (std::size_t i = 0; i + 1 < places.size(); ++i) least = std::min(least, places[i + 1] - places[i]);
-  const double longest = std::log(kLongestLength * reach_of(places)), shortest = std::log(kShortestLength * least);
+  const double longest = std::log(kLongestLength * reach_of(places)),
+               shortest = std::log(kShortestLength * least);
   const double step = reach_of(places) / static_cast<double>(places.size() - 1);
   Sought sought{number, shortest, longest, {}};
-  for (const double x : {step, std::sqrt(step * reach_of(places)), 2 * reach_of(places)}) sought.starts.push_back(std::log(x));
+  for (const double x : {step, std::sqrt(step * reach_of(places)), 2 * reach_of(places)})
+    sought.starts.push_back(std::log(x));
   return sought;
 }
 
 /// What [noise] leaves to be estimated, of what the places let see.
 std::vector<Sought> sought_in(const NoiseSpec& spec, const NoisePlaces& places) {
   std::vector<Sought> all;
-  if (!spec.length_z && places.heights().size() > 1) all.push_back(sought_length(NoiseNumber::length_z, places.heights()));
-  if (!spec.length_t && places.times().size() > 1) all.push_back(sought_length(NoiseNumber::length_t, places.times()));
+  if (!spec.length_z && places.heights().size() > 1)
+    all.push_back(sought_length(NoiseNumber::length_z, places.heights()));
+  if (!spec.length_t && places.times().size() > 1)
+    all.push_back(sought_length(NoiseNumber::length_t, places.times()));
   if (spec.model == NoiseModel::exponential && !spec.independent)
     all.push_back({NoiseNumber::independent, 0, kMostIndependent, {0.05, 0.5}});
   if (spec.model == NoiseModel::discrepancy && !spec.tau)
@@ -85,8 +89,10 @@ class RestrictedLikelihood {
 
   [[nodiscard]] NoiseShape shape(const VectorXd& place) const {
     NoiseShape s;
-    if (data_.places->heights().size() > 1) s.length_z = value(NoiseNumber::length_z, place, spec_.length_z.value_or(0));
-    if (data_.places->times().size() > 1) s.length_t = value(NoiseNumber::length_t, place, spec_.length_t.value_or(0));
+    if (data_.places->heights().size() > 1)
+      s.length_z = value(NoiseNumber::length_z, place, spec_.length_z.value_or(0));
+    if (data_.places->times().size() > 1)
+      s.length_t = value(NoiseNumber::length_t, place, spec_.length_t.value_or(0));
     if (spec_.model == NoiseModel::discrepancy) {
       // In the unit of the data where they have sigma, otherwise beside the sigma that is found.
       const double tau = spec_.tau ? *spec_.tau : data_.mean_sigma * value(NoiseNumber::tau, place, 0);
@@ -140,9 +146,11 @@ class RestrictedLikelihood {
     };
     double sum = term(spec_.tau.has_value(), std::sqrt(s.correlated) * sigma, spec_.tau_prior, data_.range);
     if (std::isfinite(s.length_z))
-      sum += term(spec_.length_z.has_value(), s.length_z, spec_.length_z_prior, reach_of(data_.places->heights()));
+      sum += term(spec_.length_z.has_value(), s.length_z, spec_.length_z_prior,
+                  reach_of(data_.places->heights()));
     if (std::isfinite(s.length_t))
-      sum += term(spec_.length_t.has_value(), s.length_t, spec_.length_t_prior, reach_of(data_.places->times()));
+      sum +=
+          term(spec_.length_t.has_value(), s.length_t, spec_.length_t_prior, reach_of(data_.places->times()));
     return sum;
   }
 
@@ -172,7 +180,8 @@ VectorXd RestrictedLikelihood::found(const VectorXd& from) const {
   for (const Sought& s : sought_) lower.push_back(s.lower), upper.push_back(s.upper);
   nlopt_set_lower_bounds(search.get(), lower.data());
   nlopt_set_upper_bounds(search.get(), upper.data());
-  nlopt_set_min_objective(search.get(), minus_2_log_likelihood, const_cast<RestrictedLikelihood*>(this));  // NOLINT: read only
+  nlopt_set_min_objective(search.get(), minus_2_log_likelihood,
+                          const_cast<RestrictedLikelihood*>(this));  // NOLINT: read only
   nlopt_set_xtol_abs1(search.get(), kNoiseTolerance);
   nlopt_set_maxeval(search.get(), kMostCovariances);
   nlopt_set_initial_step1(search.get(), 0.3);
@@ -196,7 +205,8 @@ VectorXd best_on_lattice(const RestrictedLikelihood& likelihood) {
       const auto k = static_cast<std::size_t>(i);
       place[i] = std::clamp(sought[k].starts[at[k]], sought[k].lower, sought[k].upper);
     }
-    if (const double value = likelihood(place).criterion; value < least || least == HUGE_VAL) least = value, best = place;
+    if (const double value = likelihood(place).criterion; value < least || least == HUGE_VAL)
+      least = value, best = place;
     goes_on = false;
     for (std::size_t k = 0; k < sought.size() && !goes_on; ++k) {
       goes_on = ++at[k] < sought[k].starts.size();
@@ -224,8 +234,9 @@ VectorXd RestrictedLikelihood::standard_errors(const VectorXd& place) const {
   for (Index a = 0; a < n; ++a) {
     second(a, a) = criterion(a, 1, a, 0) + criterion(a, -1, a, 0) - 2 * middle;
     for (Index b = 0; b < a; ++b)
-      second(a, b) = second(b, a) =
-          (criterion(a, 1, b, 1) + criterion(a, -1, b, -1) - criterion(a, 1, b, -1) - criterion(a, -1, b, 1)) / 4;
+      second(a, b) = second(b, a) = (criterion(a, 1, b, 1) + criterion(a, -1, b, -1) -
+                                     criterion(a, 1, b, -1) - criterion(a, -1, b, 1)) /
+                                    4;
   }
   VectorXd errors = VectorXd::Zero(place.size());
   const Eigen::LLT<MatrixXd> llt(second / (2 * kNoiseStep * kNoiseStep));
@@ -260,7 +271,8 @@ std::optional<NoiseNumbers> given_noise(const NoiseSpec& spec, const NoisePlaces
   return NoiseNumbers{shape, estimate_of(spec, shape, 1), {}};
 }
 
-std::optional<NoiseNumbers> estimated_noise(const NoiseSpec& spec, const NoiseData& data, const VectorXd& place) {
+std::optional<NoiseNumbers> estimated_noise(const NoiseSpec& spec, const NoiseData& data,
+                                            const VectorXd& place) {
   if (auto given = given_noise(spec, *data.places)) return given;
   const RestrictedLikelihood likelihood(spec, data);
   if (!likelihood.is_possible()) return std::nullopt;

@@ -101,8 +101,8 @@ void set_error_bars(const Minimum& minimum, Estimate& estimate) {
 }
 
 /// The predictions, or what they would be if the noise were what is left of it when it is whitened.
-std::vector<double> with_white_residuals(const FitSpec& spec, const ResidualRows& rows, const VectorXd& residuals,
-                                         std::vector<double> predicted) {
+std::vector<double> with_white_residuals(const FitSpec& spec, const ResidualRows& rows,
+                                         const VectorXd& residuals, std::vector<double> predicted) {
   for (std::size_t i = 0; rows.noise && i < rows.rows.size(); ++i) {
     const std::size_t k = rows.data(i).front().index;
     const Observation& o = spec.observations.rows[k];
@@ -246,8 +246,8 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     for (std::size_t i = 0; i < checks.size() && !control.is_interrupted(); ++i)
       estimate.parameters[i].check = std::move(checks[i]);
   }
-  estimate.structure =
-      residual_structure(spec.observations, with_white_residuals(spec, objective.rows(), best.residuals, estimate.predicted));
+  estimate.structure = residual_structure(
+      spec.observations, with_white_residuals(spec, objective.rows(), best.residuals, estimate.predicted));
   estimate.warnings = warnings(minimum, estimate);
   if (!remark.empty()) estimate.warnings.push_back(std::string(spec.forward.method.name()) + ": " + remark);
   return estimate;

@@ -83,7 +83,8 @@ StagedSearch::StagedSearch(const FitSpec& spec, const Progress& progress)
     throw unknown_algorithm(spec.search.algorithm);
   if (spec.noise.model == NoiseModel::independent) return;
   if (const std::string refusal = noise_refusal(spec, rows_); !refusal.empty())
-    throw InputError("noise.model", quoted_text(kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)]), refusal);
+    throw InputError("noise.model", quoted_text(kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)]),
+                     refusal);
   places_ = noise_places(spec, rows_);
   if (auto given = given_noise(spec.noise, *places_)) whiten(std::move(*given));
 }
@@ -180,8 +181,8 @@ void StagedSearch::find_whitened(const NoiseData& data) {
       for (double& x : drawn) x = sigma * normal(engine);
       const VectorXd step = qr.solve(rows_.coloured(drawn));
       for (std::size_t j = 0; j < free.size(); ++j)
-        u_[free[j]] = std::clamp(start[free[j]] + step[static_cast<Eigen::Index>(j)], coordinates_.lower()[free[j]],
-                                 coordinates_.upper()[free[j]]);
+        u_[free[j]] = std::clamp(start[free[j]] + step[static_cast<Eigen::Index>(j)],
+                                 coordinates_.lower()[free[j]], coordinates_.upper()[free[j]]);
     }
     for (const ResidualRows& rows : nearly) search_from_here(*make_objective(rows, loss_), kNear);
     search_from_here(*objective_, 0);
@@ -195,16 +196,21 @@ void StagedSearch::find_whitened(const NoiseData& data) {
 void StagedSearch::settle_noise() {
   if (!places_ || given_noise(spec_.noise, *places_)) return;
   noise_warning_.clear();
-  for (int round = 0; round < kMostNoiseRounds && result_.status == Status::ok && !control_.must_stop(); ++round) {
+  for (int round = 0; round < kMostNoiseRounds && result_.status == Status::ok && !control_.must_stop();
+       ++round) {
     const NoiseData data = noise_data();
-    auto now = data.places ? estimated_noise(spec_.noise, data, correlation_ ? correlation_->place : VectorXd())
-                           : std::nullopt;
+    auto now = data.places
+                   ? estimated_noise(spec_.noise, data, correlation_ ? correlation_->place : VectorXd())
+                   : std::nullopt;
     if (!now) {
-      noise_warning_ = data.places ? "too few observations to estimate how their noise is correlated: error bars take it as independent"
-                                   : "the residuals are rounding and say nothing about how noise is correlated: error bars take it as independent";
+      noise_warning_ = data.places ? "too few observations to estimate how their noise is correlated: error "
+                                     "bars take it as independent"
+                                   : "the residuals are rounding and say nothing about how noise is "
+                                     "correlated: error bars take it as independent";
       return;
     }
-    const bool stands = correlation_ && (now->place - correlation_->place).cwiseAbs().maxCoeff() <= kNoiseStands;
+    const bool stands =
+        correlation_ && (now->place - correlation_->place).cwiseAbs().maxCoeff() <= kNoiseStands;
     whiten(std::move(*now));
     objective_ = make_objective(rows_, loss_);
     if (round == 0)
@@ -214,7 +220,8 @@ void StagedSearch::settle_noise() {
     if (stands) return;
   }
   if (result_.status == Status::ok)
-    noise_warning_ = "the correlation of the noise does not stand still: give noise.length_z or noise.length_t";
+    noise_warning_ =
+        "the correlation of the noise does not stand still: give noise.length_z or noise.length_t";
 }
 
 void StagedSearch::leave_bounds(const VectorXd& start) {

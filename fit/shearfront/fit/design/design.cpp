@@ -196,6 +196,9 @@ Observations with_noise(Observations observations, double sigma) {
 double Design::efficiency() const { return std::min(1.0, std::exp(bound - criterion)); }
 
 Design design(const FitSpec& spec, const Estimate& estimate, const DesignSpec& wanted) {
+  if (spec.noise.model != NoiseModel::independent)
+    throw InputError("noise.model", std::string(kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)]),
+                     "must be independent for a design: what correlated measurements say does not add up");
   Sensitivities sensitivities(spec, estimate);
   const std::vector<Index>& free = sensitivities.free();
   if (free.empty()) throw InputError("unknown", "", "must not all be held at a bound");
