@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/staged_search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <array>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -52,10 +48,6 @@ constexpr double kScaleTolerance = 0.05;
 constexpr int kMostNoiseRounds = 20;
 /// It stands still when no length changes by more than this part.
 constexpr double kNoiseStands = 1e-3;
-/// The first of these fits begins from so many further places, as far off as noise may have put the one before, and goes
-/// there through these independent parts of the variance: whitened misfits have a valley for every bin a shock may be in.
-constexpr int kNoiseStarts = 8;
-constexpr std::array kNoiseParts{0.5, 0.1, 0.02};
 
 /// The noise of the rows that depend on an unknown; the others (beds at rest, all of one kind) may fit
 /// exactly and say nothing.
@@ -144,53 +136,13 @@ NoiseData StagedSearch::noise_data() const {
   }
   if (data.sigma_is_given) data.mean_sigma = sum / static_cast<double>(observations.rows.size());
   if (high > low) data.range = high - low;
-  const std::vector<Eigen::Index> free = free_coordinates();
-  data.residuals = objective_->rows().coloured(at.residuals);
-  data.jacobian = objective_->rows().coloured(at.jacobian)(Eigen::all, free);
-  return data;
-}
-
-std::vector<Eigen::Index> StagedSearch::free_coordinates() const {
   std::vector<Eigen::Index> free;
   const std::vector<bool> held = coordinates_.at_bound(u_);
   for (Eigen::Index j = 0; j < u_.size(); ++j)
     if (!held[static_cast<std::size_t>(j)]) free.push_back(j);
-  return free;
-}
-
-void StagedSearch::find_whitened(const NoiseData& data) {
-  std::vector<ResidualRows> nearly(kNoiseParts.size(), rows_);
-  for (std::size_t i = 0; i < nearly.size(); ++i) {
-    NoiseShape shape = correlation_->shape;
-    shape.independent += kNoiseParts[i] * shape.correlated;
-    shape.correlated *= 1 - kNoiseParts[i];
-    nearly[i].noise = std::make_shared<NoiseCovariance>(places_, shape);
-  }
-  const VectorXd start = u_;
-  const std::vector<Eigen::Index> free = free_coordinates();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(data.jacobian);
-  const double sigma = std::sqrt(data.residuals.squaredNorm() / static_cast<double>(data.residuals.size()));
-  boost::random::mt19937_64 engine(spec_.search.seed);
-  boost::random::normal_distribution<double> normal;
-  std::optional<SearchResult> best;
-  // With diffusion the misfit is smooth.
-  for (int k = 0; k <= (has_diffusion() ? 0 : kNoiseStarts) && !control_.must_stop(); ++k) {
-    u_ = start;
-    if (k > 0 && !free.empty()) {
-      VectorXd drawn(data.residuals.size());
-      for (double& x : drawn) x = sigma * normal(engine);
-      const VectorXd step = qr.solve(rows_.coloured(drawn));
-      for (std::size_t j = 0; j < free.size(); ++j)
-        u_[free[j]] = std::clamp(start[free[j]] + step[static_cast<Eigen::Index>(j)],
-                                 coordinates_.lower()[free[j]], coordinates_.upper()[free[j]]);
-    }
-    for (const ResidualRows& rows : nearly) search_from_here(*make_objective(rows, loss_), kNear);
-    search_from_here(*objective_, 0);
-    if (!best || result_.misfit < best->misfit) best = result_;
-  }
-  if (!best) return;
-  result_ = *best;
-  u_ = best->u;
+  data.residuals = objective_->rows().coloured(at.residuals);
+  data.jacobian = objective_->rows().coloured(at.jacobian)(Eigen::all, free);
+  return data;
 }
 
 void StagedSearch::settle_noise() {
@@ -213,10 +165,7 @@ void StagedSearch::settle_noise() {
         correlation_ && (now->place - correlation_->place).cwiseAbs().maxCoeff() <= kNoiseStands;
     whiten(std::move(*now));
     objective_ = make_objective(rows_, loss_);
-    if (round == 0)
-      find_whitened(data);
-    else
-      search_from_here(*objective_, 0);
+    search_from_here(*objective_, 0);
     if (stands) return;
   }
   if (result_.status == Status::ok)

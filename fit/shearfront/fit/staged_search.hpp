@@ -89,9 +89,6 @@ class StagedSearch {
   /// Estimates the correlation of the noise from what the fit leaves and refits, until both stand still.
   void settle_noise();
   [[nodiscard]] NoiseData noise_data() const;
-  /// The first search with correlated noise.
-  void find_whitened(const NoiseData& data);
-  [[nodiscard]] std::vector<Eigen::Index> free_coordinates() const;
   void whiten(NoiseNumbers numbers);
 
   /// Whether other rows than before have no jump near them.
