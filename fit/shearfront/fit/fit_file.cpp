@@ -239,7 +239,8 @@ class FitReader {
   void number_or_estimated(TableReader& table, std::string_view key, std::optional<double>& value,
                            std::string_view constraint, const IsGood& is_good) {
     const toml::node* node = table.node(key);
-    if (!node) return;
+    double number = 0;
+    if (!node) return table.number(key, Need::optional, number);  // only to make the key known
     const std::string what = fmt::format("{}, or \"estimated\"", constraint);
     if (node->is_string()) {
       value.reset();
@@ -247,7 +248,6 @@ class FitReader {
         table.add(*node, table.path(key), what);
       return;
     }
-    double number = 0;
     table.number(key, Need::optional, number);
     if (!table.is_good(key)) return;
     value = number;
