@@ -31,7 +31,7 @@ eval set_subtitle
 estimates_text = ''
 if (n_models > 3) { estimates = '' }  # no room
 do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
-set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', 0.7 * letters) textcolor rgb '#303030'
+set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', 0.58 * letters) textcolor rgb '#303030'
 left = 0.08
 right = 0.42
 bottom = 0.095
