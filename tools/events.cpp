@@ -271,12 +271,11 @@ int events(EventsArguments& arguments) {
   if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     bands = fit::predict_events(scene, *draws, method);
     note_draws(*draws, bands->n_failed);
-    if (!arguments.json) note_bands(bands->n_by_draws, 3 + 2 * bands->interfaces.size());
+    if (!arguments.json) note_bands(*draws, bands->n_by_draws, 3 + 2 * bands->interfaces.size());
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);
-  if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
-    note(result.summary.message);
+  if (!arguments.json) note_approximation(method, result.summary);
   return arguments.plot.empty() ? kDone : draw_events(arguments, scene, *result.timeline);
 }
 
