@@ -1,0 +1,56 @@
+// Axes of a panel: ticks, numbers, title.
+import type { ScaleLinear, ScaleLogarithmic } from "d3-scale";
+import { join, set, svg } from "./svg.ts";
+
+type Scale = ScaleLinear<number, number> | ScaleLogarithmic<number, number>;
+
+export interface Frame {
+  width: number;
+  height: number;
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+interface Tick {
+  value: number;
+  text: string;
+}
+
+function ticks(scale: Scale, n: number): Tick[] {
+  const values = scale.ticks(n);
+  const label = scale.tickFormat(n);
+  return values.map((value) => ({ value, text: label(value).replace("−", "-") }));
+}
+
+export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: string, n = Math.max(2, (frame.width - frame.left) / 80)): void {
+  const y = frame.height - frame.bottom;
+  set(group, { class: "axis", "aria-hidden": "true" });
+  join(group, [...ticks(x, n), { value: NaN, text: title }], (t) => (Number.isNaN(t.value) ? "title" : String(t.value)), () => svg("g"), (g, t) => {
+    g.replaceChildren();
+    if (Number.isNaN(t.value)) {
+      g.append(svg("line", { x1: frame.left, x2: frame.width - frame.right, y1: y, y2: y }));
+      g.append(svg("text", { x: (frame.left + frame.width - frame.right) / 2, y: frame.height - 3, "text-anchor": "middle", class: "title" }, t.text));
+      return;
+    }
+    const at = x(t.value);
+    g.append(svg("line", { x1: at, x2: at, y1: y, y2: y + 4 }));
+    if (t.text) g.append(svg("text", { x: at, y: y + 16, "text-anchor": "middle" }, t.text));
+  });
+}
+
+export function drawYAxis(group: SVGGElement, frame: Frame, y: Scale, title: string, n = Math.max(2, frame.height / 60)): void {
+  set(group, { class: "axis", "aria-hidden": "true" });
+  join(group, [...ticks(y, n), { value: NaN, text: title }], (t) => (Number.isNaN(t.value) ? "title" : String(t.value)), () => svg("g"), (g, t) => {
+    g.replaceChildren();
+    if (Number.isNaN(t.value)) {
+      g.append(svg("line", { x1: frame.left, x2: frame.left, y1: frame.top, y2: frame.height - frame.bottom }));
+      if (t.text) g.append(svg("text", { x: 4, y: 12, class: "title" }, t.text));
+      return;
+    }
+    const at = y(t.value);
+    g.append(svg("line", { x1: frame.left - 4, x2: frame.left, y1: at, y2: at }));
+    if (t.text) g.append(svg("text", { x: frame.left - 7, y: at + 4, "text-anchor": "end" }, t.text));
+  });
+}
