@@ -59,7 +59,7 @@ export class App {
     this.picture = makePicture(engine, writeScene(scene), FINE);
     this.raster = this.picture.raster;
     this.rate.frame.left = this.profile.frame.left = 30;
-    this.mixing.frame = { ...this.mixing.frame, top: 6, bottom: 6 };
+    this.mixing.frame = { ...this.mixing.frame, top: 6, bottom: 8 };
     for (const panel of [this.plane, this.mixing]) panel.onHover = (t) => this.setTime(t);
     this.settle();
   }

@@ -3,6 +3,7 @@ import engineLetters from "virtual:engine";
 import formulas from "virtual:formulas";
 import { App } from "./app.ts";
 import { fromHash, fromLetters, gunzip } from "./bed/link.ts";
+import { textOf } from "./bed/files.ts";
 import { readScene, unitsOf } from "./bed/scene.ts";
 import { Engine } from "./engine/engine.ts";
 import { makeGuide } from "./guide/guide.ts";
@@ -73,7 +74,7 @@ function listenToKeys(app: App): void {
 /** Scenes are opened wherever they are dropped, observations too. */
 function listenToDrops(app: App, fit: FitTab, tabs: () => Tabs, opened: () => void): (file: File) => Promise<void> {
   const take = async (file: File): Promise<void> => {
-    const text = await file.text();
+    const text = await textOf(file);
     if (!/\.toml$/i.test(file.name)) {
       tabs().show("fit");
       fit.openCsv(text, file.name);

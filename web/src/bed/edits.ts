@@ -95,7 +95,13 @@ export function removeJump(scene: Scene, i: number): Scene {
 }
 
 /** First entries of each flux, and the states it knows. */
-const FLUXES: Record<string, { entries: Table; range: [number, number]; needsOpenEnds?: true }> = {
+interface FluxFacts {
+  entries: Table;
+  range: [number, number];
+  needsOpenEnds?: true;
+  needsOneRate?: true; // no interface can carry it
+}
+const FLUXES: Record<string, FluxFacts> = {
   quadratic: { entries: {}, range: [0, 1] },
   cubic: { entries: { gamma: 0.9 }, range: [0, 1] },
   lwr: { entries: { jam: 1 }, range: [0, 1] },
@@ -103,11 +109,13 @@ const FLUXES: Record<string, { entries: Table; range: [number, number]; needsOpe
   triangular: { entries: { critical: 0.3, jam: 1 }, range: [0, 1] },
   "richardson-zaki": { entries: { exponent: 4.65 }, range: [0, 1] },
   "buckley-leverett": { entries: { viscosity_ratio: 0.5 }, range: [0, 1], needsOpenEnds: true },
-  burgers: { entries: { lowest: -1, highest: 1 }, range: [-1, 1], needsOpenEnds: true },
+  burgers: { entries: { lowest: -1, highest: 1 }, range: [-1, 1], needsOpenEnds: true, needsOneRate: true },
   table: { entries: { phi: [0, 0.25, 0.5, 0.75, 1], values: [0, -0.2, -0.25, -0.12, 0] }, range: [0, 1] },
 };
 export const FLUX_NAMES = Object.keys(FLUXES);
 export const needsOpenEnds = (model: string): boolean => FLUXES[model]?.needsOpenEnds ?? false;
+
+export const needsOneRate = (model: string): boolean => FLUXES[model]?.needsOneRate ?? false;
 
 /** Another flux for the whole bed; states are carried over to its range, walls opened where it has none. */
 export function setFlux(scene: Scene, model: string): Scene {
@@ -118,6 +126,7 @@ export function setFlux(scene: Scene, model: string): Scene {
   let changed: Scene = { ...scene, flux: { model, ...entries } };
   if (hasSteps(scene))
     changed = withTable(changed, "initial", { values: numbers(table(scene, "initial"), "values").map((v) => clamp(carried(v), ...range)) });
+  if (needsOneRate(model)) changed = { ...changed, shear_rate: { model: "piecewise", breaks: [], values: [numbers(table(scene, "shear_rate"), "values")[0] ?? 1] } };
   if (needsOpenEnds(model) && endsOf(scene) === "walls") return setEnds(changed, "open");
   return endsOf(scene) === "open" ? setEnds(changed, "open") : changed;
 }

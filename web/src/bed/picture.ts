@@ -29,10 +29,11 @@ export interface Detail {
   rows: number;
   resolution: number;
   mixingPoints: number;
+  curvedFronts: boolean; // whether fronts are drawn where they are curved
 }
 /** While something is dragged; then the plane is made of fronts. */
-export const COARSE: Detail = { columns: 160, rows: 80, resolution: 0.05, mixingPoints: 41 };
-export const FINE: Detail = { columns: 320, rows: 160, resolution: 0.02, mixingPoints: 81 };
+export const COARSE: Detail = { columns: 160, rows: 80, resolution: 0.05, mixingPoints: 41, curvedFronts: false };
+export const FINE: Detail = { columns: 320, rows: 160, resolution: 0.02, mixingPoints: 81, curvedFronts: true };
 
 export function spread(low: number, high: number, n: number): number[] {
   return Array.from({ length: n }, (_, i) => low + ((high - low) * i) / (n - 1));
@@ -105,9 +106,10 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
   } catch {
     raster = { method, columns: detail.columns, rows: detail.rows, phi: engine.solve(method, columnTimes(end, detail.columns), heights).phi };
   }
+  // Curved fronts are drawn as many short segments, which take longer than the plane itself.
   let fronts: Front[] = [];
   let collisions: Collision[] = [];
-  if (quick.startsWith("front")) {
+  if (quick.startsWith("front") && (facts.isLayered || detail.curvedFronts)) {
     try {
       ({ fronts, collisions } = engine.fronts(detail.resolution, end));
     } catch {

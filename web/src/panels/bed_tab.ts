@@ -77,6 +77,7 @@ function fluxBox(app: App): HTMLElement {
   return box("Flux",
     choice("f(φ)", edit.FLUX_NAMES, model, (to) => app.change(edit.setFlux(app.scene, to)), "flux-model"), formula,
     ...entries.map(([key, value]) => field(key, Number(value), (x) => app.change(edit.setFluxEntry(app.scene, key, x)), `flux-${key}`)),
+    ...(edit.needsOneRate(model) ? [html("p", { class: "note" }, "Its bed has one rate everywhere: the flux does not vanish at the ends of its states, so no interface passes it on.")] : []),
     ...(hasManyFluxes(scene) ? [html("p", { class: "note" }, "Layers of this bed have fluxes of their own; choosing one replaces them all.")] : []));
 }
 

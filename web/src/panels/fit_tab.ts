@@ -1,6 +1,7 @@
 // From measurements to the bed: residuals, the search under way, intervals, warnings.
 import datasets from "virtual:datasets";
 import type { App } from "../app.ts";
+import { textOf } from "../bed/files.ts";
 import { expanded, fieldsOf, withValues } from "../bed/entries.ts";
 import { readScene, type Scene, type Table, writeScene } from "../bed/scene.ts";
 import type { Estimate } from "../engine/engine.ts";
@@ -61,7 +62,10 @@ export class FitTab {
       const data = DATASETS[Number(this.choose.value)];
       if (this.choose.value !== "" && data) this.openDataSet(data);
     });
-    this.file.addEventListener("change", () => void this.file.files?.[0]?.text().then((text) => this.openCsv(text, this.file.files![0]!.name)));
+    this.file.addEventListener("change", () => {
+      const file = this.file.files?.[0];
+      if (file) void textOf(file).then((text) => this.openCsv(text, file.name));
+    });
     this.run.addEventListener("click", () => this.begin());
     this.stop.addEventListener("click", () => this.end("stopped; the bed on the screen is the last point of the search"));
     for (const select of [this.pair.a, this.pair.b]) select.addEventListener("change", () => this.showEllipse());
@@ -102,7 +106,12 @@ export class FitTab {
     this.showResiduals();
   }
 
-  /** The fit file: what the page asks of the program. */
+  /** What the engine is asked: a fit file without the files it names, which the engine has. */
+  private get task(): string {
+    const { scene: _, observations: __, ...rest } = this.fit;
+    return writeScene(rest);
+  }
+  /** The fit file of the program. */
   get fitToml(): string {
     return writeScene({ name: String(this.app.scene["name"] ?? "fit"), ...this.fit, scene: "scene.toml", observations: "observations.csv" });
   }
@@ -151,7 +160,7 @@ export class FitTab {
     this.state.textContent = "searching ...";
     this.worker.onmessage = ({ data }: MessageEvent<FitNews>) => this.hear(data, scene, names);
     this.worker.onerror = (event) => this.end(`the worker stopped: ${event.message}`);
-    const task: FitTask = { module: app.module, scene: app.toml, observations: this.csv, fit: this.fitToml };
+    const task: FitTask = { module: app.module, scene: app.toml, observations: this.csv, fit: this.task };
     this.worker.postMessage(task);
     app.history.push(scene);
   }
@@ -213,7 +222,7 @@ export class FitTab {
     let points: [number, number][] = [];
     if (this.csv && this.chosen.length > 0) {
       try {
-        const predicted = this.app.engine.predict(this.fitToml);
+        const predicted = this.app.engine.predict(this.task);
         points = rows.map((row, i) => [row.z, predicted[i]! - row.value]);
       } catch (error) {
         this.state.textContent = (error as Error).message;

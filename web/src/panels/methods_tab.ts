@@ -84,9 +84,14 @@ export class MethodsTab {
 
   private run(method: string): Measured | undefined {
     try {
-      const begin = performance.now();
-      this.app.engine.pieces(method, this.app.t, false);
-      const ms = performance.now() - begin;
+      let ms = Infinity;
+      let spent = 0;
+      for (let i = 0; i < 5 && spent < 8; ++i) { // the best of some short runs: others use this machine as well
+        const begin = performance.now();
+        this.app.engine.pieces(method, this.app.t, false);
+        ms = Math.min(ms, performance.now() - begin);
+        spent += performance.now() - begin;
+      }
       const pieces = this.app.engine.pieces(method, this.app.t, true);
       return { l1: pieces.l1, ms: Math.max(ms, 0.01), pieces };
     } catch {

@@ -18,20 +18,28 @@ interface Tick {
   text: string;
 }
 
+/** On a logarithmic scale the powers of ten, and 2 and 5 where there are few. */
 function ticks(scale: Scale, n: number): Tick[] {
+  const isLog = "base" in scale;
   const values = scale.ticks(n);
-  const label = scale.tickFormat(n);
-  return values.map((value) => ({ value, text: label(value).replace("−", "-") }));
+  if (!isLog) {
+    const label = scale.tickFormat(n);
+    return values.map((value) => ({ value, text: label(value).replace("−", "-") }));
+  }
+  const lead = (x: number): number => Math.round(x / 10 ** Math.floor(Math.log10(x) + 1e-9));
+  const powers = values.filter((x) => lead(x) === 1);
+  const shown = powers.length >= 2 ? powers : values.filter((x) => [1, 2, 5].includes(lead(x)));
+  return shown.map((value) => ({ value, text: value >= 1e-2 && value < 1e4 ? String(Number(value.toPrecision(2))) : value.toExponential(0) }));
 }
 
-export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: string, n = Math.max(2, (frame.width - frame.left) / 80)): void {
+export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: string, n: number = Math.max(2, (frame.width - frame.left) / 80)): void {
   const y = frame.height - frame.bottom;
   set(group, { class: "axis", "aria-hidden": "true" });
   join(group, [...ticks(x, n), { value: NaN, text: title }], (t) => (Number.isNaN(t.value) ? "title" : String(t.value)), () => svg("g"), (g, t) => {
     g.replaceChildren();
     if (Number.isNaN(t.value)) {
       g.append(svg("line", { x1: frame.left, x2: frame.width - frame.right, y1: y, y2: y }));
-      g.append(svg("text", { x: (frame.left + frame.width - frame.right) / 2, y: frame.height - 3, "text-anchor": "middle", class: "title" }, t.text));
+      if (t.text) g.append(svg("text", { x: (frame.left + frame.width - frame.right) / 2, y: frame.height - 3, "text-anchor": "middle", class: "title" }, t.text));
       return;
     }
     const at = x(t.value);
@@ -40,7 +48,7 @@ export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: str
   });
 }
 
-export function drawYAxis(group: SVGGElement, frame: Frame, y: Scale, title: string, n = Math.max(2, frame.height / 60)): void {
+export function drawYAxis(group: SVGGElement, frame: Frame, y: Scale, title: string, n = Math.max(1, frame.height / 60)): void {
   set(group, { class: "axis", "aria-hidden": "true" });
   join(group, [...ticks(y, n), { value: NaN, text: title }], (t) => (Number.isNaN(t.value) ? "title" : String(t.value)), () => svg("g"), (g, t) => {
     g.replaceChildren();

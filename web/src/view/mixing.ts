@@ -23,7 +23,7 @@ export function drawMixing(panel: Panel, picture: Picture, t: number, times: Nam
   const seen = times.filter((m) => Number.isFinite(m.t) && m.t <= picture.tMax);
   join(panel.marks, [...seen.map((m) => ({ key: m.id, t: m.t, class: "interface" })), { key: "now", t, class: "now" }], (m) => m.key,
     () => svg("line"), (l, m) => set(l, { class: m.class, x1: panel.x(m.t), x2: panel.x(m.t), y1: low, y2: high }));
-  panel.drawAxes("", "");
+  panel.drawAxes(undefined, "");
   const best = mixing.psi.indexOf(Math.max(...mixing.psi));
   panel.svg.setAttribute("aria-label", `Mixing Psi over time: 0 segregated, 1 uniform. Largest, ${mixing.psi[best]!.toFixed(2)}, near t = ${mixing.t[best]!.toPrecision(3)}.`);
 }

@@ -31,7 +31,7 @@ export class Panel {
   readonly marks = svg("g", { "aria-hidden": "true" });
   readonly x: ScaleLinear<number, number> = scaleLinear();
   readonly y: ScaleLinear<number, number> = scaleLinear();
-  frame: Frame = { width: 0, height: 0, left: 44, right: 14, top: 20, bottom: 34 };
+  frame: Frame = { width: 0, height: 0, left: 44, right: 14, top: 26, bottom: 34 };
   private readonly xAxis = svg("g");
   private readonly yAxis = svg("g");
   private readonly handleGroup = svg("g");
@@ -54,7 +54,7 @@ export class Panel {
   /** Takes the size that the page gives it. */
   resize(): void {
     const box = this.svg.parentElement!.getBoundingClientRect();
-    this.frame = { ...this.frame, width: Math.max(120, box.width), height: Math.max(120, box.height) };
+    this.frame = { ...this.frame, width: Math.max(80, box.width), height: Math.max(40, box.height) };
     set(this.svg, { viewBox: `0 0 ${this.frame.width} ${this.frame.height}`, width: this.frame.width, height: this.frame.height });
     const ratio = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(this.frame.width * ratio);
@@ -77,8 +77,8 @@ export class Panel {
     return context;
   }
 
-  drawAxes(xTitle: string, yTitle: string): void {
-    drawXAxis(this.xAxis, this.frame, this.x, xTitle);
+  drawAxes(xTitle: string | undefined, yTitle: string): void {
+    if (xTitle !== undefined) drawXAxis(this.xAxis, this.frame, this.x, xTitle);
     drawYAxis(this.yAxis, this.frame, this.y, yTitle);
   }
 
