@@ -11,7 +11,7 @@ import { drawMixing } from "./view/mixing.ts";
 import { brief, milliseconds, withUnit } from "./view/numbers.ts";
 import { Panel } from "./view/panel.ts";
 import { drawPlane, planeInWords, type PlaneMarks } from "./view/plane.ts";
-import { drawProfile } from "./view/profile.ts";
+import { type Curve, drawProfile } from "./view/profile.ts";
 import { drawRate } from "./view/rate.ts";
 import { drawnRate } from "./bed/edits.ts";
 
@@ -45,6 +45,7 @@ export class App {
   private isDrawing = false;
   private idle = 0;
   private turn = 0;
+  private start: { of: Picture; curve: Curve } | undefined;
   private stroke: { x: number; y: number }[] = [];
   private readonly listeners: Listener[] = [];
 
@@ -145,7 +146,7 @@ export class App {
   /** Everything anew; while dragging coarser, and with the axes as they are. */
   update(isDrag: boolean): void {
     const tMax = this.timeShown ?? (isDrag ? this.picture.tMax : undefined);
-    const detail = { ...(isDrag ? COARSE : FINE) };
+    const detail = isDrag ? COARSE : { ...FINE, frontStep: this.frontResolution };
     try {
       this.picture = makePicture(this.engine, this.toml, detail, tMax);
       this.complaint = "";
@@ -165,14 +166,13 @@ export class App {
   /** What is fixed while something is dragged. */
   private settle(): void {
     this.widest = 1.2 * Math.max(...this.picture.rate.speed);
-    this.refreshFronts();
   }
 
   /** Fronts as the page shows them, with steps of their own in the fans. */
   refreshFronts(): void {
     if (this.picture.fronts.length === 0 && this.picture.collisions.length === 0) return;
     try {
-      Object.assign(this.picture, this.engine.fronts(this.frontResolution, this.picture.tMax));
+      Object.assign(this.picture, this.engine.fronts(this.frontResolution, this.picture.tMax), { frontStep: this.frontResolution });
     } catch {
       // Those of the raster stay.
     }
@@ -259,8 +259,8 @@ export class App {
     const data = nearestData(this.data, this.t, this.picture.tMax);
     try {
       const now = profileAt(this.engine, this.picture, this.t);
-      const start = profileAt(this.engine, this.picture, 0);
-      drawProfile(this.profile, this.picture, now, start, data, "φ");
+      if (this.start?.of !== this.picture) this.start = { of: this.picture, curve: profileAt(this.engine, this.picture, 0) };
+      drawProfile(this.profile, this.picture, now, this.start.curve, data, "φ");
       this.profile.svg.setAttribute("aria-label", `phi over z at t = ${brief(this.t)}: from ${brief(now.phi[0]!)} at z = ${brief(facts.bottom)} to ${brief(now.phi.at(-1)!)} at z = ${brief(facts.top)}`);
     } catch {
       this.profile.below.replaceChildren();

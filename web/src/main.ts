@@ -139,7 +139,7 @@ async function start(): Promise<void> {
     isLinked = false;
     app = new App(engine, module, first.toml);
   }
-  const fit = new FitTab(app);
+  const fit = new FitTab(app, () => guide.show(undefined));
   let tabs: Tabs;
   const methods = new MethodsTab(app, () => tabs?.shown === "methods");
   const collisions = new CollisionsTab(app, () => tabs?.shown === "collisions");
@@ -162,10 +162,10 @@ async function start(): Promise<void> {
   const take = listenToDrops(app, fit, () => tabs, () => guide.show(undefined));
   const complaint = html("p", { id: "complaint", role: "alert", hidden: true });
   const left = html("div", { class: "planes" }, app.plane.figure, app.mixing.figure);
-  const scale = html("div", { id: "scale", "aria-hidden": "true" }, "φ = 0 ", html("span"), " 1");
+  const scale = html("div", { id: "scale", "aria-hidden": "true" }, "φ = 0 ", html("span"), " 1", html("span", { class: "hint" }, "Drag the white knobs; move over the plane to choose t."));
   document.body.replaceChildren(
     header(app, fit, guide.select, take), complaint, guide.element,
-    html("main", {}, html("div", { id: "panels" }, left, app.profile.figure, app.rate.figure), scale, timeBar(app), eventsTable(app), tabs.element, reading(app)),
+    html("main", {}, html("div", { id: "panels" }, left, app.profile.figure, app.rate.figure), scale, timeBar(app), html("div", { id: "lower" }, eventsTable(app), tabs.element), reading(app)),
     html("footer", {}, "Computed here, by the engines of shearfront: what you see can be saved as a scene file and run by the program. Nothing leaves this page."),
   );
   app.resize();

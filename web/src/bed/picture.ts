@@ -16,6 +16,7 @@ export interface Picture {
   noEvents: string;
   events: EventTimes | undefined;
   fronts: Front[];
+  frontStep: number; // largest step of phi in their fans
   collisions: Collision[];
   tMax: number;
   raster: Raster;
@@ -27,13 +28,14 @@ export interface Picture {
 export interface Detail {
   columns: number;
   rows: number;
-  resolution: number;
+  resolution: number; // of the tracking that makes the plane
+  frontStep: number; // of the fronts that are drawn
   mixingPoints: number;
   curvedFronts: boolean; // whether fronts are drawn where they are curved
 }
 /** While something is dragged; then the plane is made of fronts. */
-export const COARSE: Detail = { columns: 160, rows: 80, resolution: 0.05, mixingPoints: 41, curvedFronts: false };
-export const FINE: Detail = { columns: 320, rows: 160, resolution: 0.02, mixingPoints: 81, curvedFronts: true };
+export const COARSE: Detail = { columns: 128, rows: 64, resolution: 0.05, frontStep: 0.05, mixingPoints: 25, curvedFronts: false };
+export const FINE: Detail = { columns: 320, rows: 160, resolution: 0.02, frontStep: 0.04, mixingPoints: 81, curvedFronts: true };
 
 export function spread(low: number, high: number, n: number): number[] {
   return Array.from({ length: n }, (_, i) => low + ((high - low) * i) / (n - 1));
@@ -98,7 +100,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
   }
   const rate = rateCurve(engine, facts);
   const end = tMax ?? naturalTime(events, facts, Math.min(...rate.speed));
-  const quick = quickMethod(engine, method, detail.resolution);
+  const quick = quickMethod(engine, method, facts.isLayered ? detail.resolution : COARSE.resolution);
   const heights = middles(facts.bottom, facts.top, detail.rows);
   let raster: Raster;
   try {
@@ -111,7 +113,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
   let collisions: Collision[] = [];
   if (quick.startsWith("front") && (facts.isLayered || detail.curvedFronts)) {
     try {
-      ({ fronts, collisions } = engine.fronts(detail.resolution, end));
+      ({ fronts, collisions } = engine.fronts(detail.frontStep, end));
     } catch {
       // No fronts are drawn; the plane has them in its colours.
     }
@@ -126,7 +128,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
     }
   }
   return {
-    facts, method, events, noEvents, fronts, collisions, tMax: end, raster,
+    facts, method, events, noEvents, fronts, collisions, frontStep: detail.frontStep, tMax: end, raster,
     mixing: { t: psi.length > 0 ? t : [], psi }, rate, ms: performance.now() - begin,
   };
 }

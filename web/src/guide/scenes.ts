@@ -25,7 +25,7 @@ export const GUIDED: readonly GuidedScene[] = [
       "Where an edge meets a wall the grains pile up and shocks start, which meet at t*: then the bed is segregated, the other way round.",
     ],
     question: "Drag the interface from z = 0.29 up towards the jump. Which event times change at once, and which do not?",
-    answer: "t_c = (z0 - zc)/k1 and t_0 shrink, t_1 and t* stay: the upper edge of the fan and the last shock run in the slow layer alone.",
+    answer: "t_c = (z0 - zc)/k1 and t_0 = t_c + zc/k0 shrink; t_1 = (1 - z0)/k1 and t* = 2/k1 stay, as the upper edge of the fan and the last shocks run in the slow layer alone.",
   },
   {
     id: "exponential", title: "An exponential shear rate", toml: of("may-2010-exponential/scene.toml"), tab: "bed",
@@ -55,7 +55,7 @@ export const GUIDED: readonly GuidedScene[] = [
       "At green the queue dissolves in a fan, whose lower edge races to catch up with the end of the queue.",
     ],
     question: "Double the density that arrives (start, and beyond the bottom). Does the queue still dissolve before it fills the road?",
-    answer: "With 0.4 the end of the queue runs back faster; watch where the shock meets the fan, and whether that is still on the road.",
+    answer: "Yes: with a density d the end of the queue runs back with speed d, and the fan catches it at z = (1 - 2d)/(1 - d): at 3/4 for d = 0.2, at 1/3 for d = 0.4, and just at the end of the road for d = 1/2.",
   },
   {
     id: "mixes-first", title: "It mixes before it segregates", toml: of("shear-cell-ideal/scene-inverse.toml"), tab: "bed",
@@ -85,7 +85,7 @@ export const GUIDED: readonly GuidedScene[] = [
       "Below, three methods do the same profile: watch what an error half as large costs each of them.",
     ],
     question: "How many cells does it take to be as accurate as front tracking with a step of 0.05, and how much longer does that last?",
-    answer: "Several hundred to a thousand: errors fall like 1/N or less at shocks, and the work grows like N squared.",
+    answer: "Some 400, and roughly ten times as long: the error falls like 1/N at shocks while the work grows like N squared.",
   },
   {
     id: "particles", title: "A particle simulation and its misfit", toml: of("dem-shear-cell-piecewise/scene-5-layers.toml"), tab: "fit", dataset: "dem-shear-cell-piecewise/observations-early.csv",
@@ -95,6 +95,6 @@ export const GUIDED: readonly GuidedScene[] = [
       "The warnings say so, and that the error bars are too small: the model has no diffusion, and grains near the walls behave otherwise.",
     ],
     question: "Fit, then read the warnings: which of the five rates would you believe, and what would you measure next?",
-    answer: "Those of the middle layers, where the fan passes early. The bands beside the estimates assume independent noise, which this is not: a model with diffusion halves the residuals.",
+    answer: "Those of the middle layers, where the fan has passed in the time of the data. The intervals assume independent noise, which these residuals are not. The profile in the middle is smeared where the model has a sharp edge: look for diffusion, and measure early and near the jump.",
   },
 ];

@@ -8,7 +8,7 @@ import { html, join, set } from "../view/svg.ts";
 const WHY: Record<string, string> = {
   "t_c": "A wave runs from the jump of the start to the interface: pure grains next to it, so with the speed s a of its layer. Until then the layer beyond does not know of it.",
   "t_0": "The lower edge of the fan of waves meets the bottom. From here on small grains pile up there: a shock rises.",
-  "t_1": "The upper edge of the fan meets the top. Before it the fan has spread over the layers and mixed them; after it large grains pile up at the top and a shock runs down, so Ψ is largest about here.",
+  "t_1": "The upper edge of the fan meets the top. By now the fan covers nearly the whole bed, and inside a fan both kinds of grains are present at every height: the bed is about as well mixed as it gets. From here on large grains pile up at the top, and a shock of pure large grains runs down. The mixing Ψ in the strip goes on rising a little, while the fan flattens, and falls when the shocks take away more.",
   "t^_c": "The last shock has passed the interface.",
   "t*": "The shock from the bottom and that from the top have met: all small grains lie below, all large ones above.",
 };

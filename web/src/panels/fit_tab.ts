@@ -48,19 +48,21 @@ export class FitTab {
   private readonly ellipseBox = html("section", { class: "card", hidden: true }, html("h3", {}, "What is known together"), html("div", { class: "row" }, this.pair.a, this.pair.b), this.charts.ellipse.element,
     html("p", { class: "note" }, "95 % of both together inside the ellipse; the lines are the intervals of each alone."));
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: App, private readonly opened: () => void) {
     const drop = html("div", { class: "drop", id: "drop" }, "Drop a CSV with columns t, z, phi (or M; width, sigma) here, or ", html("label", {}, "open one ", this.file), ".");
     this.element = html("div", {},
       html("p", { class: "lead" }, "Measured φ, and which a(z) explains it. Drag the rates until the residuals look like noise, or let the search do it: it starts from the bed on the screen."),
       html("div", { class: "row" }, html("label", { class: "field wide" }, "data shipped with the page", this.choose)), drop, this.about,
       this.unknowns, html("div", { class: "row" }, this.run, this.stop), this.state,
       html("div", { class: "cards" },
-        html("section", { class: "card wide" }, html("h3", {}, "Estimates"), this.result, this.warnings),
+        html("section", { class: "card full" }, html("h3", {}, "Estimates"), this.result, this.warnings),
         html("section", { class: "card" }, html("h3", {}, "Residuals"), this.charts.residuals.element),
         html("section", { class: "card" }, html("h3", {}, "The search"), this.charts.course.element), this.ellipseBox));
     this.choose.addEventListener("change", () => {
       const data = DATASETS[Number(this.choose.value)];
-      if (this.choose.value !== "" && data) this.openDataSet(data);
+      if (this.choose.value === "" || !data) return;
+      this.openDataSet(data);
+      this.opened();
     });
     this.file.addEventListener("change", () => {
       const file = this.file.files?.[0];

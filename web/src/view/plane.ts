@@ -30,6 +30,8 @@ function drawRaster(context: CanvasRenderingContext2D, panel: Panel, raster: Ras
 /** Fronts as lines: thin for the many of a fan, thick for shocks. White on black, to be seen on any colour. */
 function drawFronts(context: CanvasRenderingContext2D, panel: Panel, picture: Picture): void {
   const states = picture.facts.highest - picture.facts.lowest;
+  // Near the extremum of the flux fans of curved fronts have wider steps.
+  const widestStep = (picture.facts.isLayered ? 1.5 : 5) * picture.frontStep;
   context.lineCap = "round";
   const line = (f: Picture["fronts"][number]): void => {
     context.beginPath();
@@ -39,7 +41,7 @@ function drawFronts(context: CanvasRenderingContext2D, panel: Panel, picture: Pi
   };
   for (const f of picture.fronts) {
     const strength = Math.abs(f.above - f.below) / states;
-    const isShock = strength > 0.08;
+    const isShock = strength > widestStep;
     context.strokeStyle = isShock ? "#000" : "rgba(255,255,255,0.35)";
     context.lineWidth = isShock ? 3.4 : 0.7;
     line(f);
