@@ -116,6 +116,7 @@ class Prediction:
         return pandas().DataFrame({name: values.ravel() for name, values in columns.items()})
 
 
+@with_examples
 @dataclass(frozen=True)
 class RateBand:
     """s a(z) of a fit with its pointwise 95 % band; NaN where an unknown without error bar has a part in it.
@@ -134,6 +135,24 @@ class RateBand:
     a: FloatArray
     lower: FloatArray
     upper: FloatArray
+
+    def __repr__(self) -> str:
+        return f"<RateBand at {self.z.size} heights>"
+
+    def to_dataframe(self) -> Any:
+        """A table with a row per height; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns z, a, lower, upper.
+
+        Examples
+        --------
+        >>> found.rate_band().to_dataframe().columns.tolist()
+        ['z', 'a', 'lower', 'upper']
+        """
+        return pandas().DataFrame(vars(self))
 
 
 @with_examples

@@ -121,6 +121,7 @@ def _docstring(list_name: str, model: dict[str, Any]) -> str:
     lines = [f"{model.get('formula', model['name'])}: {what}.", ""]
     if states := model.get("states"):
         lines += [f"States: {states}.", ""]
+    lines += [f'In scene files: ``model = "{model["name"]}"``.', ""]
     if model["fields"] or model["choices"]:
         lines += ["Parameters", "----------"]
     for field in fields_of(model):
@@ -130,7 +131,6 @@ def _docstring(list_name: str, model: dict[str, Any]) -> str:
         lines.append(f"    {'> 0' if field['is_positive'] else 'Any sign'}{_MEASURE[field['measure']]}{default}.")
     for key, names, initial in model["choices"]:
         lines += [f"{key} : {{{', '.join(repr(n) for n in names)}}}, optional", f"    Default {initial!r}."]
-    lines += ["", f'In scene files: ``model = "{model["name"]}"``.']
     return "\n".join(lines)
 
 

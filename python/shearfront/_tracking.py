@@ -101,7 +101,7 @@ class Tracking:
         """How it went so far: collisions, most fronts, levels."""
         return self._engine.summary
 
-    def advance(self, t: float) -> str:
+    def advance(self, t: float = np.inf) -> str:
         """Goes on to time t; infinity to the steady state.
 
         Returns
@@ -116,7 +116,7 @@ class Tracking:
 
         Parameters
         ----------
-        t : float
+        t : float, optional
             Not before the time reached.
 
         Examples

@@ -54,6 +54,37 @@ TEST(FitProfile, OfALinearRegression) {
   }
 }
 
+/// At an end of the interval of one unknown, the others fitted anew to the same data with it fixed leave a misfit that has risen by
+/// half the quantile of chi^2.
+TEST(FitProfile, EndsWhereTheFitOfTheOthersHasRisenByTheQuantile) {
+  const auto truth = small_above_large({0.29}, {3.15, 0.5});
+  FitSpec spec = fit_of(truth,
+                        observed(truth,
+                                 {{0.5, 1, 1.5, 2, 3, 4},
+                                  {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
+                                  Quantity::cumulative,
+                                  0},
+                                 0.01, 1, true),
+                        {"shear_rate.values"}, {2.5, 0.7});
+  spec.uncertainty.profile = true;
+  const Estimate e = fit(spec);
+  int n_ends = 0;
+  for (const std::size_t fixed : {0U, 1U}) {
+    ASSERT_TRUE(e.parameters[fixed].profile95);
+    for (const double end : {e.parameters[fixed].profile95->low, e.parameters[fixed].profile95->high}) {
+      if (std::isnan(end)) continue;
+      SceneSpec<double> held = truth;
+      std::get<Piecewise<double>>(held.shear_rate).values[fixed] = end;
+      const std::size_t other = 1 - fixed;
+      FitSpec rest = fit_of(held, spec.observations, {"shear_rate.values[" + std::to_string(other) + "]"},
+                            {e.parameters[other].estimate});
+      EXPECT_NEAR(fit(rest).misfit - e.misfit, 3.841458820694124 / 2, 0.01) << e.parameters[fixed].name;
+      ++n_ends;
+    }
+  }
+  EXPECT_GE(n_ends, 3);
+}
+
 TEST(FitProfile, AgreesWithErrorBarsForSmallNoise) {
   // Rows with independent noise, sums with correlated noise, and a robust loss.
   const auto truth = small_above_large({0.29}, {3.15, 0.5});

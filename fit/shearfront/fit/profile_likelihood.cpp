@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -22,6 +23,7 @@ namespace shearfront::fit {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLevel = 0.95;
@@ -31,6 +33,10 @@ constexpr double kFirstStep = 0.1;
 constexpr double kVeryFar = 100;
 /// How well the place is found, relative to its distance, beyond which the model has no solution.
 constexpr double kEdgeTolerance = 0.02;
+/// Newton's method to an end: a step of this share of kEndTolerance is the last, after so many it does not lead there. Steps of
+/// Gauss-Newton shrink by a factor that the residuals decide, so the last is taken well below what is asked for.
+constexpr double kLastStep = 0.2;
+constexpr int kMostNewtonSteps = 12;
 /// A misfit lower than the minimum by more than this, in units of chi^2, is another minimum.
 constexpr double kLower = 1e-3;
 
@@ -72,6 +78,7 @@ class Side {
   End end(double scale, double quantile, double first_step, double bound) {
     scale_ = scale;
     target_ = std::sqrt(quantile);
+    if (const double place = newton_end(first_step); !std::isnan(place)) return {place, kUnknown, {}};
     const double limit = std::abs(bound - from_);
     double inside = 0, below = -target_, edge = std::numeric_limits<double>::infinity();
     double outside = std::min(first_step, limit);
@@ -145,6 +152,57 @@ class Side {
       if (2 * (best.misfit - misfit_) < scale_ * target_ * target_) break;
     }
     return best;
+  }
+
+  /// The end by Newton's method on all coordinates at once: there F has risen by scale * quantile / 2 and its gradient in
+  /// the others is 0. With g, H = J'J of least squares at u, the others o follow coordinate j by d_o = -H_oo^-1 (g_o + H_oj d_j),
+  /// which leaves a parabola in d_j. NaN where it does not lead there inside the bounds: for the slow road. Some six
+  /// evaluations instead of ten refits. Where the misfit has several valleys it is the end of the one of the estimate. Source: Venzon & Moolgavkar (1988), with H of Gauss-Newton.
+  double newton_end(double first_step) {
+    const Coordinates& box = objective_->coordinates();
+    if (!objective_->has_derivatives() || objective_->loss().is_robust || known_.size() > 0) return kUnknown;
+    const std::vector<bool> at_bound = box.at_bound(u_);
+    if (std::find(at_bound.begin(), at_bound.end(), true) != at_bound.end()) return kUnknown;
+    const Index n = u_.size();
+    const double target = misfit_ + scale_ * target_ * target_ / 2;
+    VectorXd u = u_;
+    for (int step = 0; step < kMostNewtonSteps && !objective_->control().must_stop(); ++step) {
+      const Objective::Evaluation& at = objective_->evaluate(u, true);
+      if (!at.is_valid) return kUnknown;
+      const MatrixXd H = at.jacobian.transpose() * at.jacobian;
+      const VectorXd g = at.jacobian.transpose() * at.residuals;
+      // H of the others with a 1 in the place of j is solved for g_o and H_oj at once.
+      MatrixXd others = H, sides(n, 2);
+      others.row(j_).setZero();
+      others.col(j_).setZero();
+      others(j_, j_) = 1;
+      sides.col(0) = g;
+      sides.col(1) = H.col(j_);
+      sides.row(j_).setZero();
+      const Eigen::LLT<MatrixXd> factors(others);
+      if (factors.info() != Eigen::Success) return kUnknown;
+      const MatrixXd solved = factors.solve(sides);
+      const double decrement = sides.col(0).dot(solved.col(0)) / 2;
+      const double curve = H(j_, j_) - sides.col(1).dot(solved.col(1));
+      const double slope = g[j_] - sides.col(1).dot(solved.col(0));
+      const double rest = at.misfit - decrement - target;
+      const double root = slope * slope - 2 * curve * rest;
+      if (!(curve > 0) || !(root >= 0)) return kUnknown;
+      double move = (direction_ * std::sqrt(root) - slope) / curve;
+      if (step == 0) move = direction_ * first_step;  // g is 0 up to where the search ended
+      const double distance = direction_ * (u[j_] + move - from_);
+      if (!(distance > 0)) return kUnknown;
+      u -= solved.col(0) + move * solved.col(1);
+      u[j_] += move;
+      if ((u.array() < box.lower().array()).any() || (u.array() > box.upper().array()).any()) return kUnknown;
+      if (step == 0 || std::abs(move) > kLastStep * kEndTolerance * distance) continue;
+      // A place where the gradient is 0 need not be a minimum.
+      const SearchResult refit = search_ceres(*objective_, u, spec_, fixed_);
+      if (!(std::abs(refit.misfit - target) <= kEndTolerance * 10 * (target - misfit_))) return kUnknown;
+      u_ = refit.u;
+      return u_[j_];
+    }
+    return kUnknown;
   }
 
   double crossing(double inside, double below, double outside, double above) {

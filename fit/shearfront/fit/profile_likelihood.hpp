@@ -27,12 +27,14 @@ struct Profiles {
 /// the covariance of the estimate. Unlike estimate -+ error they need no linear model: the intervals follow
 /// the curved misfit, stop where the misfit jumps, and are the same for a parameter and its logarithm.
 ///
-/// Each end is bracketed from the standard error outwards and found by TOMS 748 to kEndTolerance of its
+/// With exact derivatives and least squares each end is found by Newton's method on all coordinates at once, in some five
+/// evaluations. Where that does not lead there (bounds, jumps of the misfit, no solution), and without derivatives, it
+/// is bracketed from the standard error outwards and found by TOMS 748 to kEndTolerance of its
 /// distance, with at most kMostRefits refits (Ceres) of the others, each from the last one; where that has no
 /// solution, or ends beyond the interval, also from nearer to the start values of the fit, and the lower
 /// counts. An end not reached inside the bounds of the parameter, or up to where the model has no solution,
 /// stays open and is warned about; so is a misfit below the minimum. Preconditions: no shape; `estimate` is
-/// the minimum of `objective`, usable. Cost: about 10 refits a parameter. Source: Venzon & Moolgavkar (1988);
+/// the minimum of `objective`, usable. Cost: about 10 evaluations a parameter, or 10 refits. Source: Venzon & Moolgavkar (1988);
 /// scaling: Chandler & Bate (2007).
 [[nodiscard]] Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters,
                                          const Objective& objective, const Estimate& estimate,
