@@ -2,7 +2,7 @@
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";
 import { unitsOf } from "../bed/scene.ts";
-import { full } from "../view/numbers.ts";
+import { brief, full } from "../view/numbers.ts";
 import { html, join, set } from "../view/svg.ts";
 
 const WHY: Record<string, string> = {
@@ -20,7 +20,10 @@ export function eventsTable(app: App): HTMLElement {
   const caption = html("caption", {}, "Event times");
   const section = html("section", { id: "events", "aria-label": "Event times" }, html("table", {}, caption, html("thead", {}, head), body), note);
 
-  const fill = (): void => {
+  const said = html("p", { class: "unseen", role: "status" });
+  section.append(said);
+  const fill = (isDrag = false): void => {
+    if (!isDrag) said.textContent = app.times.map((m) => `${m.id} ${brief(m.t)}`).join(", ");
     const unit = unitsOf(app.scene).t;
     head.lastElementChild!.textContent = unit ? `time [${unit}]` : "time";
     join(body, app.times, (m) => m.id, () => html("tr"), (row, m) => {

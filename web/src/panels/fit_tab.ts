@@ -34,6 +34,7 @@ export class FitTab {
   private worker: Worker | undefined;
   private estimate: Estimate | undefined;
   private course: [number, number][] = [];
+  private waiting: (() => void) | undefined;
   private readonly charts = { residuals: new Chart(), course: new Chart(), ellipse: new Chart() };
   private readonly choose = html("select", { id: "dataset" }, html("option", { value: "" }, "choose ..."), ...DATASETS.map((d, i) => html("option", { value: i }, d.name)));
   private readonly file = html("input", { type: "file", id: "data-file", accept: ".csv,.txt,.tsv,.stat,text/*" });
@@ -172,9 +173,11 @@ export class FitTab {
     if (news.kind === "step") {
       this.course.push([news.evaluations, Math.max(news.misfit, 1e-12)]);
       this.state.textContent = `evaluation ${news.evaluations}, misfit ${brief(news.misfit)}: ${expanded(scene, names).map((n, i) => `${n} = ${brief(news.values[i]!)}`).join(", ")}`;
-      this.app.history.replace(withValues(scene, names, news.values));
-      this.app.update(true);
-      this.showCourse();
+      this.follow(() => {
+        this.app.history.replace(withValues(scene, names, news.values));
+        this.app.update(true);
+        this.showCourse();
+      });
       return;
     }
     const { estimate } = news;
@@ -187,7 +190,19 @@ export class FitTab {
     this.showResiduals();
   }
 
+  /** Draws the last step only, if several come between two pictures. */
+  private follow(draw: () => void): void {
+    const isWaiting = this.waiting !== undefined;
+    this.waiting = draw;
+    if (isWaiting) return;
+    requestAnimationFrame(() => {
+      this.waiting?.();
+      this.waiting = undefined;
+    });
+  }
+
   private end(state: string): void {
+    this.waiting = undefined;
     this.worker?.terminate();
     this.worker = undefined;
     this.stop.hidden = true;
