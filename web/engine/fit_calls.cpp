@@ -100,9 +100,8 @@ EMSCRIPTEN_KEEPALIVE int sf_fit(const char* text, std::size_t size) {
       for (Eigen::Index j = 0; j < n; ++j)
         a.add(estimate.correlation.rows() == n ? estimate.correlation(i, j) : fit::kUnknown);
     a.add(estimate.predicted);
-    for (const std::string_view line :
-         {name_of(estimate.status), std::string_view(estimate.message), std::string_view(estimate.quantity),
-          std::string_view(estimate.loss)})
+    for (const std::string_view line : {name_of(estimate.status), std::string_view(estimate.message),
+                                        std::string_view(estimate.quantity), std::string_view(estimate.loss)})
       a.line(line);
     for (const auto& p : estimate.parameters) a.line(p.name);
     for (const std::string& warning : estimate.warnings) a.line(warning);

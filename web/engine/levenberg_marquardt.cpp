@@ -90,8 +90,7 @@ class Search {
     misfit_ = at.misfit;
     squares_ = squares(objective_, at);
     gradient_ = squares_.J.transpose() * squares_.r;
-    if (web::the_watcher)
-      web::the_watcher(objective_.control().evaluations(), misfit_, box_.values(u_));
+    if (web::the_watcher) web::the_watcher(objective_.control().evaluations(), misfit_, box_.values(u_));
     if (misfit_ <= objective_.rounding_misfit()) end_ = "the misfit is at rounding level";
     return true;
   }
@@ -101,8 +100,8 @@ class Search {
     std::vector<Index> all;
     for (Index j = 0; j < u_.size(); ++j) {
       const bool is_fixed = !fixed_.empty() && fixed_[static_cast<std::size_t>(j)];
-      const bool is_held = (u_[j] <= box_.lower()[j] && gradient_[j] > 0) ||
-                           (u_[j] >= box_.upper()[j] && gradient_[j] < 0);
+      const bool is_held =
+          (u_[j] <= box_.lower()[j] && gradient_[j] > 0) || (u_[j] >= box_.upper()[j] && gradient_[j] < 0);
       if (!is_fixed && !is_held) all.push_back(j);
     }
     return all;

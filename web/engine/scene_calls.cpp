@@ -39,8 +39,8 @@ EMSCRIPTEN_KEEPALIVE int sf_scene(const char* text, std::size_t size) {
       highest = std::max(highest, flux.range().highest);
     }
     for (const double x : {scene.bottom(), scene.top(), lowest, highest}) a.add(x);
-    for (const bool is : {scene.is_layered(), scene.has_walls(), scene.has_diffusion(),
-                          scene.is_chute() || scene.is_slab()})
+    for (const bool is :
+         {scene.is_layered(), scene.has_walls(), scene.has_diffusion(), scene.is_chute() || scene.is_slab()})
       a.add(is ? 1 : 0);
     a.add(scene.knots());
     a.line(scene.name());

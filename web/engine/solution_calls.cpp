@@ -112,8 +112,7 @@ EMSCRIPTEN_KEEPALIVE int sf_profile(const char* method, std::size_t size, double
                     : std::numeric_limits<double>::quiet_NaN());
     a.add(static_cast<double>(result.summary.collisions + result.summary.cell_updates));
     for (std::size_t i = 0; i < profile.n_cells(); ++i)
-      for (const double x :
-           {profile.z()[i], profile.z()[i + 1], profile.below()[i], profile.above()[i]})
+      for (const double x : {profile.z()[i], profile.z()[i + 1], profile.below()[i], profile.above()[i]})
         a.add(x);
   });
 }
@@ -134,8 +133,8 @@ EMSCRIPTEN_KEEPALIVE int sf_fronts(double resolution, double t_end) {
     const auto fronts = bed.fronts();
     a.add(static_cast<double>(fronts.size()));
     for (const auto& f : fronts)
-      for (const double x : {static_cast<double>(f.layer), f.t_begin, f.z_begin, f.t_end, f.z_end,
-                             f.phi_below, f.phi_above})
+      for (const double x :
+           {static_cast<double>(f.layer), f.t_begin, f.z_begin, f.t_end, f.z_end, f.phi_below, f.phi_above})
         a.add(x);
     for (const Collision& c : bed.collisions())
       for (const double x : {c.t, c.z, c.boundary ? static_cast<double>(*c.boundary) : -1.0,

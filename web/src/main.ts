@@ -154,6 +154,7 @@ async function start(): Promise<void> {
     app.data = { quantity: "point", understood: "", notes: [], rows: [] };
     if (data) fit.openDataSet(data);
     else app.open(readScene(scene.toml));
+    if (scene.timeShown) app.setTimeShown(scene.timeShown);
     app.setTime(scene.t ?? 0.3 * app.picture.tMax);
     guide.show(scene);
     tabs.show(scene.tab);

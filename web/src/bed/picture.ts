@@ -96,7 +96,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
     const of = method === "exact" ? method : `front-tracking resolution=${detail.resolution} max-collisions=200000`;
     events = engine.events(of);
   } catch (error) {
-    noEvents = (error as Error).message;
+    noEvents = (error as Error).message.replace(/^method = [^;]*; /, "");
   }
   const rate = rateCurve(engine, facts);
   const end = tMax ?? naturalTime(events, facts, Math.min(...rate.speed));
@@ -120,7 +120,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
   }
   let psi: number[] = [];
   const t = spread(0, end, Math.max(2, detail.mixingPoints));
-  if (detail.mixingPoints > 0 && facts.lowest === 0 && facts.highest === 1) {
+  if (detail.mixingPoints > 0 && facts.hasWalls && facts.lowest === 0 && facts.highest === 1) {
     try {
       psi = Array.from(engine.mixing(quick, t));
     } catch {

@@ -42,15 +42,15 @@ export const GUIDED: readonly GuidedScene[] = [
     sentences: [
       "The same two layers, but the bed begins mixed: 65 % small grains everywhere.",
       "The fast layer could send up more large grains than the slow one can take.",
-      "So a queue forms below the interface, as before a narrow place of a road: phi jumps there although nothing moves the jump.",
+      "So a queue forms below the interface, as before a narrow place of a road: φ jumps there although nothing moves the jump.",
     ],
     question: "Raise the rate of the upper layer. At which rate does the jump at the interface vanish?",
-    answer: "When both layers have the same rate: the flux s a f(phi) is continuous at an interface, phi is so only where a is.",
+    answer: "When both layers have the same rate: the flux s a f(φ) is continuous at an interface, φ is so only where a is.",
   },
   {
-    id: "red-light", title: "A red light", toml: of("traffic-red-light/scene.toml"), t: 0.9, tab: "bed",
+    id: "red-light", title: "A red light", toml: of("traffic-red-light/scene.toml"), t: 0.9, timeShown: 3, tab: "bed",
     sentences: [
-      "The same equation for cars: phi is the density of traffic on a road, z the way along it, and the flux has a maximum.",
+      "The same equation for cars: φ is the density of traffic on a road, z the way along it, and the flux has a maximum.",
       "The light at the top is red until t = 1: cars stop, and a shock, the end of the queue, runs backwards.",
       "At green the queue dissolves in a fan, whose lower edge races to catch up with the end of the queue.",
     ],
@@ -61,21 +61,21 @@ export const GUIDED: readonly GuidedScene[] = [
     id: "mixes-first", title: "It mixes before it segregates", toml: of("shear-cell-ideal/scene-inverse.toml"), tab: "bed",
     sentences: [
       "A cell with the same shear rate everywhere, small grains on top: the fan is symmetric, and both edges reach the walls at the same time.",
-      "The strip below the plane shows Psi(t), which is 0 where the grains are apart and 1 where they are evenly mixed.",
+      "The strip below the plane shows Ψ(t), which is 0 where the grains are apart and 1 where they are evenly mixed.",
       "Until its edges reach the walls the fan only widens, so the bed can only mix; after that the shocks take away from it, and in the end everything is apart again.",
     ],
     question: "At which time is the bed best mixed, and why not at t_1 exactly?",
-    answer: "Near 0.75, one and a half times t_1: the fan flattens on while the shocks grow. Psi turns when the loss at the shocks outweighs it.",
+    answer: "Near 0.75, one and a half times t_1: the fan flattens on while the shocks grow. Ψ turns when the loss at the shocks outweighs it.",
   },
   {
     id: "cubic", title: "A cubic flux: compound waves", toml: of("segregation-gamma-0.9/scene.toml"), t: 3, tab: "collisions",
     sentences: [
-      "Small grains fall faster through large ones than large ones rise through small ones: f gains a factor 1 - gamma phi, and bends both ways.",
+      "Small grains fall faster through large ones than large ones rise through small ones: f gains a factor 1 - γ φ, and bends both ways.",
       "A fan can then end in a shock that moves with the speed of its last wave: a compound.",
       "Step through the collisions below: the chords lie on the envelope of the flux, not on the flux itself.",
     ],
-    question: "Lower gamma below 1/2 in the tab Bed. What happens to the shock above the fan, and why at 1/2?",
-    answer: "It vanishes: for gamma <= 1/2 the flux is convex on all of [0, 1], so its lower envelope is the flux itself and the fan is whole.",
+    question: "Lower γ below 1/2 in the tab Bed. What happens to the shock above the fan, and why at 1/2?",
+    answer: "It vanishes: for γ <= 1/2 the flux is convex on all of [0, 1], so its lower envelope is the flux itself and the fan is whole.",
   },
   {
     id: "five-layers", title: "Five layers", toml: of("paper-example-4/scene.toml"), tab: "methods",
@@ -90,7 +90,7 @@ export const GUIDED: readonly GuidedScene[] = [
   {
     id: "particles", title: "A particle simulation and its misfit", toml: of("dem-shear-cell-piecewise/scene-5-layers.toml"), tab: "fit", dataset: "dem-shear-cell-piecewise/observations-early.csv",
     sentences: [
-      "The dots are phi of a simulation with 4950 grains that obey Newton's laws, not our equation.",
+      "The dots are φ of a simulation with 4950 grains that obey Newton's laws, not our equation.",
       "Fit the five rates, and look at the residuals: they are several times the scatter of the data, and have structure.",
       "The warnings say so, and that the error bars are too small: the model has no diffusion, and grains near the walls behave otherwise.",
     ],

@@ -18,7 +18,8 @@ export function eventsTable(app: App): HTMLElement {
   const note = html("p", { class: "note", id: "events-note" });
   const head = html("tr", {}, ...["event", "meaning", "time"].map((text) => html("th", { scope: "col" }, text)));
   const caption = html("caption", {}, "Event times");
-  const section = html("section", { id: "events", "aria-label": "Event times" }, html("table", {}, caption, html("thead", {}, head), body), note);
+  const grid = html("table", {}, caption, html("thead", {}, head), body);
+  const section = html("section", { id: "events", "aria-label": "Event times" }, grid, note);
 
   const said = html("p", { class: "unseen", role: "status" });
   section.append(said);
@@ -37,7 +38,8 @@ export function eventsTable(app: App): HTMLElement {
       go.addEventListener("click", () => app.setTime(m.t));
       time.replaceChildren(go);
     });
-    note.textContent = app.picture.noEvents || (app.picture.method === "exact" ? "" : `By front tracking, first order in its fans: ${app.engine.refusal("exact")}`);
+    grid.hidden = app.times.length === 0;
+    note.textContent = (app.picture.noEvents && `No event times: ${app.picture.noEvents}.`) || (app.picture.method === "exact" ? "" : `By front tracking, first order in its fans: ${app.engine.refusal("exact")}`);
     set(note, { hidden: note.textContent === "" });
   };
   app.listen({ sceneChanged: fill });

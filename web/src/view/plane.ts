@@ -31,25 +31,23 @@ function drawRaster(context: CanvasRenderingContext2D, panel: Panel, raster: Ras
 function drawFronts(context: CanvasRenderingContext2D, panel: Panel, picture: Picture): void {
   const states = picture.facts.highest - picture.facts.lowest;
   // Near the extremum of the flux fans of curved fronts have wider steps.
-  const widestStep = (picture.facts.isLayered ? 1.5 : 5) * picture.frontStep;
-  context.lineCap = "round";
-  const line = (f: Picture["fronts"][number]): void => {
+  const widestStep = (picture.facts.isLayered ? 1.5 : 3.5) * picture.frontStep;
+  const shocks = picture.fronts.filter((f) => Math.abs(f.above - f.below) / states > widestStep);
+  const fans = picture.fronts.filter((f) => Math.abs(f.above - f.below) / states <= widestStep);
+  const draw = (fronts: Picture["fronts"], colour: string, width: number): void => {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
     context.beginPath();
-    context.moveTo(panel.x(f.tBegin), panel.y(f.zBegin));
-    context.lineTo(panel.x(f.tEnd), panel.y(f.zEnd));
+    for (const f of fronts) {
+      context.moveTo(panel.x(f.tBegin), panel.y(f.zBegin));
+      context.lineTo(panel.x(f.tEnd), panel.y(f.zEnd));
+    }
     context.stroke();
   };
-  for (const f of picture.fronts) {
-    const strength = Math.abs(f.above - f.below) / states;
-    const isShock = strength > widestStep;
-    context.strokeStyle = isShock ? "#000" : "rgba(255,255,255,0.35)";
-    context.lineWidth = isShock ? 3.4 : 0.7;
-    line(f);
-    if (!isShock) continue;
-    context.strokeStyle = "#fff";
-    context.lineWidth = 1.6;
-    line(f);
-  }
+  context.lineCap = "round";
+  draw(fans, "rgba(255,255,255,0.35)", 0.7);
+  draw(shocks, "#000", 3.4);
+  draw(shocks, "#fff", 1.6);
 }
 
 function drawData(context: CanvasRenderingContext2D, panel: Panel, marks: PlaneMarks, low: number, high: number): void {
