@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tests of the engine (in node) and of the page (in the Chromium of the system).
 import { existsSync } from "node:fs";
 import { defineConfig } from "@playwright/test";

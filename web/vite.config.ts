@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bundles the page with all it needs: the engine, the formulas (made by KaTeX at build time), scenes and data of datasets/.
 // Nothing is fetched, so the page also opens from a file.
 import { readFileSync } from "node:fs";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page at work: one scene with its history, the time shown, and everything drawn from them.
 import { endsOf } from "./bed/edits.ts";
 import { namedTimes, type NamedTime } from "./bed/event_list.ts";
@@ -56,7 +57,7 @@ export class App {
     this.plane = new Panel("plane", "φ over time t and height z", watch);
     this.profile = new Panel("profile", "φ over z", watch);
     this.rate = new Panel("rate", "shear rate s a(z)", watch);
-    this.mixing = new Panel("mixing", "mixing Ψ", watch);
+    this.mixing = new Panel("mixing", "mixing Ψ: 0 apart, 1 even", watch);
     this.picture = makePicture(engine, writeScene(scene), FINE);
     this.raster = this.picture.raster;
     this.rate.frame.left = this.profile.frame.left = 30;

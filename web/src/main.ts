@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page: starts the engine, puts the parts together.
 import engineLetters from "virtual:engine";
 import formulas from "virtual:formulas";
@@ -131,7 +132,7 @@ async function start(): Promise<void> {
   const first = GUIDED[0]!;
   let app: App;
   let isLinked = linked !== undefined && linked !== first.toml;
-  let broken = "";
+  let broken = location.hash.startsWith("#s=") && linked === undefined ? "This link holds no scene that can be read: was it cut off?" : "";
   try {
     app = new App(engine, module, linked ?? first.toml);
   } catch (error) {
@@ -163,7 +164,7 @@ async function start(): Promise<void> {
   const take = listenToDrops(app, fit, () => tabs, () => guide.show(undefined));
   const complaint = html("p", { id: "complaint", role: "alert", hidden: true });
   const left = html("div", { class: "planes" }, app.plane.figure, app.mixing.figure);
-  const scale = html("div", { id: "scale", "aria-hidden": "true" }, "φ = 0 ", html("span"), " 1", html("span", { class: "hint" }, "Drag the white knobs; move over the plane to choose t."));
+  const scale = html("div", { id: "scale", "aria-hidden": "true" }, "φ = 0 ", html("span"), " 1", html("span", { class: "hint" }, "Thin lines are waves of a fan, thick ones shocks, dashed ones interfaces. Drag the white knobs; move over the plane to choose t."));
   document.body.replaceChildren(
     header(app, fit, guide.select, take), complaint, guide.element,
     html("main", {}, html("div", { id: "panels" }, left, app.profile.figure, app.rate.figure), scale, timeBar(app), html("div", { id: "lower" }, eventsTable(app), tabs.element), reading(app)),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Made by vite.config.ts.
 declare module "virtual:engine" {
   /** engine.wasm, gzipped, in base64 */

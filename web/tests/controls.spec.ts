@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every control does what it says.
 import { drag, eventTexts, expect, shown, test } from "./page.ts";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The engine in node: its answers are those of the program.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What goes in and out: links, files, the guided scenes, and nothing over the net.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { DATASETS, hasProgram, PAGE, program } from "./places.ts";
+import type { Page } from "@playwright/test";
 import { drag, eventTexts, expect, open, shown, test } from "./page.ts";
 
 test("guided scenes: each opens without a complaint, with three sentences and a question", async ({ explorer }) => {
@@ -36,6 +38,7 @@ test("a link leads to the same scene, to the bit", async ({ explorer, context })
 
 test("a broken link says so and shows the first scene", async ({ page, url }) => {
   await open(page, url + "#s=AAAA");
+  await expect(page.locator("#complaint")).toContainText("cut off");
   expect((await shown(page)).picture.events!.tStar).toBeCloseTo(6.4516, 3);
 });
 
@@ -57,26 +60,39 @@ test("files dropped: a scene, observations, and a scene that is none", async ({ 
   await expect(explorer.locator("#complaint")).toContainText("exponentail");
 });
 
+/** Saves a file of the menu; its path. */
+async function save(page: Page, name: string, folder: (name: string) => string): Promise<string> {
+  await page.click("#save summary");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#save-${name.replace(".", "-")}`)]);
+  expect(download.suggestedFilename()).toBe(name);
+  await download.saveAs(folder(name));
+  return folder(name);
+}
+
 test("downloads: pictures, numbers, and a scene that the program runs to the same times", async ({ explorer }, info) => {
+  const path = (name: string): string => info.outputPath(name);
   await drag(explorer, "plane", "interface-0", 0, -21);
-  const save = async (name: string): Promise<string> => {
-    await explorer.click("#save summary");
-    const [download] = await Promise.all([explorer.waitForEvent("download"), explorer.click(`#save-${name.replace(".", "-")}`)]);
-    expect(download.suggestedFilename()).toBe(name);
-    const path = info.outputPath(name);
-    await download.saveAs(path);
-    return path;
-  };
-  expect(readFileSync(await save("plane.png")).subarray(1, 4).toString()).toBe("PNG");
-  expect(readFileSync(await save("plane.svg"), "utf8")).toContain("<image");
-  expect(readFileSync(await save("solution.csv"), "utf8")).toMatch(/^t,z,phi,M\n0,0,0,0\n/);
-  expect(readFileSync(await save("fit.toml"), "utf8")).toContain("scene.toml");
-  const scene = await save("scene.toml");
+  expect(readFileSync(await save(explorer, "plane.png", path)).subarray(1, 4).toString()).toBe("PNG");
+  expect(readFileSync(await save(explorer, "plane.svg", path), "utf8")).toContain("<image");
+  expect(readFileSync(await save(explorer, "solution.csv", path), "utf8")).toMatch(/^t,z,phi,M\n0,0,0,0\n/);
+  const scene = await save(explorer, "scene.toml", path);
   if (!hasProgram) return;
   const expected = JSON.parse(program("events", scene, "--json").out) as { t0: number; t_star: number };
   const texts = await eventTexts(explorer);
   expect(Number(texts["t_0"])).toBe(expected.t0);
   expect(Number(texts["t*"])).toBe(expected.t_star);
+});
+
+test("a fit set up on the page is run by the program", async ({ explorer }, info) => {
+  test.skip(!hasProgram, "no program to run it");
+  await explorer.click("#tab-fit");
+  await explorer.selectOption("#dataset", { index: 1 });
+  await drag(explorer, "rate", "layer-0", 8, 0);
+  for (const name of ["scene.toml", "observations.csv", "fit.toml"]) await save(explorer, name, (n) => info.outputPath(n));
+  const { out, err, status } = program("fit", info.outputPath("fit.toml"), "--json");
+  expect(status, err).toBe(0);
+  const { parameters } = JSON.parse(out) as { parameters: { estimate: number }[] };
+  [3.314, 2.312, 1.629, 1.05, 0.5302].forEach((value, i) => expect(parameters[i]!.estimate).toBeCloseTo(value, 2));
 });
 
 test("a fit in the worker: estimates, intervals, ellipse, and undo back to the start", async ({ explorer }, info) => {

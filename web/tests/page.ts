@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What tests of the page share: it is served, opened, and must not complain.
 import type { Server } from "node:http";
 import { expect, type Page, test as base } from "@playwright/test";

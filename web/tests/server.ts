@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The built folder on a web server.
 import { createServer, type Server } from "node:http";
 import { readFile } from "node:fs/promises";

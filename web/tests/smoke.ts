@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The engine of a built explorer gives the event times of a scene of two layers, by their closed forms:  node smoke.mjs ENGINE SCENE
 import { readFileSync } from "node:fs";
 import { Engine } from "../src/engine/engine.ts";

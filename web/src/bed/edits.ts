@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What can be done to a bed: each edit gives a new scene, valid if the old one was.
 import { bottomOf, fluxOf, hasSteps, number, numbers, rateModel, type Scene, scaleOf, type Table, table, topOf, withTable, without } from "./scene.ts";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers of a scene by their names in a fit file: "shear_rate.values", "shear_rate.values[1]", "flux.gamma".
 import type { Scene, Table, Value } from "./scene.ts";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Event times by their names, and what they mean.
 import type { EventTimes } from "../engine/engine.ts";
 import { brief } from "../view/numbers.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of the user as text, in whatever alphabet a laboratory wrote them.
 
 export async function textOf(file: Blob): Promise<string> {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Undo and redo: what was, what is, what was taken back.
 
 export class History<T> {

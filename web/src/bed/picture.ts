@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the engine says of a scene, as the panels show it.
 import { type Engine, type EventTimes, type Front, type Collision, type SceneFacts } from "../engine/engine.ts";
 

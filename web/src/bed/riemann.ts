@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The Riemann problem of a collision, as its fronts tell it: what came in, what goes out, in the flux plane.
 import type { Collision, Engine, Front, SceneFacts } from "../engine/engine.ts";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scene as its file says it: a tree of TOML tables, never changed in place. What the page does not know it keeps.
 import { parse, stringify } from "smol-toml";
 

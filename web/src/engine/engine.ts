@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the engine can be asked, with names for its numbers.
 import { Refusal, Wasm, type Watch } from "./wasm.ts";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the page and the worker of fits say to each other.
 import type { Estimate } from "./engine.ts";
 

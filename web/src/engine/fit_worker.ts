@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A fit beside the page: the same engine in a thread of its own.
 import { Engine } from "./engine.ts";
 import type { FitNews, FitTask } from "./fit_messages.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file of WebAssembly: its start, its memory, and calls that answer numbers and a text.
 
 export type Watch = (evaluations: number, misfit: number, values: Float64Array) => boolean;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The card of a guided scene, and the way from one to the next.
 import { GUIDED, type GuidedScene } from "./scenes.ts";
 import { html } from "../view/svg.ts";

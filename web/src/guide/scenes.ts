@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The guided scenes: three sentences and a question each, the answer one click away.
 import datasets from "virtual:datasets";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bed in numbers: layers, start, flux, ends. Everything that can be dragged, and what cannot.
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";

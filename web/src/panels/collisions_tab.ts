@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Collisions one by one, each with its Riemann problem in the flux plane.
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";

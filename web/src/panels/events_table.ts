@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Event times: name, meaning, and every digit.
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";

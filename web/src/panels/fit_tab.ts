@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From measurements to the bed: residuals, the search under way, intervals, warnings.
 import datasets from "virtual:datasets";
 import type { App } from "../app.ts";
@@ -99,7 +100,7 @@ export class FitTab {
     }
     this.csv = csv;
     this.estimate = undefined;
-    if (!this.fit["unknown"]) this.fit = { unknown: { parameters: ["shear_rate.values", "shear_rate.amplitude", "shear_rate.decay"].filter((n) => fieldsOf(this.app.scene).includes(n)) } };
+    if (!this.fit["unknown"]) this.fit = { unknown: this.usualUnknowns };
     const { data } = this.app;
     this.about.textContent = [`${name}: ${data.rows.length} observations (${data.quantity})`, data.understood, ...data.notes].filter(Boolean).join(". ");
     this.showUnknowns();
@@ -114,9 +115,13 @@ export class FitTab {
     const { scene: _, observations: __, ...rest } = this.fit;
     return writeScene(rest);
   }
+  private get usualUnknowns(): Table {
+    const names = ["shear_rate.values", "shear_rate.amplitude", "shear_rate.decay"];
+    return { parameters: names.filter((n) => fieldsOf(this.app.scene).includes(n)) };
+  }
   /** The fit file of the program. */
   get fitToml(): string {
-    return writeScene({ name: String(this.app.scene["name"] ?? "fit"), ...this.fit, scene: "scene.toml", observations: "observations.csv" });
+    return writeScene({ name: String(this.app.scene["name"] ?? "fit"), unknown: this.usualUnknowns, ...this.fit, scene: "scene.toml", observations: "observations.csv" });
   }
   get observationsCsv(): string {
     return this.csv;

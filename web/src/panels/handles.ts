@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which handles each panel has, and what dragging them does to the scene.
 import * as edit from "../bed/edits.ts";
 import type { Picture } from "../bed/picture.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Methods side by side at the time shown: their profiles, their distance to the exact solution, their time.
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";

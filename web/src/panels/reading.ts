@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The picture for those who do not see it: event times and a profile in words and numbers.
 import type { App } from "../app.ts";
 import { spread } from "../bed/picture.ts";

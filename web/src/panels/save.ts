@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is on the screen as files: pictures, numbers, the scene and the fit for the program.
 import type { App } from "../app.ts";
 import { spread } from "../bed/picture.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A slider over a logarithmic range, with its number.
 import { brief } from "../view/numbers.ts";
 import { html } from "../view/svg.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tabs as ARIA has them: one in the tab order, arrows between them.
 import { html, set } from "../view/svg.ts";
 

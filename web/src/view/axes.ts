@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Axes of a panel: ticks, numbers, title.
 import type { ScaleLinear, ScaleLogarithmic } from "d3-scale";
 import { join, set, svg } from "./svg.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small charts of their own axes: curves and dots on linear or logarithmic scales.
 import { scaleLinear, scaleLog, type ScaleLinear, type ScaleLogarithmic } from "d3-scale";
 import { drawXAxis, drawYAxis, type Frame } from "./axes.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // phi as a colour: viridis, which stays in order for colour-blind eyes and in print without colours.
 import { interpolateViridis } from "d3-scale-chromatic";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two estimates together: the 95 % ellipse of their covariance.
 import type { Estimate } from "../engine/engine.ts";
 import type { Chart } from "./chart.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How well the bed is mixed over time, below the plane and on its axis.
 import type { NamedTime } from "../bed/event_list.ts";
 import type { Picture } from "../bed/picture.ts";

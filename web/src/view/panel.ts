@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A picture with axes and with handles that can be dragged by pointer, finger or keys.
 import { scaleLinear, type ScaleLinear } from "d3-scale";
 import { drawXAxis, drawYAxis, type Frame } from "./axes.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The (t, z) plane: phi in colour, fronts, event times, the time shown beside it.
 import type { NamedTime } from "../bed/event_list.ts";
 import type { Picture, Raster } from "../bed/picture.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // phi over z at the time shown, beside the start.
 import type { Picture } from "../bed/picture.ts";
 import type { ObservedRow } from "../engine/engine.ts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // s a(z), turned so that z runs upwards as in the other panels.
 import type { Picture } from "../bed/picture.ts";
 import type { Panel } from "./panel.ts";

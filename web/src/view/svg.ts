@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements made and kept: small helpers for SVG and HTML.
 
 type Attributes = Record<string, string | number | boolean | undefined>;
