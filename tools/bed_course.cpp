@@ -16,14 +16,43 @@ double last_time(const std::vector<double>& times) {
   return last;
 }
 
+namespace {
+
+/// The numbers of a bed whose integral of the quantity's function is this.
+std::vector<double> row_of(SolvedQuantity quantity, const Scene<double>& scene, const BedHeight& bed,
+                           double integral) {
+  if (quantity != SolvedQuantity::mixing) return {bed.height(integral)};
+  const Mixing at = mixing(integral, scene.mass(), scene.solid(scene.bottom(), scene.top()));
+  return {at.entropy, at.parameter};
+}
+
+SolverRequest request_of_bed(SolvedQuantity quantity, const BedHeight& bed,
+                             const std::vector<double>& times) {
+  SolverRequest request;
+  request.times = times;
+  request.integrand = quantity == SolvedQuantity::mixing ? entropy_function() : bed.integrand();
+  return request;
+}
+
+}  // namespace
+
+std::vector<double> bed_numbers(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
+                                const std::vector<double>& times) {
+  const BedHeight bed(scene);
+  const SolverResult result = solve(scene, method, request_of_bed(quantity, bed, times));
+  std::vector<double> numbers;
+  if (!result.summary.usable()) return numbers;
+  for (const double integral : result.integrals)
+    for (const double x : row_of(quantity, scene, bed, integral)) numbers.push_back(x);
+  return numbers;
+}
+
 BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
                      const std::vector<double>& times, const Progress& progress) {
   const BedHeight bed(scene);
   const bool is_mixing = quantity == SolvedQuantity::mixing;
   const auto is_steady = [](double t) { return !std::isfinite(t); };
-  SolverRequest request;
-  request.times = times;
-  request.integrand = is_mixing ? entropy_function() : bed.integrand();
+  SolverRequest request = request_of_bed(quantity, bed, times);
   request.timeline = method.guarantees().has_timeline && std::any_of(times.begin(), times.end(), is_steady);
   const SolverResult result = solve(scene, method, request, progress);
   BedCourse course{quantity, {{"H"}, times, {}}, {}, result.summary};
@@ -32,12 +61,8 @@ BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const 
     std::replace_if(course.table.times.begin(), course.table.times.end(), is_steady,
                     *result.timeline->t_star);
   if (!course.summary.usable()) return course;
-  const double solid = scene.solid(scene.bottom(), scene.top());
-  for (const double integral : result.integrals) {
-    const Mixing at = is_mixing ? mixing(integral, scene.mass(), solid) : Mixing{};
-    course.table.rows.push_back(is_mixing ? std::vector<double>{at.entropy, at.parameter}
-                                          : std::vector<double>{bed.height(integral)});
-  }
+  for (const double integral : result.integrals)
+    course.table.rows.push_back(row_of(quantity, scene, bed, integral));
   const double t_end = last_time(times);
   if (is_mixing || !(t_end > 0)) return course;
   const auto heights = [&](const std::vector<double>& at) {

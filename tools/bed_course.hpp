@@ -29,6 +29,10 @@ struct BedCourse {
 [[nodiscard]] BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
                                    const std::vector<double>& times, const Progress& progress = {});
 
+/// The rows of the same, one after the other, without the lowest bed; nothing if the summary is not usable().
+[[nodiscard]] std::vector<double> bed_numbers(SolvedQuantity quantity, const Scene<double>& scene,
+                                              const Method& method, const std::vector<double>& times);
+
 /// The last of the finite times, 0 if there is none.
 [[nodiscard]] double last_time(const std::vector<double>& times);
 

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "cli/command.hpp"
+#include "cli/scene_changes.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/fit/scene_uncertainty.hpp"
@@ -84,9 +85,10 @@ void check_scene(const std::string& file, const Scene<double>& scene) {
 }
 
 /// What there is to say about a good file.
-std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene) {
+std::string check_file(const std::string& file, const std::optional<Scene<double>>& scene,
+                       const SceneChanges& changes) {
   if (!is_csv(file)) {
-    const auto content = fit::read_scene_or_fit(file);
+    const auto content = fit::read_scene_or_fit(file, changes);
     if (const auto* fit_file = std::get_if<fit::FitFile>(&content))
       print_remarks(fit_file->remarks);
     else
@@ -99,18 +101,20 @@ std::string check_file(const std::string& file, const std::optional<Scene<double
 }
 
 struct CheckArguments {
+  SceneChangesOption set;
   std::vector<std::string> files;
   std::string scene;
 };
 
 int check(const CheckArguments& arguments) {
   std::optional<Scene<double>> scene;
-  if (!arguments.scene.empty()) scene = with_remarks(read_scene<double>(arguments.scene));
+  const SceneChanges changes = arguments.set.changes();
+  if (!arguments.scene.empty()) scene = with_remarks(read_scene<double>(arguments.scene, changes));
   OutputFile out("-");
   bool all_good = true;
   for (const std::string& file : arguments.files) {
     try {
-      out.write(fmt::format("{}: ok: {}\n", printable(file), check_file(file, scene)));
+      out.write(fmt::format("{}: ok: {}\n", printable(file), check_file(file, scene, changes)));
     } catch (const FileError& error) {
       fmt::print(stderr, "{}\n", error.what());
       all_good = false;
@@ -129,6 +133,7 @@ Command add_check(CLI::App& program) {
   app->add_option("FILE", arguments->files, "scene files, fit files, and files of observations (.csv)")
       ->type_name("")
       ->required();
+  arguments->set.add_to(*app);
   app->add_option("--scene", arguments->scene, "the scene whose domain the observations must lie in")
       ->type_name("SCENE");
   return {app, "FILE...", [arguments] { return check(*arguments); }};

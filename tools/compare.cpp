@@ -18,6 +18,7 @@
 #include "shearfront/exact/refusal.hpp"
 #include "shearfront/io/detail/json.hpp"
 #include "shearfront/io/output_file.hpp"
+#include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/scene/chute.hpp"
@@ -117,7 +118,7 @@ bool report_ends(const std::vector<Course>& courses, bool has_budget) {
 }
 
 /// A table per time; courses come by time.
-std::string text_of(const std::vector<Course>& courses) {
+std::string text_of(const std::vector<Course>& courses, const SceneUnits& units) {
   std::string all;
   for (auto course = courses.begin(); course != courses.end();) {
     const double t = course->t;
@@ -130,13 +131,14 @@ std::string text_of(const std::vector<Course>& courses) {
              run.order ? fmt::format("{:.2f}", *run.order) : "", std::to_string(run.work),
              run.work > 0 ? fmt::format("{:.3g} ns", 1e9 * run.wall_s / static_cast<double>(run.work)) : "",
              fmt::format("{:.3g} s", run.wall_s)});
-    all += fmt::format("\nt = {}\n\n{}", number_text(t), table.text());
+    const std::string unit = units.t.empty() ? "" : " " + printable(units.t);
+    all += fmt::format("\n{} = {}{}\n\n{}", units.symbol(), number_text(t), unit, table.text());
   }
   return all;
 }
 
-std::string csv_of(const std::vector<Course>& courses) {
-  std::string rows = "method,resolution,t,l1_error,wall_s,work\n";
+std::string csv_of(const std::vector<Course>& courses, const SceneUnits& units) {
+  std::string rows = csv_header({"method", "resolution", "t", "l1_error", "wall_s", "work"}, units);
   for (const Course& course : courses)
     for (const ComparedRun& run : course.runs)
       rows +=
@@ -180,7 +182,7 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
   picture.set("title", scene);
   picture.set("times", times);
   picture.set("methods", fmt::format("{}", fmt::join(methods, " ")));
-  picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses)); });
+  picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses, {})); });
   return picture.draw();
 }
 
@@ -209,7 +211,7 @@ int compare(CompareArguments& arguments) {
   if (!arguments.output.empty()) output.emplace(arguments.output);
   check_picture_target(arguments.plot);
 
-  const InterruptGuard guard;
+  std::optional<InterruptGuard> guard(std::in_place);
   const ExactSolution<double> exact(scene);
   note_pieces(scene, exact, times);
   const std::vector<Course> courses = with_progress([&](const Progress& progress) {
@@ -222,17 +224,21 @@ int compare(CompareArguments& arguments) {
       }
     return all;
   });
+  const bool is_interrupted = InterruptGuard::is_interrupted();
+  guard.reset();  // what follows ends at once
   if (!report_ends(courses, arguments.budget.has_value())) return kNoResult;
   if (output) {
-    output->write(csv_of(courses));
+    output->write(csv_of(courses, read.spec().units));
     output->commit();
   }
-  if (is_csv) return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses);
+  const bool has_picture = !arguments.plot.empty() && !is_interrupted;
+  if (is_interrupted && !arguments.plot.empty()) note("interrupted: no --plot");
+  if (is_csv) return has_picture ? draw(arguments.plot, scene.name(), courses) : kDone;
   OutputFile out("-");
   out.write(arguments.json ? json_of(scene.name(), courses)
-                           : printable(scene.name(), 100) + "\n" + text_of(courses));
+                           : printable(scene.name(), 100) + "\n" + text_of(courses, read.spec().units));
   out.commit();
-  return arguments.plot.empty() ? kDone : draw(arguments.plot, scene.name(), courses);
+  return has_picture ? draw(arguments.plot, scene.name(), courses) : kDone;
 }
 
 }  // namespace

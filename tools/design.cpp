@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,10 +19,12 @@
 #include "cli/command.hpp"
 #include "cli/fitted.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "cli/table.hpp"
 #include "plot/picture.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/io/detail/json.hpp"
+#include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -32,6 +35,7 @@ constexpr double kMostCandidates = 1e5;
 constexpr std::size_t kMostListed = 40;
 
 struct DesignArguments {
+  SceneChangesOption set;
   PictureOptions pictures;
   std::string file, times, heights, quantities, sigma, number = "20", unit = "measurement", criterion = "D",
                                                        draws = "1", seed, output, plot;
@@ -181,9 +185,11 @@ std::string design_text(const fit::Design& design, const Observations& candidate
   return text;
 }
 
-void write_csv(OutputFile& file, const fit::Design& design, const Observations& candidates) {
+void write_csv(OutputFile& file, const fit::Design& design, const Observations& candidates,
+               const SceneUnits& units) {
   const bool has_width = candidates.rows.front().width > 0;
-  file.write(fmt::format("t,z,{}weight,worth,chosen\n", has_width ? "width," : ""));
+  file.write(has_width ? csv_header({"t", "z", "width", "weight", "worth", "chosen"}, units)
+                       : csv_header({"t", "z", "weight", "worth", "chosen"}, units));
   for (const fit::DesignChoice& choice : design.choices)
     for (const std::size_t k : choice.rows) {
       const Observation& o = candidates.rows[k];
@@ -233,7 +239,7 @@ int draw_design(const std::string& path, const fit::FitSpec& spec, const fit::De
   picture.set("unit_z", without_markup(spec.scene.spec().units.z));
   picture.set("z_low", spec.scene.bottom());
   picture.set("z_high", spec.scene.top());
-  picture.add_file("design.csv", [&](OutputFile& file) { write_csv(file, design, candidates); });
+  picture.add_file("design.csv", [&](OutputFile& file) { write_csv(file, design, candidates, {}); });
   return picture.draw();
 }
 
@@ -277,7 +283,7 @@ int design_measurements(const DesignArguments& arguments) {
   if (!is_fit_file(arguments.file))
     throw InputError(printable(arguments.file), "",
                      "must be a fit file: its unknowns are what is to be known better");
-  const fit::FitFile file = fit::read_fit_file(arguments.file);
+  const fit::FitFile file = fit::read_fit_file(arguments.file, arguments.set.changes());
   if (file.choice)
     throw InputError(printable(arguments.file), "", "must have one model; [compare] has several");
   const fit::FitSpec& spec = file.spec;
@@ -293,8 +299,11 @@ int design_measurements(const DesignArguments& arguments) {
   print_remarks(file.remarks);
   print_remarks(spec.observations.notes);
 
-  const InterruptGuard guard;
-  const fit::Estimate estimate = run_fit(spec, arguments.file);
+  const fit::Estimate estimate = [&] {
+    const InterruptGuard guard;
+    return run_fit(spec, arguments.file);
+  }();
+  if (InterruptGuard::is_interrupted()) (void)std::raise(SIGINT);  // the fit is not what was asked for
   if (!estimate.usable())
     throw InputError(printable(arguments.file), "",
                      fmt::format("has no estimate ({}): {}", name_of(estimate.status), estimate.message));
@@ -312,7 +321,7 @@ int design_measurements(const DesignArguments& arguments) {
     const fit::Design design = best_design(spec, estimate, wanted, quantity);
     if (!arguments.output.empty()) {
       OutputFile table(arguments.output);
-      write_csv(table, design, wanted.candidates);
+      write_csv(table, design, wanted.candidates, spec.scene.spec().units);
       table.commit();
     }
     if (arguments.json)
@@ -321,8 +330,8 @@ int design_measurements(const DesignArguments& arguments) {
       out.write(design_text(design, wanted.candidates, quantity, wanted));
     if (!arguments.plot.empty())
       code = draw_design(arguments.plot, spec, design, wanted.candidates,
-                         fmt::format("{}, sigma {}; circles: the {} {} chosen", quantity.text,
-                                     number_text(*sigma), wanted.n, unit_name(wanted.unit, wanted.n)));
+                         fmt::format("{}, sigma {}; circles: the {} chosen", quantity.text,
+                                     number_text(*sigma, 3), wanted.n));
   }
   if (arguments.json) out.write(detail::json_document(all));
   out.commit();
@@ -336,6 +345,7 @@ Command add_design(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "design", "Where to measure next: the times and heights that say most about the unknowns of a fit");
   app->add_option("FIT", arguments->file, "fit file")->type_name("")->required();
+  arguments->set.add_to(*app);
   app->add_option("--times", arguments->times, "times that could be measured; default those of the data")
       ->type_name("LIST");
   app->add_option("--heights", arguments->heights,

@@ -271,7 +271,7 @@ int events(EventsArguments& arguments) {
   if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
     bands = fit::predict_events(scene, *draws, method);
     note_draws(*draws, bands->n_failed);
-    if (!arguments.json) note_bands(bands->n_by_draws, 3 + 2 * bands->interfaces.size());
+    if (!arguments.json) note_bands(*draws, bands->n_by_draws, 3 + 2 * bands->interfaces.size());
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);

@@ -13,6 +13,7 @@
 #include "cli/fit_text.hpp"
 #include "cli/fitted.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/fit/estimate_json.hpp"
 #include "shearfront/fit/fit_file.hpp"
@@ -27,19 +28,20 @@ namespace {
 
 struct FitArguments {
   PictureOptions pictures;
+  SceneChangesOption set;
   std::vector<std::string> files;
   std::string output, plot, truth, scene_out, band, predict, times, heights;
   bool json = false;
 };
 
 /// All files, with the complaints about all of them.
-std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths) {
+std::vector<fit::FitFile> read_files(const std::vector<std::string>& paths, const SceneChanges& changes) {
   std::vector<fit::FitFile> files;
   Complaints complaints;
   std::string report;
   for (const std::string& path : paths) {
     try {
-      files.push_back(fit::read_fit_file(path));
+      files.push_back(fit::read_fit_file(path, changes));
     } catch (const FileError& error) {
       complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
       report += (report.empty() ? "" : "\n") + std::string(error.what());
@@ -174,13 +176,13 @@ PredictionPlan plan_of(const FitArguments& arguments, const Scene<double>& scene
 
 void write_prediction(OutputFile& file, const PredictionPlan& plan, const fit::FitSpec& spec,
                       const fit::Estimate& estimate) {
-  const fit::DrawnScenes draws = fit::draw_scenes(fit::Parameters(spec.scene, spec.unknown), estimate,
-                                                  kPredictionDraws, spec.search.seed);
+  const fit::DrawnScenes draws = fit::scenes_behind(fit::Parameters(spec.scene, spec.unknown), estimate,
+                                                    kPredictionDraws, spec.search.seed);
   const fit::PredictedSamples samples =
       fit::predict_samples(*estimate.scene, draws, spec.forward.method, plan.times, plan.heights);
   note_draws(draws, samples.n_failed);
-  note_bands(samples.n_by_draws, 2 * samples.phi.size());
-  write_prediction_csv(file, plan.times, plan.heights, samples);
+  note_bands(draws, samples.n_by_draws, 2 * samples.phi.size());
+  write_prediction_csv(file, plan.times, plan.heights, samples, spec.scene.spec().units);
 }
 
 int fit_files(const FitArguments& arguments) {
@@ -196,7 +198,7 @@ int fit_files(const FitArguments& arguments) {
       refuse(output.option, output.path, "needs a single fit file");
   arguments.pictures.apply();
   check_picture_name("--plot", arguments.plot);
-  std::vector<fit::FitFile> files = read_files(arguments.files);
+  std::vector<fit::FitFile> files = read_files(arguments.files, arguments.set.changes());
   for (std::size_t i = 0; !is_one && i < files.size(); ++i)
     if (files[i].choice)
       throw InputError(printable(arguments.files[i]), "",
@@ -245,7 +247,7 @@ int fit_files(const FitArguments& arguments) {
   if (!is_one) return print_several(model_names(arguments.files, estimates), estimates, arguments.json);
   const fit::Estimate& estimate = estimates.front();
   if (output && estimate.usable()) {
-    write_residuals_csv(*output, files[0].spec.observations, estimate);
+    write_residuals_csv(*output, files[0].spec.observations, estimate, files[0].spec.scene.spec().units);
     output->commit();
   }
   if (scene_out && estimate.usable()) {
@@ -253,9 +255,11 @@ int fit_files(const FitArguments& arguments) {
     scene_out->commit();
   }
   if (band && estimate.usable()) {
-    write_band_csv(*band,
-                   fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate));
+    const fit::RateBand rates =
+        fit::rate_band(fit::Parameters(files[0].spec.scene, files[0].spec.unknown), estimate);
+    write_band_csv(*band, rates, files[0].spec.scene.spec().units);
     band->commit();
+    note_rate_band(rates);
   }
   if (prediction && estimate.usable() && !is_interrupted) {
     write_prediction(*prediction, plan, files[0].spec, estimate);
@@ -275,6 +279,7 @@ Command add_fit(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "fit", "Find entries of a scene from observations; several fit files are compared as models");
   app->add_option("FIT", arguments->files, "fit files")->type_name("")->required();
+  arguments->set.add_to(*app);
   app->add_option("-o", arguments->output, "observed and predicted values and residuals as CSV")
       ->type_name("FILE");
   app->add_option("--plot", arguments->plot,
@@ -282,7 +287,9 @@ Command add_fit(CLI::App& program) {
       ->type_name("FILE");
   app->add_option("--truth", arguments->truth, "scene whose s a(z) --plot shows as well")->type_name("SCENE");
   app->add_option("--scene-out", arguments->scene_out, "the fitted scene, a scene file")->type_name("FILE");
-  app->add_option("--band", arguments->band, "s a(z) with its pointwise 95 % band as CSV")->type_name("FILE");
+  app->add_option("--band", arguments->band,
+                  "s a(z) with its 95 % bands as CSV, of each height by itself and of all at once")
+      ->type_name("FILE");
   app->add_option("--predict", arguments->predict,
                   "phi and M with their 95 % bands as CSV, at --times and --heights")
       ->type_name("FILE");

@@ -182,6 +182,10 @@ int observe_scene(ObserveArguments& arguments) {
   Observations observations = observe(experiment.plan, scene, result);
   add_noise(observations, experiment.sigma, experiment.seed);
   if (arguments.truncate) clip(observations, scene);
+  const SceneUnits& units = scene.spec().units;
+  const bool is_height =
+      observations.quantity == Quantity::cumulative || observations.quantity == Quantity::bed_height;
+  observations.units = {units.t, units.z, is_height ? units.z : "", units.is_chute};
   // Files of tables may change or be left behind: then all numbers stand here.
   const std::string& text = arguments.scene.text();
   observations.comments =

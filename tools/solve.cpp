@@ -167,6 +167,23 @@ void note_size(std::size_t n_fronts) {
                      size / 1e6));
 }
 
+/// Columns H_lower, H_upper beside H, empty where there is no band.
+void add_bands(TimeTable& table, const std::vector<fit::PredictedNumber>& numbers) {
+  std::vector<std::string> names;
+  for (const std::string& name : table.columns)
+    for (const char* end : {"", "_lower", "_upper"}) names.push_back(name + end);
+  auto number = numbers.begin();
+  for (std::vector<double>& row : table.rows) {
+    std::vector<double> wider;
+    for (const double x : row) {
+      const auto& band = (number++)->band;
+      wider.insert(wider.end(), {x, band ? band->low : HUGE_VAL, band ? band->high : HUGE_VAL});
+    }
+    row = std::move(wider);
+  }
+  table.columns = std::move(names);
+}
+
 /// Numbers of the whole bed instead of concentrations.
 int solve_bed(const SolveArguments& arguments, const Task& task) {
   const bool is_mixed_flow =
@@ -178,13 +195,25 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   check_picture_target(arguments.plot);
   note_before_run(arguments.method, task.method, task.scene);
-  const BedCourse course = with_progress(
+  BedCourse course = with_progress(
       [&](const Progress& progress) {
         return bed_course(quantity_of(arguments), task.scene, task.method, task.times, progress);
       },
       last_time(task.times));
   if (!course.summary.usable()) return report_unusable(course.summary);
   note_remark(course.summary);
+  const TimeTable without_bands = course.table;  // what is drawn
+  if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
+    const fit::PredictedNumbers predicted = fit::predict_numbers(
+        task.scene, *draws,
+        [&](const Scene<double>& scene) {
+          return bed_numbers(quantity_of(arguments), scene, task.method, task.times);
+        },
+        task.method.guarantees().exact);
+    note_draws(*draws, predicted.n_failed);
+    note_bands(*draws, predicted.n_by_draws, predicted.numbers.size());
+    add_bands(course.table, predicted.numbers);
+  }
   const auto& lowest = course.lowest;
   NamedNumbers lowest_numbers{"lowest", {}};
   if (lowest) lowest_numbers.numbers = {{"t", lowest->t}, {"H", lowest->height}};
@@ -197,11 +226,36 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   if (lowest && !arguments.json)
     note(fmt::format("the bed is lowest at t = {}: H = {}", number_text(lowest->t, 7),
                      number_text(lowest->height, 10)));
+  course.table = without_bands;
   return arguments.plot.empty() ? kDone : draw_bed_course(arguments.plot, task.scene, task.method, course);
 }
 
+/// With --verbose: what half as many cells change. A tolerance is that of time steps; cells make an error of their own.
+void note_cells(const Task& task, const SolverRequest& request, const SolverResult& result) {
+  if (!ProgressLine::is_verbose() || !task.method.has_option("cells") || result.profiles.empty()) return;
+  if (task.method.has_option("cell-tolerance") && number_of(task.method, "cell-tolerance") > 0) return;
+  const std::size_t n = result.profiles.front().below().size();
+  if (n < 8) return;
+  Method half = task.method;
+  half.set("cells", std::uint64_t{n / 2});
+  const SolverResult coarse = with_progress(
+      [&](const Progress& progress) { return shearfront::solve(task.scene, half, request, progress); },
+      last_time(request.times));
+  if (!coarse.summary.usable()) return;
+  double phi = 0, M = 0;
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    phi = std::max(phi, std::abs(result.samples[i].phi - coarse.samples[i].phi));
+    M = std::max(M, std::abs(result.samples[i].M - coarse.samples[i].M));
+  }
+  note(fmt::format(
+      "half as many cells change phi by up to {} and M by up to {} at these places: the {} cells are "
+      "off by about as much or less",
+      number_text(phi, 2), number_text(M, 2), n));
+}
+
 int solve_concentration(const SolveArguments& arguments, const Task& task) {
-  const SolverRequest request = request_of(arguments, task);
+  SolverRequest request = request_of(arguments, task);
+  request.profiles = request.profiles || (ProgressLine::is_verbose() && task.method.has_option("cells"));
   OutputFile output(arguments.output.empty() ? "-" : arguments.output);
   std::optional<OutputFile> fronts;
   if (request.fronts) fronts.emplace(arguments.fronts);
@@ -213,6 +267,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
       last_time(request.times));
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
+  note_cells(task, request, result);
 
   std::vector<double> times = request.times;  // as printed
   for (double& t : times)
@@ -221,8 +276,8 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
     const fit::PredictedSamples samples =
         fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
     note_draws(*draws, samples.n_failed);
-    note_bands(samples.n_by_draws, 2 * samples.phi.size());
-    write_prediction_csv(output, times, request.heights, samples);
+    note_bands(*draws, samples.n_by_draws, 2 * samples.phi.size());
+    write_prediction_csv(output, times, request.heights, samples, task.scene.spec().units);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary, task.scene.spec().units);

@@ -14,9 +14,11 @@
 #include "cli/command.hpp"
 #include "cli/fit_text.hpp"
 #include "cli/progress.hpp"
+#include "cli/scene_changes.hpp"
 #include "shearfront/fit/study/sobol_indices.hpp"
 #include "shearfront/fit/study/study_runs.hpp"
 #include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/io/detail/text_source.hpp"
 #include "shearfront/io/output_file.hpp"
 #include "shearfront/io/text.hpp"
@@ -27,6 +29,7 @@ namespace {
 constexpr unsigned long long kMostShards = 1'000'000, kMostThreads = 1024;
 
 struct StudyArguments {
+  SceneChangesOption set;
   std::vector<std::string> files;
   std::string output, shard, threads, indices;
   bool resume = false, merge = false;
@@ -47,6 +50,25 @@ Shard shard_of(const std::string& text) {
   return {static_cast<std::size_t>(*k), static_cast<std::size_t>(*n)};
 }
 
+std::string unit_of_output(const fit::StudyOutput& output, const fit::StudySpec& spec) {
+  using Kind = fit::StudyOutput::Kind;
+  if (!spec.scene) return {};
+  const SceneUnits& units = spec.scene->spec().units;
+  switch (output.kind) {
+    case Kind::t0:
+    case Kind::t1:
+    case Kind::t_star:
+    case Kind::first:
+    case Kind::last:
+      return units.t;
+    case Kind::M:
+    case Kind::height:
+      return units.z;
+    default:
+      return {};
+  }
+}
+
 /// What makes the result, in comments: version, study and scene, seed; then the header. The same for the same study.
 std::string head_of(const fit::StudyRuns& runs, const std::string& study_text, const Shard& shard) {
   const fit::StudySpec& spec = runs.spec();
@@ -65,7 +87,8 @@ std::string head_of(const fit::StudyRuns& runs, const std::string& study_text, c
   if (shard.n > 1) head += fmt::format("# shard {}/{}\n", shard.k, shard.n);
   head += "run";
   for (const std::string& name : runs.entries()) head += "," + detail::csv_field(name);
-  for (const fit::StudyOutput& output : spec.outputs) head += "," + detail::csv_field(output.name);
+  for (const fit::StudyOutput& output : spec.outputs)
+    head += "," + detail::csv_field(detail::heading_text(output.name, unit_of_output(output, spec)));
   return head + ",status\n";
 }
 
@@ -156,7 +179,7 @@ int run_study(const StudyArguments& arguments) {
       arguments.threads.empty() ? 0 : count_option("--threads", arguments.threads, 0, kMostThreads);
   check_outputs(arguments.files[0], {{"-o", arguments.output}, {"--indices", arguments.indices}});
   const std::string study_text = detail::TextSource::read(arguments.files[0]).text();
-  fit::StudySpec spec = fit::read_study(arguments.files[0]);
+  fit::StudySpec spec = fit::read_study(arguments.files[0], arguments.set.changes());
   const bool has_indices = spec.design == fit::DesignKind::indices;
   if (!arguments.indices.empty() && (!has_indices || shard.n > 1))
     refuse("--indices", arguments.indices, "needs a whole study with design.kind = \"sobol-indices\"");
@@ -275,6 +298,7 @@ Command add_study(CLI::App& program) {
   app->add_option("STUDY", arguments->files, "study file; with --merge results of its shards")
       ->type_name("")
       ->required();
+  arguments->set.add_to(*app);
   app->add_option("-o", arguments->output, "result file, CSV, a row per run; default standard output")
       ->type_name("FILE");
   app->add_flag("--resume", arguments->resume, "go on with the result file where it ends");

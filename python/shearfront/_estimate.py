@@ -329,7 +329,7 @@ class Fit:
         return self.problem.posterior(priors)
 
     def predict(self, t: Any, z: Any, *, draws: int = _DRAWS, seed: int | None = None) -> Prediction:
-        """phi and M with 95 % bands, from scenes drawn from the error bars.
+        """phi and M with 95 % bands, from the error bars, or from the replicates after a fit with a bootstrap.
 
         Parameters
         ----------
@@ -376,7 +376,7 @@ class Fit:
         return self._engine.predict_events(draws, seed)
 
     def rate_band(self) -> RateBand:
-        """s a(z) with its pointwise 95 % band.
+        """s a(z) with its pointwise 95 % band, of the bootstrap after a fit with one.
 
         Returns
         -------

@@ -110,7 +110,8 @@ nb::tuple predict(const Fitted& self, const Numbers& times, const Numbers& heigh
   const std::vector<double> t = vector_of(times), z = vector_of(heights);
   fit::DrawnScenes drawn;
   const fit::PredictedSamples samples = without_lock([&](const Progress& progress) {
-    drawn = fit::draw_scenes(self.parameters(), *self.estimate, draws, seed.value_or(self.spec->search.seed));
+    drawn =
+        fit::scenes_behind(self.parameters(), *self.estimate, draws, seed.value_or(self.spec->search.seed));
     return fit::predict_samples(*self.estimate->scene, drawn, self.spec->forward.method, t, z, progress);
   });
   return nb::make_tuple(bands_of(samples.phi, t.size(), z.size()), bands_of(samples.M, t.size(), z.size()),
@@ -120,7 +121,7 @@ nb::tuple predict(const Fitted& self, const Numbers& times, const Numbers& heigh
 nb::dict predict_events(const Fitted& self, std::size_t draws, std::optional<std::uint64_t> seed) {
   const fit::PredictedEvents events = without_lock([&](const Progress& progress) {
     const fit::DrawnScenes drawn =
-        fit::draw_scenes(self.parameters(), *self.estimate, draws, seed.value_or(self.spec->search.seed));
+        fit::scenes_behind(self.parameters(), *self.estimate, draws, seed.value_or(self.spec->search.seed));
     return fit::predict_events(*self.estimate->scene, drawn, self.spec->forward.method, progress);
   });
   nb::dict all;

@@ -68,7 +68,8 @@ void members(T& x, Visit&& visit) {
   visit(x.name), visit(x.method), visit(x.algorithm), visit(x.quantity), visit(x.loss), visit(x.parameters);
   visit(x.misfit), visit(x.residual_norm), visit(x.sigma), visit(x.freedom), visit(x.sigma_is_given);
   visit(x.observations), visit(x.left_out), visit(x.evaluations), visit(x.iterations), visit(x.wall_s);
-  visit(x.correlation), visit(x.aic), visit(x.bic), visit(x.structure), visit(x.predicted), visit(x.steps);
+  visit(x.correlation), visit(x.replicates), visit(x.aic), visit(x.bic), visit(x.structure),
+      visit(x.predicted), visit(x.steps);
   visit(x.warnings), visit(x.status), visit(x.message);
 }
 

@@ -4,7 +4,8 @@
 namespace shearfront::fuzz {
 
 std::vector<std::string> corpus() {
-  return {"0.5,6", "0:1:11", "steady", "0:1:11,2,steady", "1e-3", "-1:1:3", "12"};
+  return {"0.5,6", "0:1:11", "steady", "0:1:11,2,steady",
+          "1e-3",  "-1:1:3", "12",     "point,bin:0.05,cumulative"};
 }
 
 std::vector<std::string> words() {

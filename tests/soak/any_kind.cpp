@@ -8,6 +8,7 @@
 
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
+#include "shearfront/scene/chute.hpp"
 #include "shearfront/solver/all.hpp"
 #include "shearfront/solver/solve.hpp"
 #include "soak/laws.hpp"
@@ -25,6 +26,7 @@ constexpr double kMostUpdatesOfAKind = 4e5;  ///< of one run, so that no scene t
 
 struct KindTrial {
   SceneSpec<double> spec;
+  std::string text_of_chute;  ///< of the scene whose bed this is; empty for other beds
   double early = 0, late = 0;
   support::OptionNumbers options;
 };
@@ -44,6 +46,7 @@ class KindDraw {
     do {
       trial.spec = scene();
     } while (!find_complaints(trial.spec).empty());
+    trial.text_of_chute = turned_into_bed(trial.spec);
     const double span = std::pow(10.0, make_.uniform(-2, 1));
     trial.late = span;
     trial.early = span * make_.uniform(0.05, 0.95);
@@ -71,6 +74,8 @@ class KindDraw {
       spec.initial_state = support::random_start(make_, most(spec, &StateRange<double>::lowest, 1),
                                                  most(spec, &StateRange<double>::highest, -1));
     }
+    if (make_.integer(0, 5) == 0) any_model_of(spec);
+    if (make_.integer(0, 8) == 0) spec.velocity = sample_of<VelocityList<double>, Velocity<double>>();
     if (make_.integer(0, 3) == 0 && !spec.diffusion) {
       // Of the same shape, so that every engine meets steep and rising tables between any ends.
       Table<double> rate;
@@ -82,6 +87,33 @@ class KindDraw {
       spec.shear_rate = std::move(rate);
     }
     return spec;
+  }
+
+  template <class List, class Variant>
+  Variant sample_of() {
+    std::vector<Variant> all;
+    List::for_each([&]<class M>() {
+      for (const M& model : M::samples()) all.push_back(model);
+    });
+    return all[static_cast<std::size_t>(make_.integer(0, int(all.size()) - 1))];
+  }
+
+  /// A shear rate of any model, those from rheology among them, whose numbers differ by powers of ten: the scale takes that.
+  void any_model_of(SceneSpec<double>& spec) {
+    spec.shear_rate = sample_of<DepthFunctionList<double>, DepthFunction<double>>();
+    if (!find_complaints(spec).empty()) return;
+    const Scene<double> scene(spec);
+    double most = 0;
+    for (int i = 0; i <= 32; ++i) most = std::max(most, scene.shear_rate_at(i / 32.0));
+    spec.scale = std::pow(10.0, make_.uniform(-1, 0.5)) / most;
+  }
+
+  /// The bed that a chute amounts to, in place of it; the text of the chute, if it was one.
+  static std::string turned_into_bed(SceneSpec<double>& spec) {
+    if (!spec.velocity) return {};
+    std::string text = scene_text(spec);
+    spec = SteadyChute<double>(Scene<double>(spec)).bed().spec();
+    return text;
   }
 
   support::SceneMaker make_;
@@ -219,6 +251,10 @@ class KindLaws {
   }
 
   void check_text() {
+    if (!trial_.text_of_chute.empty())
+      findings_.expect(
+          scene_text(parse_scene<double>(trial_.text_of_chute, "soak.toml").spec()) == trial_.text_of_chute,
+          "io: any chute reads back to the same text", [] { return std::string("text"); });
     const std::string text = scene_text(trial_.spec);
     findings_.expect(scene_text(parse_scene<double>(text, "soak.toml").spec()) == text,
                      "io: any scene reads back to the same text", [] { return std::string("text"); });

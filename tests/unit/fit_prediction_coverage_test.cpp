@@ -47,7 +47,9 @@ PlacesInFans places_in_fans(const Scene<double>& scene) {
 struct Coverage {
   double phi = 0, t_star = 0;
 };
-Coverage coverage_of(const SceneSpec<double>& truth, const std::vector<double>& rates, double sigma) {
+/// With a bootstrap of so many replicates, if there is to be one.
+Coverage coverage_of(const SceneSpec<double>& truth, const std::vector<double>& rates, double sigma,
+                     std::size_t n_bootstrap = 0, int n_data = kPredictionReplicates) {
   const Scene<double> scene(truth);
   const PlacesInFans places = places_in_fans(scene);
   SolverRequest request;
@@ -59,15 +61,17 @@ Coverage coverage_of(const SceneSpec<double>& truth, const std::vector<double>& 
   for (int i = 1; i <= 33; ++i) plan.depths.push_back(0.03 * i);
   const Observations exact = observed(truth, plan, 0, 1, false);
   FitSpec spec = fit_of(truth, exact, {"shear_rate.values"}, rates);
+  spec.uncertainty.bootstrap = n_bootstrap;
   const Parameters parameters(spec.scene, spec.unknown);
   Coverage covered;
-  for (int b = 0; b < kPredictionReplicates; ++b) {
+  for (int b = 0; b < n_data; ++b) {
     spec.observations = exact;
     add_noise(spec.observations, sigma, 41, static_cast<std::uint64_t>(b));
     const Estimate estimate = fit(spec);
     const DrawnScenes draws =
-        draw_scenes(parameters, estimate, kCoverageDraws, static_cast<std::uint64_t>(b));
+        scenes_behind(parameters, estimate, kCoverageDraws, static_cast<std::uint64_t>(b));
     EXPECT_EQ(draws.why_none, "");
+    EXPECT_EQ(draws.are_replicates, n_bootstrap > 0);
     const PredictedSamples samples =
         predict_samples(*estimate.scene, draws, Method(), places.times, places.heights);
     for (std::size_t k = 0; k < kCoveredPlaces; ++k) {
@@ -78,8 +82,8 @@ Coverage coverage_of(const SceneSpec<double>& truth, const std::vector<double>& 
     const auto& band = events.t_star.band;
     covered.t_star += band && band->low <= t_star && t_star <= band->high ? 1 : 0;
   }
-  covered.phi /= kPredictionReplicates * static_cast<double>(kCoveredPlaces);
-  covered.t_star /= kPredictionReplicates;
+  covered.phi /= n_data * static_cast<double>(kCoveredPlaces);
+  covered.t_star /= n_data;
   return covered;
 }
 
@@ -98,6 +102,14 @@ TEST(SlowFitPrediction, BandsOfExample3CoverTheTruth) {
 TEST(SlowFitPrediction, BandsOfExample4CoverTheTruth) {
   expect_nominal(coverage_of(small_above_large({0.2, 0.4, 0.6, 0.8}, {3.25, 2.32, 1.63, 1.05, 0.53}),
                              {3.25, 2.32, 1.63, 1.05, 0.53}, 1e-3));
+}
+
+// Fewer data sets, for each has a bootstrap: 95 +- 2.2 of 100. 79 replicates: (n + 1) p is whole.
+TEST(SlowFitPrediction, BandsOfABootstrapCoverTheTruth) {
+  const Coverage covered = coverage_of(small_above_large({0.29}, {3.15, 0.5}), {3.15, 0.5}, 1e-3, 79, 100);
+  std::printf("covered: %.2f %% of phi, %.2f %% of t*\n", 100 * covered.phi, 100 * covered.t_star);
+  EXPECT_NEAR(covered.phi, 0.95, 0.05);
+  EXPECT_NEAR(covered.t_star, 0.95, 0.06);
 }
 
 }  // namespace

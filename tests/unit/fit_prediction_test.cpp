@@ -106,6 +106,53 @@ TEST(FitPrediction, AnUnknownAtItsBoundStaysThereAndOneWithoutErrorGivesNoDraws)
   }
 }
 
+// All times of a scene are proportional to 1 / s: bands are the quantiles of 1 / s over the replicates, whatever the error bar.
+TEST(FitPrediction, BandsAfterABootstrapAreThoseOfItsReplicates) {
+  SceneSpec<double> spec = small_above_large({0.29}, {3.15, 0.5});
+  spec.scale = 2;
+  const Scene<double> scene(spec);
+  const Parameters parameters(scene, {{"shear_rate.scale"}, {}, {}, {}, Shape::none});
+  Estimate estimate = estimate_of(parameters, {0.5}, 0);
+  constexpr Eigen::Index kReplicates = 199;  // (n + 1) p is the 5th and the 195th
+  estimate.replicates.resize(kReplicates, 1);
+  for (Eigen::Index b = 0; b < kReplicates; ++b) estimate.replicates(b, 0) = 2 * (1 + 0.001 * double(b + 1));
+  const DrawnScenes draws = scenes_behind(parameters, estimate, 10, 1);
+  EXPECT_TRUE(draws.are_replicates);
+  EXPECT_EQ(draws.scenes.size(), 199U);
+  EXPECT_TRUE(draws.axes.empty());
+  const PredictedEvents events = predict_events(scene, draws, Method());
+  const double t_star = events.t_star.value;
+  ASSERT_TRUE(events.t_star.band.has_value());
+  EXPECT_NEAR(events.t_star.band->low * 1.195 / t_star, 1, 1e-12);
+  EXPECT_NEAR(events.t_star.band->high * 1.005 / t_star, 1, 1e-12);
+  EXPECT_FALSE(events.t_star.std_error.has_value());
+  estimate.replicates.resize(0, 0);
+  EXPECT_FALSE(scenes_behind(parameters, estimate, 10, 1).are_replicates);
+  EXPECT_EQ(scenes_behind(parameters, estimate, 10, 1).scenes.size(), 10U);
+}
+
+TEST(FitPrediction, NumbersOfAnyKindHaveBandsByDifferencesOrDraws) {
+  SceneSpec<double> spec = small_above_large({0.29}, {3.15, 0.5});
+  spec.scale = 2;
+  const Scene<double> scene(spec);
+  const Parameters parameters(scene, {{"shear_rate.scale"}, {}, {}, {}, Shape::none});
+  const DrawnScenes draws = draw_scenes(parameters, estimate_of(parameters, {0.02}, 0), 2000, 5);
+  const auto numbers = [](const Scene<double>& at) {
+    return std::vector<double>{3 * at.scale() + 1, 7, at.scale() > 2 ? 1.0 : 0.0};
+  };
+  const PredictedNumbers exact = predict_numbers(scene, draws, numbers, true);
+  ASSERT_EQ(exact.numbers.size(), 3U);
+  EXPECT_NEAR(exact.numbers[0].std_error.value_or(0), 0.06, 1e-9);
+  EXPECT_NEAR(exact.numbers[0].band->low, 7 - kNormal * 0.06, 1e-9);
+  EXPECT_NEAR(exact.numbers[0].band->high, 7 + kNormal * 0.06, 1e-9);
+  EXPECT_EQ(exact.numbers[1].band->low, 7);
+  EXPECT_EQ(exact.numbers[1].band->high, 7);
+  EXPECT_EQ(exact.numbers[2].band->low, 0);  // a step: no straight line
+  EXPECT_EQ(exact.numbers[2].band->high, 1);
+  EXPECT_EQ(exact.n_by_draws, 1U);
+  EXPECT_EQ(predict_numbers(scene, draws, numbers, false).n_by_draws, 3U);
+}
+
 // All times of a scene are proportional to 1 / s: what is relative to them is the error of s, to nine digits.
 TEST(FitPrediction, BandsOfTimesAreThoseOfTheScale) {
   const Scene<double> scene(small_above_large({0.29}, {3.15, 0.5}));

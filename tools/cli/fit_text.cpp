@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "cli/table.hpp"
+#include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
+#include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -52,6 +55,13 @@ std::string estimate_text(const fit::Estimate& estimate) {
                                                    : ""});
   }
   text += table.text();
+  if (estimate.scene && estimate.scene->spec().units.are_given()) {
+    const SceneUnits& units = estimate.scene->spec().units;
+    const auto shown_unit = [](const std::string& unit) { return unit.empty() ? "?" : printable(unit); };
+    text += fmt::format("heights in {}, {} in {}, s a in {}/{}\n", shown_unit(units.z),
+                        units.is_chute ? "distances" : "times", shown_unit(units.t), shown_unit(units.z),
+                        shown_unit(units.t));
+  }
   text += fmt::format("\nmisfit {:.6g} ({}, {}), residual norm {:.6g}, noise {}\n", estimate.misfit,
                       estimate.quantity, estimate.loss, estimate.residual_norm,
                       estimate.sigma_is_given      ? "as given by the data"
@@ -72,9 +82,17 @@ std::string csv_row(std::initializer_list<double> numbers) {
   return row;
 }
 
-void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate) {
+void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate,
+                         const SceneUnits& units) {
   const bool has_sigma = observations.has_sigma();
-  file.write(has_sigma ? "t,z,observed,predicted,residual,sigma\n" : "t,z,observed,predicted,residual\n");
+  const bool is_height =
+      observations.quantity == Quantity::cumulative || observations.quantity == Quantity::bed_height;
+  std::string header = csv_header({"t", "z"}, units);
+  header.pop_back();
+  for (const char* name : {"observed", "predicted", "residual", "sigma"})
+    if (has_sigma || std::string_view(name) != "sigma")
+      header += "," + detail::csv_field(detail::heading_text(name, is_height ? units.z : ""));
+  file.write(header + "\n");
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
     const Observation& o = observations.rows[i];
     const double predicted = estimate.predicted[i], residual = o.value - predicted;

@@ -16,9 +16,10 @@ namespace shearfront::tools {
 /// errors leave, the errors two.
 [[nodiscard]] std::string estimate_text(const fit::Estimate& estimate);
 
-/// Header t,z,observed,predicted,residual, with sigma if the data have it: residual = observed - predicted in
+/// Header t,z,observed,predicted,residual, with sigma if the data have it, and units: residual = observed - predicted in
 /// the unit of the data. One row per observation in the order of the data; empty without prediction.
-void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate);
+void write_residuals_csv(OutputFile& file, const Observations& observations, const fit::Estimate& estimate,
+                         const SceneUnits& units = {});
 
 [[nodiscard]] std::string comparison_text(const std::vector<fit::ComparedModel>& models);
 /// [{"model","parameters","misfit","aic","daic","aic_weight","bic","dbic"}]

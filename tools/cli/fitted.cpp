@@ -12,6 +12,9 @@
 #include "cli/fit_text.hpp"
 #include "cli/progress.hpp"
 #include "shearfront/fit.hpp"
+#include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
+#include "shearfront/io/results.hpp"
 #include "shearfront/io/text.hpp"
 
 namespace shearfront::tools {
@@ -60,8 +63,8 @@ FittedModels run_models(const fit::FitFile& file, const std::string& path) {
   return result;
 }
 
-Fitted fitted(const std::string& path) {
-  fit::FitFile file = fit::read_fit_file(path);
+Fitted fitted(const std::string& path, const SceneChanges& changes) {
+  fit::FitFile file = fit::read_fit_file(path, changes);
   print_remarks(file.remarks);
   print_remarks(file.spec.observations.notes);
   fit::Estimate estimate;
@@ -88,13 +91,14 @@ Fitted fitted(const std::string& path) {
                      p.std_error ? " +- " + number_text(*p.std_error, 2) : ""));
   for (const std::string& warning : estimate.warnings) note(printable(warning, 500));
   const fit::Parameters parameters(file.spec.scene, file.spec.unknown);
-  fit::DrawnScenes draws = fit::draw_scenes(parameters, estimate, kPredictionDraws, file.spec.search.seed);
+  fit::DrawnScenes draws = fit::scenes_behind(parameters, estimate, kPredictionDraws, file.spec.search.seed);
   return {std::move(file), std::move(estimate), std::move(draws)};
 }
 
 void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
-                          const std::vector<double>& heights, const fit::PredictedSamples& samples) {
-  file.write("t,z,phi,lower,upper,M,M_lower,M_upper\n");
+                          const std::vector<double>& heights, const fit::PredictedSamples& samples,
+                          const SceneUnits& units) {
+  file.write(csv_header({"t", "z", "phi", "lower", "upper", "M", "M_lower", "M_upper"}, units));
   const auto low = [](const fit::PredictedNumber& n) { return n.band ? n.band->low : HUGE_VAL; };
   const auto high = [](const fit::PredictedNumber& n) { return n.band ? n.band->high : HUGE_VAL; };
   for (std::size_t i = 0; i < times.size(); ++i)
@@ -105,14 +109,35 @@ void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
     }
 }
 
-void write_band_csv(OutputFile& file, const fit::RateBand& band) {
-  file.write("z,a,lower,upper\n");
-  for (const fit::RateRow& row : band.rows)
-    file.write(
-        csv_row({row.z, row.a, row.band ? row.band->low : HUGE_VAL, row.band ? row.band->high : HUGE_VAL}));
+void write_band_csv(OutputFile& file, const fit::RateBand& band, const SceneUnits& units) {
+  constexpr fit::Interval kNone{HUGE_VAL, HUGE_VAL};
+  const std::string unit = units.z.empty() || units.t.empty() ? "" : units.z + "/" + units.t;
+  std::string header = detail::csv_field(detail::heading_text("z", units.z));
+  for (const char* name : {"a", "lower", "upper", "lower_all", "upper_all"})
+    header += "," + detail::csv_field(detail::heading_text(name, unit));
+  file.write(header + "\n");
+  for (const fit::RateRow& row : band.rows) {
+    const fit::Interval here = row.band.value_or(kNone), all = row.everywhere.value_or(kNone);
+    file.write(csv_row({row.z, row.a, here.low, here.high, all.low, all.high}));
+  }
 }
 
-void note_bands(std::size_t n_by_draws, std::size_t n) {
+void note_rate_band(const fit::RateBand& band) {
+  const std::string source =
+      band.n_replicates > 0 ? fmt::format(", both from the {} replicates of the bootstrap", band.n_replicates)
+                            : "";
+  note(
+      fmt::format("the band from lower to upper holds at each height with 95 %, that from lower_all to "
+                  "upper_all at all heights at once{}",
+                  source));
+}
+
+void note_bands(const fit::DrawnScenes& draws, std::size_t n_by_draws, std::size_t n) {
+  if (draws.are_replicates) {
+    if (draws.why_none.empty())
+      note(fmt::format("95 % bands from the {} replicates of the bootstrap", draws.scenes.size()));
+    return;
+  }
   note(n_by_draws == 0
            ? "95 % bands by exact derivatives"
            : fmt::format(
@@ -124,9 +149,9 @@ void note_bands(std::size_t n_by_draws, std::size_t n) {
 void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed) {
   if (!draws.why_none.empty()) note("no bands: " + printable(draws.why_none));
   if (n_failed > 0)
-    note(fmt::format(
-        "{} of {} scenes drawn from the error bars have no solution and are left out of the bands", n_failed,
-        draws.scenes.size()));
+    note(fmt::format("{} of {} scenes {} have no solution and are left out of the bands", n_failed,
+                     draws.scenes.size(),
+                     draws.are_replicates ? "of the bootstrap" : "drawn from the error bars"));
 }
 
 }  // namespace shearfront::tools

@@ -26,9 +26,9 @@ struct Fitted {
 /// Whether a file is a fit file. Errors: FileError if it cannot be read or is no TOML.
 [[nodiscard]] bool is_fit_file(const std::string& path);
 
-/// Reads a fit file, fits it, says on standard error what there is to say, and draws scenes from the estimate.
+/// Reads a fit file, its scene with changes, fits it, says on standard error what there is to say, and draws scenes from the estimate.
 /// Errors: FileError; InputError if the fit has no usable estimate.
-[[nodiscard]] Fitted fitted(const std::string& path);
+[[nodiscard]] Fitted fitted(const std::string& path, const SceneChanges& changes = {});
 
 /// One fit with the line of its progress; Ctrl-C ends the search with what it has. Errors: FileError.
 [[nodiscard]] fit::Estimate run_fit(const fit::FitSpec& spec, const std::string& path);
@@ -43,12 +43,16 @@ struct FittedModels {
 
 /// Header t,z,phi,lower,upper,M,M_lower,M_upper: 95 % bands, empty without error bars. One row per time and height.
 void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
-                          const std::vector<double>& heights, const fit::PredictedSamples& samples);
-/// Header z,a,lower,upper: s a(z) with its pointwise 95 % band; layers have a row at each end.
-void write_band_csv(OutputFile& file, const fit::RateBand& band);
+                          const std::vector<double>& heights, const fit::PredictedSamples& samples,
+                          const SceneUnits& units);
+/// Header z,a,lower,upper,lower_all,upper_all: s a(z) with its 95 % bands, of each height and of all at once; layers have a row
+/// at each end.
+void write_band_csv(OutputFile& file, const fit::RateBand& band, const SceneUnits& units);
+/// Says which band is which, and of what.
+void note_rate_band(const fit::RateBand& band);
 
 /// Says by what the bands of `n` numbers are, `n_by_draws` of them by draws.
-void note_bands(std::size_t n_by_draws, std::size_t n);
+void note_bands(const fit::DrawnScenes& draws, std::size_t n_by_draws, std::size_t n);
 /// Says what keeps a prediction from having bands, or that some draws had no solution.
 void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed);
 

@@ -2,6 +2,7 @@
 #include "cli/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -13,13 +14,22 @@ namespace {
 
 volatile sig_atomic_t interrupted = 0;
 
-extern "C" void remember_interrupt(int /*signal*/) { interrupted = 1; }
-
-extern "C" void end_with_a_word(int signal) {
+extern "C" void end_with_a_word(int /*signal*/) {
   constexpr char kText[] = "\nshearfront: interrupted; files are written whole or not at all\n";
   (void)!write(STDERR_FILENO, kText, sizeof kText - 1);
-  std::signal(signal, SIG_DFL);
-  (void)std::raise(signal);
+  std::signal(SIGINT, SIG_DFL);
+  (void)std::raise(SIGINT);
+}
+
+/// SIGALRM after so long; 0: not any more. A bare system call, which signal handlers may make.
+void set_alarm(std::chrono::milliseconds after) {
+  const itimerval timer{{}, {0, static_cast<suseconds_t>(after.count()) * 1000}};
+  (void)setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+extern "C" void remember_interrupt(int /*signal*/) {
+  interrupted = 1;
+  set_alarm(InterruptGuard::kPatience);
 }
 
 double seconds_between_lines = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
@@ -27,6 +37,7 @@ double seconds_between_lines = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-g
 }  // namespace
 
 void ProgressLine::set_verbose(double seconds) { seconds_between_lines = seconds; }
+bool ProgressLine::is_verbose() { return seconds_between_lines > 0; }
 
 void say_when_interrupted() {
   struct sigaction now {};
@@ -101,10 +112,18 @@ InterruptGuard::InterruptGuard() {
   action.sa_handler = remember_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigemptyset(&action.sa_mask);
+  struct sigaction at_last = action;
+  at_last.sa_handler = end_with_a_word;
+  sigaction(SIGALRM, &at_last, &alarm_before_);
   sigaction(SIGINT, &action, nullptr);
 }
 
-InterruptGuard::~InterruptGuard() { sigaction(SIGINT, &before_, nullptr); }
+InterruptGuard::~InterruptGuard() {
+  if (before_.sa_handler == SIG_IGN) return;
+  set_alarm(std::chrono::milliseconds(0));
+  sigaction(SIGINT, &before_, nullptr);
+  sigaction(SIGALRM, &alarm_before_, nullptr);
+}
 
 bool InterruptGuard::is_interrupted() { return interrupted != 0; }
 

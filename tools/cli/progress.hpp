@@ -26,6 +26,7 @@ class ProgressLine {
 
   /// Lines where standard error is no terminal, so many seconds apart; 0: none.
   static void set_verbose(double seconds);
+  [[nodiscard]] static bool is_verbose();
 
   /// Must not outlive this object. Empty if there are no lines. `t_end` > 0: with the part that is done and the time that
   /// is left at the same pace.
@@ -61,7 +62,7 @@ auto with_progress(Work&& work, double t_end = 0) {
 void say_when_interrupted();
 
 /// While one of these exists, the first Ctrl-C (SIGINT) is only remembered, so that a long computation can
-/// end with what it has; the second one ends the program as usual.
+/// end with what it has, if it can within kPatience; else, and by a second one, the program ends as usual.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -71,8 +72,12 @@ class InterruptGuard {
 
   [[nodiscard]] static bool is_interrupted();
 
+  /// Not felt by who waits, with room below a fifth of a second for what the machine does besides.
+  static constexpr std::chrono::milliseconds kPatience{150};
+
  private:
-  struct sigaction before_ {};
+  struct sigaction before_ {
+  }, alarm_before_{};
 };
 
 }  // namespace shearfront::tools

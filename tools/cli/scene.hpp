@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/fitted.hpp"
+#include "cli/scene_changes.hpp"
 #include "shearfront/io/scene_file.hpp"
 
 namespace CLI {
@@ -26,13 +27,12 @@ class SceneArgument {
   [[nodiscard]] const fit::DrawnScenes* draws() const { return draws_ ? &*draws_ : nullptr; }
   /// What was read. Precondition: read().
   [[nodiscard]] const std::string& text() const { return text_; }
-  [[nodiscard]] const std::vector<std::string>& set() const { return set_; }
-  /// Errors: InputError for one without "=".
-  [[nodiscard]] SceneChanges changes() const;
+  [[nodiscard]] const std::vector<std::string>& set() const { return set_.words(); }
+  [[nodiscard]] SceneChanges changes() const { return set_.changes(); }
 
  private:
   std::string file_, text_;
-  std::vector<std::string> set_;
+  SceneChangesOption set_;
   std::optional<fit::DrawnScenes> draws_;
 };
 

@@ -18,7 +18,7 @@ margin = T_max > T_min ? 0.02 * (T_max - T_min) : 0.05 * (T_max + (T_max == 0))
 set xrange [T_min-margin:T_max+margin]
 set yrange [z_low:z_high]
 set cbrange [0:1]
-set cblabel 'worth of one more, part of the largest' offset 0.8,0
+set cblabel is_narrow ? 'worth of one more' : 'worth of one more, part of the largest' offset 0.8,0
 set colorbox noborder
 set xtics steps_of(T_max)
 set ytics steps_of(z_high - z_low)

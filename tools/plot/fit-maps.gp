@@ -8,7 +8,7 @@
 #            dt, dz      by which cells reach under their neighbours drawn later, else the page shines through between them
 if (!exists("are_cells")) are_cells = 1
 if (!exists("have_gaps")) have_gaps = 0
-panel_width = (0.895 - 0.08 - 0.125) / 3
+panel_width = (0.895 - z_margin - 0.125) / 3
 stats 'cells.csv' using (column("t_low")):(column("t_high")) nooutput
 t_low = STATS_min_x < 0.2 * STATS_max_y ? 0 : STATS_min_x
 t_high = are_cells ? STATS_max_y : 1.02 * STATS_max_y
@@ -31,7 +31,7 @@ residual_colours = "set cbrange [-limit:limit]; set cbtics (beyond('≤').sprint
 
 do for [k=1:3] {
   load 'panel.gp'
-  left = word('0.08 0.355 0.665', k) + 0
+  left = z_margin + (k - 1) * panel_width + word('0 0.045 0.125', k)
   right = left + panel_width
   bottom = 0.56
   top = 0.885
@@ -42,7 +42,7 @@ do for [k=1:3] {
   set xtics tic_step(t_low, t_high, panel_width)
   eval height_axis
   if (k == 1) {
-    set ylabel label('height {/:Italic z}', unit_z) offset 0.8,0
+    set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0
     unset colorbox
   } else {
     set format y ''

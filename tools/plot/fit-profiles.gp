@@ -10,7 +10,7 @@ sigmas = 1.96          # of a 95 % interval
 most_error_bars = 40   # more of them hide the points
 gap = 0.022
 n_times = words(times)
-panel_width = min(0.45, (0.89 + gap) / n_times - gap)
+panel_width = min(0.45, (0.97 - z_margin + gap) / n_times - gap)
 error(i) = has_sigma ? sigmas * column("sigma") : 0
 stats 'residuals.csv' using (column("observed") - error(0)):(column("observed") + error(0)) nooutput
 low = min(value_low, STATS_min_x)
@@ -22,7 +22,7 @@ n = STATS_records / n_times
 
 do for [k=1:n_times] {
   load 'panel.gp'
-  left = 0.08 + (k - 1) * (panel_width + gap)
+  left = z_margin + (k - 1) * (panel_width + gap)
   right = left + panel_width
   bottom = 0.56
   top = 0.855
@@ -39,7 +39,7 @@ do for [k=1:n_times] {
   unset label
   unset arrow
   if (k == 1) {
-    set ylabel label('height {/:Italic z}', unit_z) offset 0.8,0
+    set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0
     # The legend is one line above all panels; gnuplot's own would stand in two.
     first = has_bars ? 0.36 : 0.4
     second = has_bars ? 0.58 : 0.54

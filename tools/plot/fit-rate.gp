@@ -9,6 +9,7 @@
 #
 # Variables: those of fit.gp, and
 #            is_rate_unknown   1 if anything about s or a was
+#            band_name    '95 % band', or by what
 #            has_truth    1 if there is truth.csv
 #            n_models     other models; model_name_1, model_name_2, ... are their names, model_name_0 that of the estimate
 #            estimates    'values[0]=2.4±0.1 ...', words
@@ -17,6 +18,7 @@ if (!exists("is_rate_unknown")) is_rate_unknown = 1
 if (!exists("rate_symbol")) rate_symbol = '{/:Italic a}'
 if (!exists("estimates")) estimates = ''
 if (!exists("has_truth")) has_truth = 0
+if (!exists("band_name")) band_name = '95 % band'
 if (!exists("n_models")) n_models = 0
 n_models = int(n_models)
 model_file(j) = sprintf('model%d.csv', j)
@@ -31,8 +33,12 @@ eval set_subtitle
 estimates_text = ''
 if (n_models > 3) { estimates = '' }  # no room
 do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
-set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', 0.7 * letters) textcolor rgb '#303030'
-left = 0.08
+longest_estimate = 0
+do for [word_of_them in estimates] { longest_estimate = max(longest_estimate, strlen(word_of_them)) }
+# As wide as the room before the panel on the right, whose label begins at 0.62 of the figure.
+estimates_size = 0.7 * letters * min(1, 23.0 / max(longest_estimate, 1))
+set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', estimates_size) textcolor rgb '#303030'
+left = z_margin
 right = 0.42
 bottom = 0.095
 top = 0.4
@@ -90,8 +96,8 @@ do for [i=1:n_rows] { print sprintf('%.9g,%.9g', clamp(lowers[i], low, high), zs
 do for [i=n_rows:1:-1] { print sprintf('%.9g,%.9g', clamp(uppers[i], low, high), zs[i]) }
 unset print
 
-set xlabel label('shear rate '.rate_symbol.'({/:Italic z})', unit_z eq '' || unit_t eq '' ? '' : unit_z.'/'.unit_t) offset 0,0.3
-set ylabel label('height {/:Italic z}', unit_z) offset 0.8,0
+set xlabel label('segregation velocity '.rate_symbol.'({/:Italic z})', unit_z eq '' || unit_t eq '' ? '' : unit_z.'/'.unit_t) offset 0,0.3
+set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0
 eval height_axis
 set xrange [low:high]
 if (is_logarithmic) {
@@ -107,13 +113,17 @@ if (is_logarithmic) {
 } else {
   set xtics tic_step(low, high, right - left)
 }
-set key at screen right+0.012,top left top vertical Left reverse samplen 1.8 spacing 1.2
+# One column beside the other panel: many models get smaller letters.
+n_entries = 3 + has_truth + n_models
+entry_size = min(1, 6.0 / n_entries)
+entry_font = sprintf(',%.2f', letters * max(entry_size, 0.55))
+set key at screen right+0.012,top left top vertical Left reverse samplen 1.8 spacing (n_entries > 5 ? 1.0 : 1.2) maxcols 1 font entry_font
 set datafile nocolumnheaders
 is_given = !is_rate_unknown || count(banded) + count(open) > 0  # else the whole known curve is the estimate
 row(i) = int(column(0)) + 1
 rate(k) = kinds[row(0)] == k ? column(2) : NaN
 before(i) = i > 1 && kinds[i] != kinds[max(i - 1, 1)] ? i - 1 : 0  # where a step joins curves of two kinds
-plot for [i=1:count(banded)>0] $band using 1:2 with filledcurves closed fs solid noborder lc rgb '#b3d4e8' title '95 % band', \
+plot for [i=1:count(banded)>0] $band using 1:2 with filledcurves closed fs solid noborder lc rgb '#b3d4e8' title band_name, \
   'interfaces.csv' using (clamp(column(3), low, high)):1:(clamp(column(3), low, high)):(clamp(column(4), low, high)):1:2 skip 1 \
     with boxxyerror fs solid noborder fc rgb '#b3d4e8' notitle, \
   for [j=1:n_models] model_file(j) using 2:1 skip 1 with lines lw 1.3 lc rgb model_colour(j) title model_name(j), \

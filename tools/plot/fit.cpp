@@ -154,6 +154,7 @@ void add_rate(Picture& picture, const fit::FitSpec& spec, const fit::Estimate& e
   const fit::RateBand band = fit::rate_band(fit::Parameters(spec.scene, spec.unknown), estimate);
   picture.set("is_rate_unknown", band.is_unknown);
   const bool is_scaled = estimate.scene->scale() != 1 || spec.scene.scale() != 1;
+  picture.set("band_name", band.n_replicates > 0 ? "95 % by bootstrap" : "95 % band");
   picture.set("rate_symbol", is_scaled ? "{/:Italic s} {/:Italic a}" : "{/:Italic a}");
   // The shortest texts that read back: equal ends of a band are equal texts.
   picture.add_file("rate.csv", [&](OutputFile& file) {

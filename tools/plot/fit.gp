@@ -32,6 +32,12 @@ wider(low, high, step, room) = fits(low, high, step, room) ? step : wider(low, h
 tic_step(low, high, room) = wider(low, high, round_up((high - low) / 10.0), room)
 # Axes at this place of the figure; labels lie outside.
 place = "set lmargin at screen left; set rmargin at screen right; set bmargin at screen bottom; set tmargin at screen top"
+# Room for the labels of heights, and how near to them the name of the axis comes: digits are wider than gnuplot takes them for.
+z_step = round_up((z_high - z_low) / 6.0)
+z_letters = n_letters(z_high, z_step)
+has_fractions = strstrt(sprintf('%.6g', z_step), '.') > 0
+z_offset = has_fractions ? 0.8 : 0
+z_margin = 0.08 + 0.013 * max(0, z_letters - (has_fractions ? 3 : 2))
 height_axis = "set yrange [z_low:z_high]; set ytics round_up((z_high - z_low) / 6.0)"
 
 set multiplot title title noenhanced

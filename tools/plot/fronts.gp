@@ -3,7 +3,8 @@
 #
 # fronts.csv   layer,t_begin,z_begin,t_end,z_end,phi_below,phi_above   as written by `shearfront solve --fronts`
 # pure.csv     t,z,kind   a grid: kind 1 where there are small grains only, -1 large ones only
-# events.csv   t,z,label,side   marked points; side: where the label stands (see the last lines)
+# events.csv   t,z,label,side,is_first   marked points; side: where the label stands (see the last lines); is_first: the first wave
+#              at one of many interfaces
 #
 # Variables: t_end               right end of the axis
 #            z_low, z_high       bottom and top
@@ -13,6 +14,7 @@
 #            least_shock         jumps up to this are drawn like fronts of a fan
 #            fan_width           width of these lines
 #            has_pure            1 if there is pure.csv
+#            n_listed            interfaces whose events are named in the legend: too many for labels; 0: labels
 width = 640
 height = 440
 is_subtitle_below = 1  # labels of events stand above the axes
@@ -31,6 +33,8 @@ if (!exists("wall_high")) wall_high = 1
 if (!exists("least_shock")) least_shock = 0.015
 if (!exists("fan_width")) fan_width = 0.7
 if (!exists("has_pure")) has_pure = 0
+if (!exists("n_listed")) n_listed = 0
+if (!exists("along")) along = 't'
 
 n_widths = 12
 widest = 3.6
@@ -55,7 +59,7 @@ set ytics steps_of(z_high - z_low)
 set clip two
 set cbrange [phi_low:phi_high]
 set cblabel is_narrow ? '{/:Italic φ}' : '{/:Italic φ}, mean of both sides' offset 0.3,0
-if (phi_low == 0 && phi_high == 1) set cbtics 0.25
+if (phi_low == 0 && phi_high == 1) { set cbtics 0.25 } else { set cbtics round_up((phi_high - phi_low) / (is_narrow ? 4.0 : 8.0)) }
 set colorbox noborder user origin graph 1.045,0.4 size graph 0.025,0.55
 # Shocks: a line for each of three jumps, below the colours.
 key_font = sprintf(',%.2f', 0.8 * letters)
@@ -81,6 +85,7 @@ unset print
 set table $shocks append separator comma
 plot 'fronts.csv' using 2:3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2):(class($6, $7)) with table if (class($6, $7) > 0)
 unset table
+listed(hat) = sprintf('{/:Italic %s%s}_{c}(1)–(%d)', along, hat, n_listed)
 tint(kind, channel) = kind > 0 ? word('255 243 222', channel) + 0 : kind < 0 ? word('232 230 246', channel) + 0 : 255
 plot for [i=1:has_pure] 'pure.csv' using 1:2:(tint($3, 1)):(tint($3, 2)):(tint($3, 3)) with rgbimage notitle, \
   'fronts.csv' using (class($6, $7) == 0 ? $2 : NaN):3:(end(strcol(4)) - $2):($5 - $3):(($6 + $7) / 2) \
@@ -89,6 +94,9 @@ plot for [i=1:has_pure] 'pure.csv' using 1:2:(tint($3, 1)):(tint($3, 2)):(tint($
   for [k=1:3] keyentry with lines lw width_of(class(0, jump_of(k))) lc rgb grey_of(class(0, jump_of(k))) title sprintf('jump %.3g', jump_of(k)), \
   'events.csv' using "t":"z" with points pt 7 ps 0.75 lc rgb 'white' notitle, \
   'events.csv' using "t":"z" with points pt 7 ps 0.55 lc rgb 'black' notitle, \
+  'events.csv' using "t":(column("is_first") == 1 ? column("z") : NaN) with points pt 7 ps 0.33 lc rgb 'white' notitle, \
+  for [i=1:n_listed>0] keyentry with points pt 6 ps 0.55 lw 1.3 lc rgb 'black' title listed(''), \
+  for [i=1:n_listed>0] keyentry with points pt 7 ps 0.55 lc rgb 'black' title listed('̂'), \
   for [i=1:has("left-above")] 'events.csv' using "t":(at("left-above")):"label" with labels right offset -0.6,0.75 notitle, \
   for [i=1:has("left-below")] 'events.csv' using "t":(at("left-below")):"label" with labels right offset -0.6,-0.75 notitle, \
   for [i=1:has("right-above")] 'events.csv' using "t":(at("right-above")):"label" with labels left offset 0.7,0.75 notitle, \

@@ -7,6 +7,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/method.hpp"
 #include "plot/pictures.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -111,8 +112,32 @@ std::string label_rows(const MapGrid& grid, const std::vector<double>& states) {
   return rows.empty() ? "" : "t,z,label\n" + rows;
 }
 
+/// Whether phi of the grid jumps with a front, within so many of its heights, by half as much at least: steps by which a
+/// tracker stands for what varies smoothly do not.
+bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t reach) {
+  const auto nearest = [](const std::vector<double>& xs, double x) {
+    const double part = (x - xs.front()) / (xs.back() - xs.front());
+    return static_cast<std::size_t>(
+        std::llround(std::clamp(part, 0.0, 1.0) * static_cast<double>(xs.size() - 1)));
+  };
+  const double t_end =
+                   std::isfinite(front.t_end) ? std::min(front.t_end, grid.times.back()) : grid.times.back(),
+               z_end = std::isfinite(front.z_end) ? front.z_end : front.z_begin;
+  const std::size_t i = nearest(grid.times, (front.t_begin + t_end) / 2),
+                    j = nearest(grid.heights, (front.z_begin + z_end) / 2), last = grid.heights.size() - 1;
+  // A front may cross many heights of the grid between two of its times.
+  const double crossed = std::abs(z_end - front.z_begin) / (t_end - front.t_begin) *
+                         (grid.times[1] - grid.times[0]) / (grid.heights[1] - grid.heights[0]);
+  if (crossed > 0) reach += static_cast<std::size_t>(std::min(std::ceil(crossed), static_cast<double>(last)));
+  const double jump = front.phi_above - front.phi_below,
+               seen = grid.phi[grid.at(i, std::min(j + reach, last))] -
+                      grid.phi[grid.at(i, j - std::min(j, reach))];
+  return seen * jump > 0.5 * jump * jump;
+}
+
 /// Shocks, by the first solver that has fronts; none where it does not solve the bed.
-std::vector<FrontSegment<double>> shocks_of(const Scene<double>& scene, double t_end, double least) {
+std::vector<FrontSegment<double>> shocks_of(const Scene<double>& scene, double t_end, double least,
+                                            const MapGrid& grid, std::size_t reach) {
   const Method method(Method::names(&Guarantees::has_fronts).front());
   if (!method.refusal(scene).empty()) return {};
   SolverRequest request;
@@ -120,7 +145,8 @@ std::vector<FrontSegment<double>> shocks_of(const Scene<double>& scene, double t
   request.fronts = true;
   std::vector<FrontSegment<double>> shocks;
   for (const auto& f : solve(scene, method, request).fronts)
-    if (std::abs(f.phi_above - f.phi_below) > least) shocks.push_back(f);
+    if (std::abs(f.phi_above - f.phi_below) > least && !is_of_fan(scene, f) && is_seen(grid, f, reach))
+      shocks.push_back(f);
   return shocks;
 }
 
@@ -160,7 +186,11 @@ int draw_map(const std::string& path, const Scene<double>& scene, const Method& 
   const std::string labels = label_rows(grid, states);
   picture.set("has_labels", !labels.empty());
   picture.add_file("labels.csv", [&](OutputFile& file) { file.write(labels); });
-  const auto shocks = shocks_of(scene, t_end, kLeastShock * grid.width);
+  // Schemes spread a shock over some cells.
+  constexpr double kSpread = 4;
+  const double cells = method.has_option("cells") ? number_of(method, "cells") : HUGE_VAL;
+  const auto reach = static_cast<std::size_t>(std::max(2.0, std::ceil(kSpread * kMapHeights / cells)));
+  const auto shocks = shocks_of(scene, t_end, kLeastShock * grid.width, grid, reach);
   picture.set("has_shocks", !shocks.empty());
   picture.add_file("shocks.csv", [&](OutputFile& file) { write_fronts_csv(file, shocks); });
   return picture.draw();

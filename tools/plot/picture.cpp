@@ -2,18 +2,26 @@
 #include "plot/picture.hpp"
 
 #include <fmt/format.h>
+#include <spawn.h>
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 #include <sys/wait.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <thread>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/progress.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/numeric/number_text.hpp"
 
@@ -53,6 +61,24 @@ void keep_blanks(std::string& svg) {
 
 /// What the templates are told about the size; of the one run this program makes.
 std::string size_settings;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+/// The status of a line of the shell as waitpid() gives it; nothing if Ctrl-C ended it. system() would not let Ctrl-C through.
+std::optional<int> status_of_shell(std::string line) {
+  constexpr std::chrono::milliseconds kBetweenLooks{2};
+  constexpr int kNotStarted = 127 << 8;
+  const InterruptGuard guard;
+  std::string shell = "sh", option = "-c";
+  const std::array<char*, 4> words{shell.data(), option.data(), line.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, "sh", nullptr, nullptr, words.data(), environ) != 0) return kNotStarted;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (InterruptGuard::is_interrupted()) (void)kill(child, SIGKILL);
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+  if (InterruptGuard::is_interrupted()) return std::nullopt;
+  return status;
+}
 
 /// What a template printed about itself.
 void repeat_remarks(const std::string& errors) {
@@ -138,9 +164,16 @@ int Picture::draw() const {
     file.write(fmt::format("set loadpath {}\nload '{}.gp'\n", quoted(templates.string(), "''"), kind_));
   });
   const std::string command =
-      fmt::format("cd {} && gnuplot run.gp >output 2>errors", quoted(folder_, "'\\''"));
+      fmt::format("cd {} && exec gnuplot run.gp >output 2>errors", quoted(folder_, "'\\''"));
   constexpr int kCommandNotFound = 127;  // exit code of the shell
-  const int status = std::system(command.c_str());
+  const std::optional<int> drawn = status_of_shell(command);
+  if (!drawn) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    (void)std::raise(SIGINT);
+    return kNoResult;
+  }
+  const int status = *drawn;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kCommandNotFound) {
     note(fmt::format("no picture {}: gnuplot is not installed", printable(path_)));
     return kDone;

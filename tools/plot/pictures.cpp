@@ -105,26 +105,27 @@ std::string pure_rows(const Scene<double>& scene, const Method& method, double t
   return rows;
 }
 
-/// Rows t,z,label,side of the events. Labels stand where no front is: before a first wave, after a last one,
-/// and outside the walls. More than a few interfaces have no labels.
+constexpr std::size_t kMostLabels = 4;  // interfaces
+
+/// Rows t,z,label,side,is_first of the events. Labels stand where no front is: before a first wave, after a last one,
+/// and outside the walls. Events at more than kMostLabels interfaces have none, but a place in the legend by their kind.
 std::string event_rows(const Scene<double>& scene, const Timeline<double>& timeline, double t_end) {
-  constexpr std::size_t kMostLabels = 4;
-  std::string rows = "t,z,label,side\n";
+  std::string rows = "t,z,label,side,is_first\n";
   const std::string along = scene.spec().units.symbol();
   const auto mark = [&](const std::optional<double>& t, double z, std::string_view symbol,
-                        std::string_view index, std::string_view side) {
+                        std::string_view index, std::string_view side, bool is_first = false) {
     if (!t || *t > t_end) return;
     const std::string label = symbol.empty() ? "" : fmt::format("\"{{/:Italic {}}}{}\"", symbol, index);
-    rows += fmt::format("{},{},{},{}\n", number_text(*t), number_text(z), label, side);
+    rows += fmt::format("{},{},{},{},{:d}\n", number_text(*t), number_text(z), label, side, is_first);
   };
   const std::size_t n = timeline.interfaces.size();
   const double z_jump = scene.initial_breaks().empty() ? scene.top() : scene.initial_breaks().front();
   for (std::size_t i = 0; i < n; ++i) {
     const auto& at = timeline.interfaces[i];
-    const std::string index = n == 1 ? "_{c}" : fmt::format("_{{c,{}}}", i + 1);
+    const std::string index = n == 1 ? "_{c}" : fmt::format("_{{c}}({})", i + 1);  // as in tables
     const bool has_room = at.first && *at.first > 0.07 * t_end;
     mark(at.first, at.z, n <= kMostLabels && has_room ? along : "", index,
-         at.z < z_jump ? "left-below" : "left-above");
+         at.z < z_jump ? "left-below" : "left-above", n > kMostLabels);
     mark(at.last, at.z, n <= kMostLabels ? along + "\u0302" : "", index,
          at.z < timeline.steady_height ? "right-below" : "right-above");
   }
@@ -173,6 +174,13 @@ double flux_at(const Scene<double>& scene, double z, double phi) {
   return c * scene.rate_at(z) * spec.fluxes[static_cast<std::size_t>(i)].value(phi / c);
 }
 
+bool is_of_fan(const Scene<double>& scene, const FrontSegment<double>& front) {
+  const double z = std::isfinite(front.z_end) ? (front.z_begin + front.z_end) / 2 : front.z_begin;
+  const double c = scene.solid_fraction_at(z);
+  const Flux<double>& flux = scene.flux_at(z);
+  return flux.derivative(front.phi_below / c) < flux.derivative(front.phi_above / c);
+}
+
 std::string described(const Method& method) {
   std::string text(method.name());
   if (method.has_option("resolution")) text += ", resolution " + number_text(number_of(method, "resolution"));
@@ -205,9 +213,13 @@ int draw_fronts(const std::string& path, const Scene<double>& scene, const Metho
   picture.set("wall_high", !scene.spec().is_periodic && !scene.spec().outside_top);
   picture.set("least_shock", least_shock(scene, fronts, resolution));
   picture.set("fan_width", scene.is_layered() ? 0.7 : 0.4);  // a staircase has many more fronts
-  const auto shown = thinned(scene, fronts, least_shock(scene, fronts, resolution));
+  auto shown = thinned(scene, fronts, least_shock(scene, fronts, resolution));
+  for (auto& f : shown)  // in the colour of a fan, however wide its steps are
+    if (is_of_fan(scene, f)) f.phi_below = f.phi_above = (f.phi_below + f.phi_above) / 2;
   picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, shown); });
   picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
+  const std::size_t n_interfaces = timeline.interfaces.size();
+  picture.set("n_listed", n_interfaces > kMostLabels ? static_cast<double>(n_interfaces) : 0.0);
   const std::string pure = pure_rows(scene, method, t_end);
   picture.set("has_pure", !pure.empty());
   picture.add_file("pure.csv", [&](OutputFile& file) { file.write(pure); });

@@ -68,6 +68,10 @@ void set_scene(Picture& picture, const Scene<double>& scene, const std::string& 
 /// c a f(phi / c) at a height: what a front keeps on its way through the layers.
 [[nodiscard]] double flux_at(const Scene<double>& scene, double z, double phi);
 
+/// Whether waves spread from the two sides of a front: it is one of a fan, however far apart its states are. Shocks and
+/// contacts do not.
+[[nodiscard]] bool is_of_fan(const Scene<double>& scene, const FrontSegment<double>& front);
+
 /// All states allowed anywhere in the bed: what an axis or a colour bar of phi has to show.
 [[nodiscard]] StateRange<double> states_of(const Scene<double>& scene);
 

@@ -39,9 +39,10 @@ if (phi_low == 0 && phi_high == 1) set xtics 0.2
 if (is_narrow) {
   key_font = sprintf(',%.2f', 0.9 * letters)
   n_keys = words(times) + words(others) + has_exact + has_bound
-  n_key_rows = words(times) > words(many_colours) ? 0 : (n_keys + 1) / 2
+  n_key_columns = n_keys > 6 && words(others) == 0 ? 3 : 2
+  n_key_rows = words(times) > words(many_colours) ? 0 : (n_keys + n_key_columns - 1) / n_key_columns
   set bmargin 3.8 + 1.15 * n_key_rows
-  set key at screen 0.5,0.012 center bottom horizontal Left reverse samplen 1.2 spacing 1.1 maxcols 2 font key_font
+  set key at screen 0.5,0.012 center bottom horizontal Left reverse samplen 1.2 spacing 1.1 maxcols n_key_columns font key_font
 } else {
   set key outside right center Left reverse samplen 1.6 spacing 1.25 width -1
 }

@@ -18,6 +18,13 @@ namespace {
 
 constexpr std::size_t kMostRefusedPerScene = 20;
 
+/// The first unknown that is not held and has no error bar; empty if all have one.
+std::string unknown_without_error(const Estimate& estimate) {
+  const auto p = std::find_if(estimate.parameters.begin(), estimate.parameters.end(),
+                              [](const ParameterEstimate& q) { return !q.std_error && !q.is_held(); });
+  return p == estimate.parameters.end() ? "" : p->name + " has no error bar";
+}
+
 /// The unknowns that vary, and a root of their correlation.
 struct Spread {
   std::vector<std::size_t> unknowns;
@@ -25,14 +32,11 @@ struct Spread {
 };
 
 std::optional<Spread> spread_of(const Estimate& estimate, std::string& why_none) {
+  why_none = unknown_without_error(estimate);
+  if (!why_none.empty()) return std::nullopt;
   Spread spread;
-  for (std::size_t i = 0; i < estimate.parameters.size(); ++i) {
-    const ParameterEstimate& p = estimate.parameters[i];
-    if (p.std_error && *p.std_error > 0) spread.unknowns.push_back(i);
-    if (p.std_error || p.is_held()) continue;
-    why_none = p.name + " has no error bar";
-    return std::nullopt;
-  }
+  for (std::size_t i = 0; i < estimate.parameters.size(); ++i)
+    if (estimate.parameters[i].std_error.value_or(0) > 0) spread.unknowns.push_back(i);
   const auto n = static_cast<Eigen::Index>(spread.unknowns.size());
   Eigen::MatrixXd correlation(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -125,6 +129,23 @@ DrawnScenes draw_scenes(const Parameters& parameters, const Estimate& estimate, 
       draws.why_none = fmt::format("hardly a draw from the error bars is a valid scene ({})", failure);
       return draws;
     }
+  }
+  return draws;
+}
+
+DrawnScenes scenes_behind(const Parameters& parameters, const Estimate& estimate, std::size_t n,
+                          std::uint64_t seed) {
+  if (estimate.replicates.rows() == 0) return draw_scenes(parameters, estimate, n, seed);
+  DrawnScenes draws;
+  draws.are_replicates = true;
+  draws.why_none = unknown_without_error(estimate);
+  if (!draws.why_none.empty()) return draws;
+  for (Eigen::Index b = 0; b < estimate.replicates.rows(); ++b) {
+    std::string failure;
+    if (auto scene = parameters.scene_at(estimate.replicates.row(b).transpose(), failure))
+      draws.scenes.push_back(std::move(*scene));
+    else
+      ++draws.n_refused;
   }
   return draws;
 }

@@ -79,6 +79,8 @@ struct Estimate {
   double wall_s = 0;
   /// Correlation of the estimates; NaN for those without error bar.
   Eigen::MatrixXd correlation;
+  /// Of a bootstrap, on request: row = replicate that could be fitted, column = unknown. Bands are those of these rows.
+  Eigen::MatrixXd replicates;
   std::optional<double> aic, bic;  ///< of all observations, Gaussian; smaller is better
   std::optional<ResidualStructure> structure;
 

@@ -58,29 +58,34 @@ Json to_json(const Estimate& estimate) {
   const auto found = [&](double x) { return estimate.usable() ? Json(x) : Json(); };
   Json parameters = Json::array();
   for (const ParameterEstimate& p : estimate.parameters) parameters.push_back(to_json(p));
-  return {{"name", estimate.name},
-          {"method", estimate.method},
-          {"algorithm", estimate.algorithm},
-          {"quantity", estimate.quantity},
-          {"loss", estimate.loss},
-          {"parameters", parameters},
-          {"misfit", found(estimate.misfit)},
-          {"residual_norm", found(estimate.residual_norm)},
-          {"sigma", found(estimate.sigma)},
-          {"sigma_is_given", estimate.sigma_is_given},
-          {"observations", estimate.observations},
-          {"left_out", estimate.left_out},
-          {"evaluations", estimate.evaluations},
-          {"iterations", estimate.iterations},
-          {"wall_s", estimate.wall_s},
-          {"aic", json_or_null(estimate.aic)},
-          {"bic", json_or_null(estimate.bic)},
-          {"correlation", to_json(estimate.correlation)},
-          {"covariance", to_json(covariance_of(estimate))},
-          {"structure", to_json(estimate.structure)},
-          {"warnings", estimate.warnings},
-          {"status", name_of(estimate.status)},
-          {"message", estimate.message}};
+  Json all{{"name", estimate.name},
+           {"method", estimate.method},
+           {"algorithm", estimate.algorithm},
+           {"quantity", estimate.quantity},
+           {"loss", estimate.loss},
+           {"parameters", parameters},
+           {"misfit", found(estimate.misfit)},
+           {"residual_norm", found(estimate.residual_norm)},
+           {"sigma", found(estimate.sigma)},
+           {"sigma_is_given", estimate.sigma_is_given},
+           {"observations", estimate.observations},
+           {"left_out", estimate.left_out},
+           {"evaluations", estimate.evaluations},
+           {"iterations", estimate.iterations},
+           {"wall_s", estimate.wall_s},
+           {"aic", json_or_null(estimate.aic)},
+           {"bic", json_or_null(estimate.bic)},
+           {"correlation", to_json(estimate.correlation)},
+           {"covariance", to_json(covariance_of(estimate))},
+           {"structure", to_json(estimate.structure)},
+           {"warnings", estimate.warnings},
+           {"status", name_of(estimate.status)},
+           {"message", estimate.message}};
+  if (estimate.scene && estimate.scene->spec().units.are_given()) {
+    const SceneUnits& units = estimate.scene->spec().units;
+    all["units"] = {{"z", units.z}, {units.symbol(), units.t}};
+  }
+  return all;
 }
 
 }  // namespace shearfront::fit

@@ -76,6 +76,7 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
     const Bootstrap replicates = bootstrap(spec, parameters, estimate, refit, progress);
     for (std::size_t i = 0; i < parameters.size(); ++i)
       estimate.parameters[i].bootstrap95 = replicates.intervals[i];
+    if (replicates.covariance.size() > 0) estimate.replicates = replicates.estimates;  // enough of them
     warn(replicates.warnings);
   }
 }

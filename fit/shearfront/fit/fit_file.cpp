@@ -69,7 +69,8 @@ bool has_keys_of_fit(const TomlSource& source) {
 
 class FitReader {
  public:
-  explicit FitReader(const TomlSource& source) : source_(source), report_(source.name()) {}
+  explicit FitReader(const TomlSource& source, SceneChanges changes = {})
+      : source_(source), report_(source.name()), changes_(std::move(changes)) {}
   FitReader(const TomlSource& source, Scene<double> scene, Observations observations)
       : source_(source), report_(source.name()), scene_(std::move(scene)), data_(std::move(observations)) {}
 
@@ -80,7 +81,7 @@ class FitReader {
     std::optional<std::string> scene_path, data_path;
     if (!scene_) scene_path = file_name(root, "scene", "must be the name of a scene file");
     if (!data_) data_path = file_name(root, "observations", "must be the name of a CSV file");
-    if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path); });
+    if (scene_path) load("scene", [&] { scene_ = read_scene<double>(*scene_path, changes_); });
     if (!data_) read_observation_format(root, refuse, format_);
     if (auto table = root.table("compare", Need::optional, "must be a table with layers and models"))
       choice_ = read_model_choice(*table, refuse);
@@ -260,6 +261,7 @@ class FitReader {
 
   const TomlSource& source_;
   ComplaintReport report_;
+  SceneChanges changes_;
   std::vector<FileError> others_;  ///< of the scene and of the observations
   std::optional<Scene<double>> scene_;
   std::optional<Observations> data_;
@@ -286,17 +288,17 @@ FitFile parse_fit(std::string text, const std::string& file, Scene<double> scene
   return FitReader(source, std::move(scene), std::move(observations)).read();
 }
 
-FitFile read_fit_file(const std::string& path) {
-  return FitReader(TomlSource(detail::TextSource::read(path))).read();
+FitFile read_fit_file(const std::string& path, const SceneChanges& changes) {
+  return FitReader(TomlSource(detail::TextSource::read(path)), changes).read();
 }
 
 FitSpec read_fit(const std::string& path) { return read_fit_file(path).spec; }
 
-std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path) {
+std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path, const SceneChanges& changes) {
   detail::TextSource text = detail::TextSource::read(path);
   const TomlSource source(text);
-  if (has_keys_of_fit(source)) return FitReader(source).read();
-  return parse_scene<double>(text.text(), path);
+  if (has_keys_of_fit(source)) return FitReader(source, changes).read();
+  return parse_scene<double>(text.text(), path, changes);
 }
 
 bool is_fit_file(const std::string& path) {

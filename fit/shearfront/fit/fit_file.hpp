@@ -8,6 +8,7 @@
 
 #include "shearfront/fit/fit_spec.hpp"
 #include "shearfront/io/file_error.hpp"
+#include "shearfront/io/scene_file.hpp"
 
 /// Fit files (TOML; the format is described in docs/reference/formats).
 namespace shearfront::fit {
@@ -41,8 +42,9 @@ struct FitFile {
 ///       scene and of the observations, each with the name of its file, line and column;
 ///   (2) what holds between the files is checked as well: unknowns exist in the scene, start values lie
 ///       between their bounds and make a valid scene, the observations can be compared as asked.
-/// A fit without a name gets that of the file. Errors: FileError (an InputError). Cost: that of the files.
-[[nodiscard]] FitFile read_fit_file(const std::string& path);
+/// A fit without a name gets that of the file. The changes are those of its scene, as in read_scene(). Errors: FileError (an
+/// InputError). Cost: that of the files.
+[[nodiscard]] FitFile read_fit_file(const std::string& path, const SceneChanges& changes = {});
 [[nodiscard]] FitSpec read_fit(const std::string& path);
 
 /// The same from a text; `file` is the name used in messages, its folder that of the other files.
@@ -53,7 +55,8 @@ struct FitFile {
 
 /// A scene file or a fit file, told apart by the keys at the top: only a fit file has scene, observations or
 /// unknown. Errors: FileError.
-[[nodiscard]] std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path);
+[[nodiscard]] std::variant<Scene<double>, FitFile> read_scene_or_fit(const std::string& path,
+                                                                     const SceneChanges& changes = {});
 
 /// Which of the two a file is. Errors: FileError.
 [[nodiscard]] bool is_fit_file(const std::string& path);

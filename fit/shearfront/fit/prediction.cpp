@@ -244,4 +244,37 @@ PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes
   return result;
 }
 
+PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
+                                 const SceneNumbers& numbers, bool are_exact) {
+  PredictedNumbers result;
+  for (const double x : numbers(estimated)) result.numbers.push_back({x, {}, {}});
+  const std::size_t n = result.numbers.size();
+  std::vector<std::vector<OnAxis>> on(n);
+  bool has_slopes = are_exact && has_axes(draws);
+  for (std::size_t k = 0; has_slopes && k < draws.axes.size(); ++k) {
+    const DrawnScenes::Axis& axis = draws.axes[k];
+    std::vector<Numbers> at;
+    for (const auto* scene : {&axis.near_low, &axis.near_high, &axis.far_low, &axis.far_high})
+      at.push_back(numbers(**scene));
+    has_slopes = std::all_of(at.begin(), at.end(), [&](const Numbers& x) { return x.size() == n; });
+    for (std::size_t i = 0; has_slopes && i < n; ++i)
+      on[i].push_back({(at[1][i] - at[0][i]) / (2 * DrawnScenes::kNear), at[2][i], at[3][i]});
+  }
+  for (std::size_t i = 0; has_slopes && i < n; ++i) {
+    PredictedNumber& number = result.numbers[i];
+    number.std_error = linear_deviation(number.value, on[i], draws);
+    if (!number.std_error) continue;
+    const double half = draws.quantile * *number.std_error;
+    number.band = {number.value - half, number.value + half};
+  }
+  if (all_have_bands(result.numbers)) return result;
+  std::vector<Numbers> drawn;
+  for (const Scene<double>& scene : draws.scenes) {
+    drawn.push_back(numbers(scene));
+    if (drawn.back().empty()) ++result.n_failed;
+  }
+  result.n_by_draws = set_drawn_bands(drawn, result.numbers);
+  return result;
+}
+
 }  // namespace shearfront::fit

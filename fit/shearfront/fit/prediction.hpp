@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct DrawnScenes {
   std::size_t n_refused = 0;  ///< draws outside the bounds or no valid scene, drawn again
   std::string
       why_none;  ///< why there are no scenes: an unknown without error bar, or hardly a draw was valid
+  bool are_replicates = false;  ///< those of a bootstrap
 
   /// One of the independent directions in which the unknowns vary, by a number xi of unit deviation. The scenes at -x and
   /// x on it: near the estimate, and so far that a number that is linear in all xi stays between them and their like with
@@ -45,6 +47,11 @@ struct DrawnScenes {
 /// `n` scenes; the same for the same seed. Precondition: the estimate is usable. Cost: n scenes.
 [[nodiscard]] DrawnScenes draw_scenes(const Parameters& parameters, const Estimate& estimate, std::size_t n,
                                       std::uint64_t seed);
+
+/// The scenes behind the bands of a fit: one for each replicate of its bootstrap, without axes, so that bands lie between
+/// the quantiles of what the replicates say; without a bootstrap draw_scenes(). Precondition: the estimate is usable.
+[[nodiscard]] DrawnScenes scenes_behind(const Parameters& parameters, const Estimate& estimate, std::size_t n,
+                                        std::uint64_t seed);
 
 /// A number g at the estimate, and where it is with 95 %.
 ///
@@ -86,5 +93,15 @@ struct PredictedEvents {
 };
 [[nodiscard]] PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes& draws,
                                              const Method& method, const Progress& progress = {});
+
+/// Any numbers of a scene, such as the height of its bed at some times: as many of every scene, none where there is no
+/// solution. Derivatives are differences along the axes, if the numbers are exact to rounding. Cost: as predict_events().
+using SceneNumbers = std::function<std::vector<double>(const Scene<double>&)>;
+struct PredictedNumbers {
+  std::vector<PredictedNumber> numbers;
+  std::size_t n_failed = 0, n_by_draws = 0;
+};
+[[nodiscard]] PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
+                                               const SceneNumbers& numbers, bool are_exact);
 
 }  // namespace shearfront::fit

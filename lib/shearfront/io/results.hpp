@@ -19,6 +19,9 @@
 /// file.
 namespace shearfront {
 
+/// "t [s],z [mm],phi": names of columns with their units; of t (x in a chute), z, x, M, H, width and what begins with t_, z_, M_.
+[[nodiscard]] std::string csv_header(const std::vector<std::string>& names, const SceneUnits& units);
+
 /// Header t,z,phi,M and one row per time and depth; samples as in SolverResult.
 void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
                        const std::vector<Sample>& samples, const SceneUnits& units = {});

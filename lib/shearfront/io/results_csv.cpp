@@ -17,19 +17,9 @@ std::string field(double x) { return std::isfinite(x) ? number_text(x) : std::st
 std::string_view unit_of_column(std::string_view name, const SceneUnits& units) {
   const std::string_view quantity = name.substr(0, name.find('_'));
   if (quantity == "t") return units.t;
-  return quantity == "z" || quantity == "x" || quantity == "M" || quantity == "H" ? std::string_view(units.z)
-                                                                                  : std::string_view();
-}
-
-std::string header(const std::vector<std::string>& names, const SceneUnits& units) {
-  std::string line;
-  for (const std::string& name : names) {
-    if (!line.empty()) line += ',';
-    const bool is_time = name == "t" || name.starts_with("t_");
-    const std::string shown = is_time ? units.symbol() + name.substr(1) : name;
-    line += detail::csv_field(detail::heading_text(shown, unit_of_column(name, units)));
-  }
-  return line + '\n';
+  return quantity == "z" || quantity == "x" || quantity == "M" || quantity == "H" || quantity == "width"
+             ? std::string_view(units.z)
+             : std::string_view();
 }
 
 void hand_on(OutputFile& file, std::string& rows, std::size_t least) {
@@ -40,9 +30,20 @@ void hand_on(OutputFile& file, std::string& rows, std::size_t least) {
 
 }  // namespace
 
+std::string csv_header(const std::vector<std::string>& names, const SceneUnits& units) {
+  std::string line;
+  for (const std::string& name : names) {
+    if (!line.empty()) line += ',';
+    const bool is_time = name == "t" || name.starts_with("t_");
+    const std::string shown = is_time ? units.symbol() + name.substr(1) : name;
+    line += detail::csv_field(detail::heading_text(shown, unit_of_column(name, units)));
+  }
+  return line + '\n';
+}
+
 void write_samples_csv(OutputFile& file, const std::vector<double>& times, const std::vector<double>& depths,
                        const std::vector<Sample>& samples, const SceneUnits& units) {
-  std::string rows = header({"t", "z", "phi", "M"}, units);
+  std::string rows = csv_header({"t", "z", "phi", "M"}, units);
   for (std::size_t i = 0; i < times.size(); ++i) {
     for (std::size_t j = 0; j < depths.size(); ++j) {
       const Sample& sample = samples[i * depths.size() + j];
@@ -56,7 +57,7 @@ void write_samples_csv(OutputFile& file, const std::vector<double>& times, const
 }
 
 void write_slab_csv(OutputFile& file, const SlabSamples& samples, const SceneUnits& units) {
-  std::string rows = header({"t", "x", "z", "phi"}, units);
+  std::string rows = csv_header({"t", "x", "z", "phi"}, units);
   const std::size_t n = samples.z.size();
   for (std::size_t i = 0; i < samples.times.size(); ++i)
     for (std::size_t k = 0; k < samples.x.size(); ++k)
@@ -73,7 +74,7 @@ void write_slab_csv(OutputFile& file, const SlabSamples& samples, const SceneUni
 void write_time_table_csv(OutputFile& file, const TimeTable& table, const SceneUnits& units) {
   std::vector<std::string> names{"t"};
   names.insert(names.end(), table.columns.begin(), table.columns.end());
-  std::string rows = header(names, units);
+  std::string rows = csv_header(names, units);
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     rows += field(table.times[i]);
     for (const double x : table.rows[i]) (rows += ',') += field(x);
@@ -86,7 +87,7 @@ void write_time_table_csv(OutputFile& file, const TimeTable& table, const SceneU
 void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts,
                       const SceneUnits& units) {
   std::string rows =
-      header({"layer", "t_begin", "z_begin", "t_end", "z_end", "phi_below", "phi_above"}, units);
+      csv_header({"layer", "t_begin", "z_begin", "t_end", "z_end", "phi_below", "phi_above"}, units);
   for (const FrontSegment<double>& f : fronts) {
     rows += std::to_string(f.layer);
     for (const double x : {f.t_begin, f.z_begin, f.t_end, f.z_end, f.phi_below, f.phi_above})

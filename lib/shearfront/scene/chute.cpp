@@ -207,6 +207,7 @@ DepthFunction<S> SteadyChute<S>::carried(const DepthFunction<S>& function) {
 template <Real S>
 DepthFunction<S> SteadyChute<S>::carried_diffusivity(const DepthFunction<S>* function,
                                                      bool follows_shear_rate) {
+  using std::abs;
   Table<S> table;
   const auto with_u = [&](const S& z, const S& a) { return S(a * velocity(z) / mean_velocity_); };
   if (function) {
@@ -236,6 +237,11 @@ DepthFunction<S> SteadyChute<S>::carried_diffusivity(const DepthFunction<S>* fun
         },
         [&](const S& z) { return with_u(z, S(1)); }, table.z, table.values);
   }
+  // D(z) is a table without jumps: one from one number to the next is none for the cells.
+  for (std::size_t i = 1; i < table.z.size(); ++i)
+    if (!(table.z[i] > table.z[i - 1]))
+      table.z[i] =
+          table.z[i - 1] + (abs(table.z[i - 1]) + (top_ - bottom_)) * std::numeric_limits<S>::epsilon();
   // No grain crosses the wall, so its value is no matter.
   if (!(table.values.front() > 0)) table.values.front() = table.values[1] / S(2);
   if (!(table.values.back() > 0)) table.values.back() = table.values[table.values.size() - 2] / S(2);

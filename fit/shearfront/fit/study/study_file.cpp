@@ -31,7 +31,8 @@ constexpr std::size_t kMostGridRuns = 100'000'000;
 
 class StudyReader {
  public:
-  explicit StudyReader(const TomlSource& source) : source_(source), report_(source.name()) {}
+  StudyReader(const TomlSource& source, SceneChanges changes)
+      : source_(source), report_(source.name()), changes_(std::move(changes)) {}
 
   StudySpec read() {
     TableReader root(source_, report_, "", source_.root());
@@ -64,11 +65,12 @@ class StudyReader {
     const std::string path =
         (std::filesystem::path(source_.name()).parent_path() / (scene ? *scene : *fit)).string();
     if (scene) {
-      spec_.scene = read_scene<double>(path);
+      spec_.scene = read_scene<double>(path, changes_);
       spec_.scene_text = scene_text(spec_.scene->spec());
     } else {
       spec_.scene_text = detail::TextSource::read(path).text();
-      spec_.fit_file = read_fit_file(path);
+      for (const SceneChange& c : changes_) spec_.scene_text += fmt::format("--set {}={}\n", c.key, c.value);
+      spec_.fit_file = read_fit_file(path, changes_);
       spec_.scene = spec_.fit_file->spec.scene;
       spec_.method = spec_.fit_file->spec.forward.method;
       spec_.design = DesignKind::fit;
@@ -278,13 +280,14 @@ class StudyReader {
 
   const TomlSource& source_;
   ComplaintReport report_;
+  SceneChanges changes_;
   StudySpec spec_;
 };
 
 }  // namespace
 
-StudySpec read_study(const std::string& path) {
-  return StudyReader(TomlSource(detail::TextSource::read(path))).read();
+StudySpec read_study(const std::string& path, const SceneChanges& changes) {
+  return StudyReader(TomlSource(detail::TextSource::read(path)), changes).read();
 }
 
 }  // namespace shearfront::fit

@@ -73,6 +73,6 @@ struct StudySpec {
 };
 
 /// Reads a study file (docs/reference/formats). Errors: FileError with every complaint.
-[[nodiscard]] StudySpec read_study(const std::string& path);
+[[nodiscard]] StudySpec read_study(const std::string& path, const SceneChanges& changes = {});
 
 }  // namespace shearfront::fit
