@@ -210,7 +210,8 @@ export class App {
     this.plane.figure.dataset["method"] = picture.method;
   }
 
-  private async share(): Promise<void> {
+  /** Puts the scene into the address. */
+  async share(): Promise<void> {
     const hash = await toHash(this.toml);
     if (location.hash !== hash) window.history.replaceState(null, "", hash);
   }

@@ -107,7 +107,7 @@ function header(app: App, fit: FitTab, guided: HTMLElement, take: (file: File) =
   const undo = button("undo", "↶", "undo", () => app.undo());
   const redo = button("redo", "↷", "redo", () => app.redo());
   const link = button("link", "copy link", "copy a link to this scene", () => {
-    void navigator.clipboard?.writeText(location.href).then(() => (link.textContent = "copied"), () => (link.textContent = "in the address"));
+    void app.share().then(() => navigator.clipboard.writeText(location.href)).then(() => (link.textContent = "copied"), () => (link.textContent = "in the address"));
     setTimeout(() => (link.textContent = "copy link"), 1500);
   });
   const file = html("input", { type: "file", id: "open-file", accept: ".toml,.csv,.txt", hidden: true });

@@ -4,6 +4,8 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "@playwright/test";
 import { FLUX_NAMES } from "../src/bed/edits.ts";
+import { COARSE, makePicture } from "../src/bed/picture.ts";
+import { Refusal } from "../src/engine/engine.ts";
 import { DATASETS, hasProgram, newEngine, program, sceneFiles } from "./places.ts";
 
 interface EventsJson {
@@ -41,6 +43,24 @@ for (const file of sceneFiles()) {
     expect(ours).toEqual(theirs);
   });
 }
+
+test("every scene of the data sets becomes a picture, or is refused in words", () => {
+  test.setTimeout(300_000);
+  const engine = newEngine();
+  const refused: string[] = [];
+  for (const file of sceneFiles()) {
+    try {
+      const picture = makePicture(engine, readFileSync(join(DATASETS, file), "utf8"), { ...COARSE, columns: 8, rows: 16, mixingPoints: 3 });
+      expect(picture.tMax, file).toBeGreaterThan(0);
+      expect(picture.raster.phi.every(Number.isFinite), file).toBe(true);
+    } catch (error) {
+      expect(error, file).toBeInstanceOf(Refusal);
+      refused.push(file);
+    }
+  }
+  // Slabs have no plane of t and z.
+  expect(refused.filter((file) => !/slab/.test(file))).toEqual([]);
+});
 
 interface FitJson {
   parameters: { name: string; estimate: number; std_error: number | null }[];

@@ -26,8 +26,8 @@ test("guided scenes: each opens without a complaint, with three sentences and a 
 
 test("a link leads to the same scene, to the bit", async ({ explorer, context }) => {
   await drag(explorer, "plane", "interface-0", 0, -33);
-  await explorer.waitForFunction(() => location.hash.startsWith("#s="));
-  await explorer.waitForTimeout(500);
+  await explorer.click("#link");
+  await expect(explorer.locator("#link")).not.toHaveText("copy link");
   const before = await shown(explorer);
   const other = await context.newPage();
   await open(other, explorer.url());

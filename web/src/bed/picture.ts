@@ -77,13 +77,14 @@ function rateCurve(engine: Engine, facts: SceneFacts): Picture["rate"] {
 }
 
 /** How long there is something to see: a little more than t*, or while a wave crosses the bed a few times. */
-export function naturalTime(events: EventTimes | undefined, facts: SceneFacts, slowest: number): number {
+export function naturalTime(events: EventTimes | undefined, facts: SceneFacts, speeds: readonly number[]): number {
   const end = events?.tStar ?? NaN;
   const times = [events?.t0, events?.t1, ...(events?.interfaces ?? []).flatMap((i) => [i.first, i.last])].filter((t): t is number => Number.isFinite(t));
   const nice = (t: number): number => Number(t.toPrecision(2));
   if (Number.isFinite(end) && end > 0) return nice(end * 1.08);
   if (times.length > 0 && Math.max(...times) > 0) return nice(Math.max(...times) * 1.3);
-  return nice((2 * (facts.top - facts.bottom)) / slowest);
+  const mean = speeds.reduce((sum, x) => sum + x, 0) / speeds.length;
+  return nice((2 * (facts.top - facts.bottom)) / mean);
 }
 
 /** All of it, with a plane as fine as `detail`; tMax is kept if it is given. Throws Refusal for a scene that is none. */
@@ -100,7 +101,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
     noEvents = (error as Error).message.replace(/^method = [^;]*; /, "");
   }
   const rate = rateCurve(engine, facts);
-  const end = tMax ?? naturalTime(events, facts, Math.min(...rate.speed));
+  const end = tMax ?? naturalTime(events, facts, rate.speed);
   const quick = quickMethod(engine, method, facts.isLayered ? detail.resolution : COARSE.resolution);
   const heights = middles(facts.bottom, facts.top, detail.rows);
   let raster: Raster;
