@@ -111,8 +111,8 @@ function drawMarks(panel: Panel, picture: Picture, marks: PlaneMarks): void {
       else g.append(svg("circle", { cx: x, cy: panel.y(i.m.z), r: 4.5 }));
       const isTop = i.m.z === undefined || i.m.z === facts.top;
       const y = isTop ? top - 6 : panel.y(i.m.z!) + (i.m.z === facts.bottom ? -8 : -7);
-      const text = svg("text", { x: Math.min(x, panel.frame.width - 30), y, "text-anchor": isTop ? "middle" : "start", dx: isTop ? 0 : 4 });
-      const [letter, low] = [i.m.id.startsWith("t^") ? "t̂" : "t", i.m.id.replace(/^t\^?_?/, "")];
+      const text = svg("text", { x: Math.min(x, panel.frame.width - 30), y, "text-anchor": isTop ? "middle" : "start", dx: isTop ? 0 : 4, class: isTop ? "outside" : "inside" });
+      const [letter, low] = [i.m.id.startsWith("t^") ? "t^" : "t", i.m.id.replace(/^t\^?_?/, "")];
       text.append(svg("tspan", {}, letter), svg("tspan", { dy: low === "*" ? -3 : 3, "font-size": "80%" }, low));
       g.append(text);
     }
