@@ -56,12 +56,12 @@ std::string range_text(std::string_view name, const std::vector<Observation>& ro
 std::string summary_text(const Observations& data) {
   const bool has_place = data.quantity != Quantity::bed_height;
   const std::string_view symbol = !has_place ? "H" : data.quantity == Quantity::cumulative ? "M" : "phi";
-  return fmt::format("{} ({}), {}, {}{}{}{}", counted(data.rows.size(), "observation"),
-                     name_of(data.quantity), range_text("t", data.rows, &Observation::t, data.units.t),
-                     has_place ? range_text("z", data.rows, &Observation::z, data.units.z) + ", " : "",
-                     range_text(symbol, data.rows, &Observation::value, data.units.value),
-                     data.has_sigma() ? ", sigma" : "",
-                     data.n_missing > 0 ? fmt::format(", {} missing", data.n_missing) : "");
+  return fmt::format(
+      "{} ({}), {}, {}{}{}{}", counted(data.rows.size(), "observation"), name_of(data.quantity),
+      range_text(data.units.is_chute ? "x" : "t", data.rows, &Observation::t, data.units.t),
+      has_place ? range_text("z", data.rows, &Observation::z, data.units.z) + ", " : "",
+      range_text(symbol, data.rows, &Observation::value, data.units.value), data.has_sigma() ? ", sigma" : "",
+      data.n_missing > 0 ? fmt::format(", {} missing", data.n_missing) : "");
 }
 
 std::string summary_text(const fit::FitFile& file) {

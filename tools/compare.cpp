@@ -148,14 +148,15 @@ std::string csv_of(const std::vector<Course>& courses, const SceneUnits& units) 
 }
 
 /// {"scene","times":[{"t","methods":[{"method","ended","runs":[{"resolution","l1_error","order","wall_s",
-/// "work"}]}]}]}
-std::string json_of(const std::string& scene, const std::vector<Course>& courses) {
+/// "work"}]}]}]}; of a chute "distances" and "x".
+std::string json_of(const std::string& scene, const std::vector<Course>& courses, const SceneUnits& units) {
   using detail::Json;
-  Json all{{"scene", scene}, {"times", Json::array()}};
+  const std::string along = units.symbol(), places = units.is_chute ? "distances" : "times";
+  Json all{{"scene", scene}, {places, Json::array()}};
   for (const Course& course : courses) {
-    Json& times = all["times"];
-    if (times.empty() || times.back()["t"] != course.t)
-      times.push_back({{"t", course.t}, {"methods", Json::array()}});
+    Json& times = all[places];
+    if (times.empty() || times.back()[along] != course.t)
+      times.push_back({{along, course.t}, {"methods", Json::array()}});
     Json runs = Json::array();
     for (const ComparedRun& run : course.runs)
       runs.push_back({{"resolution", run.resolution},
@@ -169,7 +170,8 @@ std::string json_of(const std::string& scene, const std::vector<Course>& courses
   return detail::json_document(all);
 }
 
-int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses) {
+int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses,
+         const std::string& along) {
   std::vector<double> times;
   std::vector<std::string> methods;  // those with any run
   for (const Course& course : courses) {
@@ -181,6 +183,7 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
   Picture picture(path, "comparison");
   picture.set("title", scene);
   picture.set("times", times);
+  picture.set("along", along);
   picture.set("methods", fmt::format("{}", fmt::join(methods, " ")));
   picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses, {})); });
   return picture.draw();
@@ -233,12 +236,13 @@ int compare(CompareArguments& arguments) {
   }
   const bool has_picture = !arguments.plot.empty() && !is_interrupted;
   if (is_interrupted && !arguments.plot.empty()) note("interrupted: no --plot");
-  if (is_csv) return has_picture ? draw(arguments.plot, scene.name(), courses) : kDone;
+  if (is_csv)
+    return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units.symbol()) : kDone;
   OutputFile out("-");
-  out.write(arguments.json ? json_of(scene.name(), courses)
+  out.write(arguments.json ? json_of(scene.name(), courses, read.spec().units)
                            : printable(scene.name(), 100) + "\n" + text_of(courses, read.spec().units));
   out.commit();
-  return has_picture ? draw(arguments.plot, scene.name(), courses) : kDone;
+  return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units.symbol()) : kDone;
 }
 
 }  // namespace

@@ -134,16 +134,18 @@ std::string unit_name(fit::DesignUnit unit, std::size_t n) {
   return n == 1 ? one : one + "s";
 }
 
-/// "t = 0.5: z = 0.1, 0.2" for measurements, or a list of times or heights.
-std::string chosen_text(const fit::Design& design, const Observations& candidates, fit::DesignUnit unit) {
+/// "t = 0.5: z = 0.1, 0.2" for measurements, or a list of times or heights; `along` is t, or x of chutes.
+std::string chosen_text(const fit::Design& design, const Observations& candidates, fit::DesignUnit unit,
+                        const std::string& along) {
   std::vector<std::string> places;
   std::string text;
   double t = std::numeric_limits<double>::quiet_NaN();
   const auto flush = [&] {
     if (unit == fit::DesignUnit::measurement && !places.empty())
-      text += fmt::format("  t = {}: z = {}\n", number_text(t), fmt::join(places, ", "));
+      text += fmt::format("  {} = {}: z = {}\n", along, number_text(t), fmt::join(places, ", "));
     else if (!places.empty())
-      text += fmt::format("  {} = {}\n", unit == fit::DesignUnit::time ? "t" : "z", fmt::join(places, ", "));
+      text +=
+          fmt::format("  {} = {}\n", unit == fit::DesignUnit::time ? along : "z", fmt::join(places, ", "));
     places.clear();
   };
   for (const fit::DesignChoice& choice : design.choices) {
@@ -158,7 +160,8 @@ std::string chosen_text(const fit::Design& design, const Observations& candidate
 }
 
 std::string design_text(const fit::Design& design, const Observations& candidates,
-                        const MeasuredQuantity& quantity, const fit::DesignSpec& wanted) {
+                        const MeasuredQuantity& quantity, const fit::DesignSpec& wanted,
+                        const std::string& along) {
   const auto number = [](double x) {
     return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("undetermined");
   };
@@ -180,7 +183,7 @@ std::string design_text(const fit::Design& design, const Observations& candidate
                number(design.errors.evenly[i] / design.errors.chosen[i])});
   }
   text += table.text();
-  const std::string places = chosen_text(design, candidates, wanted.unit);
+  const std::string places = chosen_text(design, candidates, wanted.unit, along);
   if (wanted.n <= kMostListed) text += places;
   return text;
 }
@@ -200,7 +203,8 @@ void write_csv(OutputFile& file, const fit::Design& design, const Observations& 
 }
 
 detail::Json design_json(const fit::Design& design, const Observations& candidates,
-                         const MeasuredQuantity& quantity, const fit::DesignSpec& wanted) {
+                         const MeasuredQuantity& quantity, const fit::DesignSpec& wanted,
+                         const std::string& along) {
   const auto number = [](double x) { return std::isfinite(x) ? detail::Json(x) : detail::Json(); };
   detail::Json json{
       {"quantity", quantity.text},
@@ -225,7 +229,7 @@ detail::Json design_json(const fit::Design& design, const Observations& candidat
   for (const fit::DesignChoice& choice : design.choices)
     if (choice.is_chosen)
       for (const std::size_t k : choice.rows)
-        json["chosen"].push_back({{"t", candidates.rows[k].t}, {"z", candidates.rows[k].z}});
+        json["chosen"].push_back({{along, candidates.rows[k].t}, {"z", candidates.rows[k].z}});
   return json;
 }
 
@@ -325,9 +329,10 @@ int design_measurements(const DesignArguments& arguments) {
       table.commit();
     }
     if (arguments.json)
-      all.push_back(design_json(design, wanted.candidates, quantity, wanted));
+      all.push_back(
+          design_json(design, wanted.candidates, quantity, wanted, spec.scene.spec().units.symbol()));
     else
-      out.write(design_text(design, wanted.candidates, quantity, wanted));
+      out.write(design_text(design, wanted.candidates, quantity, wanted, spec.scene.spec().units.symbol()));
     if (!arguments.plot.empty())
       code = draw_design(arguments.plot, spec, design, wanted.candidates,
                          fmt::format("{}, sigma {}; circles: the {} chosen", quantity.text,

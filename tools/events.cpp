@@ -275,8 +275,7 @@ int events(EventsArguments& arguments) {
   }
   print_events(arguments, method, scene, *result.timeline, text, result.summary, digits,
                bands ? &*bands : nullptr);
-  if (!arguments.json && method.guarantees().exact && result.summary.message.starts_with("exact for "))
-    note(result.summary.message);
+  if (!arguments.json) note_approximation(method, result.summary);
   return arguments.plot.empty() ? kDone : draw_events(arguments, scene, *result.timeline);
 }
 

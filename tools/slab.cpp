@@ -15,7 +15,6 @@
 #include "plot/pictures.hpp"
 #include "shearfront/io/results.hpp"
 #include "shearfront/numeric/number_text.hpp"
-#include "shearfront/slab/solver.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -49,7 +48,7 @@ Frames run_frames(const SlabTask& task, const Progress& progress) {
     const Status status = run->advance(task.times[i]);
     frames.summary = run->summary();
     if (status != Status::ok) return frames;
-    const auto& field = dynamic_cast<const SlabField&>(run->field());
+    const SlabField& field = *run->field().slab();
     if (frames.x.empty()) frames.x = field.middles();
     const double n = static_cast<double>(task.times.size()) * static_cast<double>(frames.x.size()) *
                      static_cast<double>(task.heights.size());

@@ -267,6 +267,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
       last_time(request.times));
   if (!result.summary.usable()) return report_unusable(result.summary);
   note_remark(result.summary);
+  if (!arguments.json) note_approximation(task.method, result.summary);
   note_cells(task, request, result);
 
   std::vector<double> times = request.times;  // as printed

@@ -225,6 +225,31 @@ TEST(DiffusionRefinement, ResolvesStepsThatOnlyDiffuse) {
   }
 }
 
+/// Points of a table are edges of cells that no cell may straddle: once the same cells were halved and merged at every step.
+TEST(DiffusionRefinement, HundredsOfPointsOfATableCostNoMoreThanTheFunction) {
+  SceneSpec<double> spec = step_at(0.5, 1, 0.02);
+  const Exponential<double> a{2, 0.4};
+  spec.shear_rate = a;
+  Table<double> table;
+  for (int i = 0; i <= 400; ++i) {
+    table.z.push_back(i / 400.0);
+    table.values.push_back(a.value(table.z.back()));
+  }
+  auto of_points = spec;
+  of_points.shear_rate = table;
+  CrankNicolsonSolver::Options options;
+  options.cells = 100;
+  options.cell_tolerance = 0.01;
+  options.tolerance = 1e-4;
+  const SolverRequest request{{1}, {0.2, 0.5, 0.8}, false, false, false};
+  const auto smooth = solve<CrankNicolsonSolver>(Scene<double>(spec), request, options);
+  const auto points = solve<CrankNicolsonSolver>(Scene<double>(of_points), request, options);
+  ASSERT_TRUE(smooth.summary.usable() && points.summary.usable());
+  EXPECT_LT(points.summary.cell_updates, 2 * smooth.summary.cell_updates);
+  for (std::size_t i = 0; i < request.heights.size(); ++i)
+    EXPECT_NEAR(points.samples[i].phi, smooth.samples[i].phi, 1e-3) << request.heights[i];
+}
+
 TEST(DiffusionRefinement, SeesDataThatEqualCellsDoNot) {
   SceneSpec<double> spec = step_at(0.25, 1, 1e-3);
   spec.initial_breaks = {0.25, 0.5, 0.75};

@@ -208,6 +208,38 @@ TEST(PackedDiffusion, TendsToTheBedWithoutDiffusion) {
   }
 }
 
+/// The same on, with cells that follow the fronts: at once with D, or to what the tracker itself is off by.
+TEST(SlowPackedDiffusion, TendsToTheBedWithoutDiffusionDownToLittle) {
+  for (const char* name : {"2", "3", "4"}) {
+    SCOPED_TRACE(name);
+    const Scene<double> sharp =
+        read_scene(SHEARFRONT_SOURCE_DIR "/datasets/packing-example-" + std::string(name) + "/scene.toml");
+    SolverRequest request{.times = {0.5}, .heights = {}};
+    for (int i = 0; i <= 50; ++i)
+      request.heights.push_back(sharp.bottom() + (sharp.top() - sharp.bottom()) * i / 50.0);
+    const SolverResult without = solve(sharp, "front-tracking", request);
+    ASSERT_TRUE(without.summary.usable());
+    double last = 0;
+    for (const double D : {1e-2, 1e-3, 3e-4}) {
+      SceneSpec<double> spec = sharp.spec();
+      spec.diffusion = Diffusion<double>{};
+      spec.diffusion->D = D;
+      Method method = crank_nicolson(400, 1e-4);
+      method.set("cell-tolerance", 0.02);
+      const SolverResult with = solve(Scene<double>(spec), method, request);
+      ASSERT_TRUE(with.summary.usable()) << with.summary.message;
+      double worst = 0;
+      for (std::size_t i = 0; i < with.samples.size(); ++i)
+        worst = std::max(worst, std::abs(with.samples[i].M - without.samples[i].M));
+      if (last > 0) {
+        EXPECT_LT(worst, last / 2.5) << D;
+      }
+      last = worst;
+    }
+    EXPECT_LT(last, 4e-4);
+  }
+}
+
 TEST(PackedDiffusion, DerivativesAreThoseOfTheSamples) {
   SceneSpec<double> spec = base(0.02);
   spec.solid_fraction = Table<double>{{0, 0.45, 1}, {0.62, 0.4, 0.55}};

@@ -39,35 +39,52 @@ Seen seen(const SlabMarch& march) {
   }
   return all;
 }
-/// c(1/2, z), between the cells on both sides.
+/// c(1/2, z), between the cells on both sides along x, and along z where it is a face.
 double large_at_middle(const SlabMarch& march, double z) {
   const std::size_t right = march.n_x() / 2;
-  return 1 - (march.profile(right - 1).at(z).phi + march.profile(right).at(z).phi) / 2;
+  const auto at = [&](double height) {
+    return (march.profile(right - 1).at(height).phi + march.profile(right).at(height).phi) / 2;
+  };
+  return 1 - (at(z) + at(z - 1e-9)) / 2;
 }
 
 TEST(SlowSlab, HasTheNumbersOfAnotherScheme) {
   const Scene<double> scene(support::source_slab());
-  SlabMarch march(scene, {128, 128, 0, 0});
+  SlabMarch march(scene, {256, 256, 0, 0});  // the finest of the table
   ASSERT_EQ(march.advance_to(1), Status::ok);
-  // The finest of the table, 256 cells; it moves by 1e-3 from 128 cells to there.
   const Seen one = seen(march);
-  EXPECT_NEAR(one.max_c, 0.9408, 4e-3);
-  EXPECT_NEAR(one.l1_to_rest, 2.851e-1, 1e-3);
-  EXPECT_NEAR(one.x_deviation, 0.4833, 5e-3);
-  EXPECT_NEAR(large_at_middle(march, 0.3), 0.00459, 1.5e-3);
-  EXPECT_NEAR(large_at_middle(march, 0.5), 0.66650, 2e-3);
-  EXPECT_NEAR(large_at_middle(march, 0.7), 0.55334, 2e-3);
-  EXPECT_NEAR(large_at_middle(march, 0.9), 0.79571, 2e-3);
+  EXPECT_NEAR(one.max_c, 0.9408, 1e-3);
+  EXPECT_NEAR(one.l1_to_rest, 2.851e-1, 2e-4);
+  // The table's own come up by 0.0060 and 0.0017 from 64 to 128 and 256 cells, ours down by 0.0006 from 64 to 128.
+  EXPECT_NEAR(one.x_deviation, 0.4833, 3e-3);
+  EXPECT_NEAR(large_at_middle(march, 0.3), 0.00459, 3e-4);
+  EXPECT_NEAR(large_at_middle(march, 0.5), 0.66650, 1e-4);
+  EXPECT_NEAR(large_at_middle(march, 0.7), 0.55334, 1e-4);
+  EXPECT_NEAR(large_at_middle(march, 0.9), 0.79571, 1e-4);
   ASSERT_EQ(march.advance_to(2), Status::ok);
   const Seen two = seen(march);
-  EXPECT_NEAR(two.max_c, 0.9998, 4e-4);
-  EXPECT_NEAR(two.l1_to_rest, 2.238e-2, 4e-4);
-  EXPECT_NEAR(two.x_deviation, 0.577, 6e-3);
-  EXPECT_NEAR(large_at_middle(march, 0.3), 0, 1e-4);
-  // On the slope of what was a jump: 0.0550, 0.0669, 0.0728 with 64, 128, 256 cells.
-  EXPECT_NEAR(large_at_middle(march, 0.5), 0.0766, 1.2e-2);
-  EXPECT_NEAR(large_at_middle(march, 0.7), 0.99687, 4e-4);
-  EXPECT_NEAR(large_at_middle(march, 0.9), 0.99943, 2e-4);
+  EXPECT_NEAR(two.max_c, 0.9998, 1e-4);
+  EXPECT_NEAR(two.l1_to_rest, 2.238e-2, 3e-5);
+  EXPECT_NEAR(two.x_deviation, 0.577, 2e-3);
+  EXPECT_NEAR(large_at_middle(march, 0.3), 0, 1e-5);
+  // On a slope of 8: 0.0035 is a tenth of a cell. See the next test.
+  EXPECT_NEAR(large_at_middle(march, 0.5), 0.0766, 4e-3);
+  EXPECT_NEAR(large_at_middle(march, 0.7), 0.99687, 3e-5);
+  EXPECT_NEAR(large_at_middle(march, 0.9), 0.99943, 2e-5);
+}
+
+/// c(1/2, 1/2) at t = 2 lies on the slope of what was a jump. It converges with the second power of the cells, to 0.0744: the
+/// table's 0.0766, on 256 cells, is off by 0.07 of a cell.
+TEST(SlowSlab, ConvergesWithTheSecondPowerOfTheCellsOnASlope) {
+  const Scene<double> scene(support::source_slab());
+  std::vector<double> c;
+  for (const std::size_t n : {64u, 128u, 256u}) {
+    SlabMarch march(scene, {n, n, 0, 0});
+    ASSERT_EQ(march.advance_to(2), Status::ok);
+    c.push_back(large_at_middle(march, 0.5));
+  }
+  EXPECT_GT((c[1] - c[0]) / (c[2] - c[1]), 3);
+  EXPECT_NEAR(c[2] + (c[2] - c[1]) / 3, 0.0744, 5e-4);
 }
 
 TEST(SlowSlab, RestsWhereTheSourceStops) {
@@ -136,15 +153,16 @@ TEST(Slab, RunGivesMeansOverXAndTheWhole) {
   method.set("cells", std::uint64_t{32});
   const auto run = method.start(scene, {});
   ASSERT_EQ(run->advance(0.2), Status::ok);
-  const auto& field = dynamic_cast<const SlabField&>(run->field());
-  EXPECT_NEAR(field.at(1).M, 0.5, 1e-12);
+  ASSERT_NE(run->field().slab(), nullptr);
+  const SlabField& field = *run->field().slab();
+  EXPECT_NEAR(run->field().at(1).M, 0.5, 1e-12);
   const std::vector<double> x = field.middles(), z{0.1, 0.4, 0.8};
   ASSERT_EQ(x.size(), 32u);
   const std::vector<double> phi = field.section(x, z);
   for (std::size_t j = 0; j < z.size(); ++j) {
     double mean = 0;
     for (std::size_t i = 0; i < x.size(); ++i) mean += phi[i * z.size() + j] / 32;
-    EXPECT_NEAR(mean, field.at(z[j]).phi, 2e-3);  // slopes are bounded in each column
+    EXPECT_NEAR(mean, run->field().at(z[j]).phi, 2e-3);  // slopes are bounded in each column
   }
   // Periodic: both ends are one place.
   const std::vector<double> ends = field.section({0, 1}, z);

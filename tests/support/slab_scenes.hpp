@@ -14,16 +14,10 @@ inline BagnoldVelocity<double> source_velocity() {
   return u;
 }
 
-/// Shear rate U0 sqrt(1 - z) of that flow, U0 = 3.0994652327, as a table that is thicker towards the surface.
-inline Table<double> source_shear_rate() {
-  constexpr double kU0 = 3.0994652327;
-  constexpr int kPoints = 400;
-  Table<double> a;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double y = 1 - static_cast<double>(i) / kPoints;  // sqrt(1 - z)
-    a.z.push_back(i == kPoints ? 1 : 1 - y * y);
-    a.values.push_back(kU0 * std::max(y, 1e-3 / kPoints));
-  }
+/// Its shear rate U0 sqrt(1 - z), U0 = 3.0994652327.
+inline Bagnold<double> source_shear_rate() {
+  Bagnold<double> a;
+  a.angle = 0.43, a.grain = 0.04, a.gravity = 1;
   return a;
 }
 

@@ -11,6 +11,7 @@
 #include "shearfront/exact/derivatives.hpp"
 #include "shearfront/exact/events.hpp"
 #include "shearfront/exact/exact_solution.hpp"
+#include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "support/checked.hpp"
 #include "support/random_scene.hpp"
@@ -157,6 +158,28 @@ TEST(RootBed, DerivativesAreThoseOfDifferences) {
   }
 }
 
+/// Of other fluxes pieces stand for the bed that get thinner towards the surface. With -phi (1 - phi)(1 - gamma phi) pure large grains
+/// rise at 1 - gamma times the speed of those of the parabola, small ones sink as fast.
+TEST(RootBed, OtherFluxesTakeFewPiecesThatThinTowardsTheSurface) {
+  auto spec = source_bed(0.5);
+  const auto parabola = exact_timeline(ExactSolution<double>{Scene<double>(spec)});
+  spec.fluxes = {Cubic<double>{0.3}};
+  double before = 0, change = 0;
+  for (const std::size_t pieces : {32u, 64u, 128u}) {
+    const ExactSolution<double> solution{Scene<double>(spec), {.layers = pieces}};
+    const auto times = exact_timeline(solution);
+    const double error = timeline_error(solution, times);
+    EXPECT_NEAR(*times.t0, *parabola.t0, 0.1 / static_cast<double>(pieces * pieces)) << pieces;
+    EXPECT_LT(std::abs(*times.t1 - *parabola.t1 / 0.7), 1.2 * error) << pieces;
+    EXPECT_LT(error, 0.15 / static_cast<double>(pieces)) << pieces;
+    if (change > 0) {
+      EXPECT_LT(std::abs(*times.t_star - before), change / 3) << pieces;  // second order
+    }
+    if (before > 0) change = std::abs(*times.t_star - before);
+    before = *times.t_star;
+  }
+}
+
 /// Where it is not one piece of parabolas, the bed is approximated, and grains still reach its surface.
 TEST(RootBed, IsApproximatedBesideLayers) {
   auto spec = source_bed(0.5);
@@ -166,10 +189,10 @@ TEST(RootBed, IsApproximatedBesideLayers) {
   EXPECT_FALSE(pieces.is_exact());
   const auto times = exact_timeline(pieces);
   EXPECT_NEAR(*times.t0, *exact.t0, 1e-5);
-  // Grains come to the surface through its last piece: of order 1/2 in its height.
+  // Grains come to the surface through its last pieces: of first order in their number.
   EXPECT_NEAR(*times.t1, *exact.t1, 1e-3);
-  EXPECT_NEAR(*times.t_star, *exact.t_star, 1e-3);
-  EXPECT_LT(std::abs(*times.t1 - *exact.t1), 4 * timeline_error(pieces, times));
+  EXPECT_NEAR(*times.t_star, *exact.t_star, 1e-4);
+  EXPECT_LT(std::abs(*times.t1 - *exact.t1), 1.2 * timeline_error(pieces, times));
 }
 
 TEST(RootBed, RefusesAnAngleWithoutSteadyFlow) {

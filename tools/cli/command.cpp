@@ -57,6 +57,10 @@ void note_remark(const Summary& summary) {
   if (!summary.remark.empty()) note(summary.remark);
 }
 
+void note_approximation(const Method& method, const Summary& summary) {
+  if (method.guarantees().exact && summary.message.starts_with("exact for ")) note(summary.message);
+}
+
 void print_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) fmt::print(stderr, "{}\n", remark);
 }

@@ -7,6 +7,7 @@
 
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/summary.hpp"
+#include "shearfront/solver/method.hpp"
 
 namespace CLI {
 class App;
@@ -52,6 +53,8 @@ int report_unusable(const Summary& summary);
 void note(std::string_view text);
 /// The remark of a usable result, if there is one, on standard error.
 void note_remark(const Summary& summary);
+/// What stands for the scene where an exact method is not exact, and how far it may be off.
+void note_approximation(const Method& method, const Summary& summary);
 /// What readers have to say about their files, on standard error.
 void print_remarks(const std::vector<std::string>& remarks);
 /// The scene as it is, its remarks printed.

@@ -33,7 +33,8 @@ namespace shearfront {
 /// phi as well, except within a rounding error of a shock; (2) for c = 1 and the quadratic flux
 /// 0 <= phi <= 1, max(0, m - (top - z)) <= M <= min(z - bottom, m), in general the images of these bounds;
 /// (3) any other smooth a, c, T: the exact solution of pieces through the rate, each linear or exponential,
-/// of second order in their height (phi of order 3/2 where paths turn), halved until the estimated error of M is at most Options::tolerance
+/// of second order in their height (phi of order 3/2 where paths turn; where a is 0 at an end they thin towards it, and first
+/// arrivals there are of first order in their number), halved until the estimated error of M is at most Options::tolerance
 /// times the height of the bed at a set of probe points (probed_error(); kMostPieces if that does not suffice). Value::M_error and
 /// phi_error estimate what is left, by the change from half as many
 /// pieces; their largest value over a set of points is what to go by: at

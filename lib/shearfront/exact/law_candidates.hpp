@@ -14,7 +14,7 @@ namespace shearfront::exact {
 ///
 /// Along a route T is a sum of what rises with h, the runs and starts where r falls along the way, and of what falls, turns and
 /// other starts. So an interval of h is dropped only where T cannot be t; the others are halved, and one whose ends enclose t the
-/// way a minimising path asks for is trusted to have one root once it is narrow.
+/// way a minimising path asks for is trusted to have one root once it is narrow, or once all samples are spent.
 template <Real Scalar>
 class LawCandidates : protected SlopedStarts<Scalar> {
  public:
@@ -334,7 +334,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     if (is_close(a.T, tolerance) && is_close(b.T, tolerance)) return;
     if (is_dear(a)) return;
     const bool encloses = sign > 0 ? a.T < t_ && b.T > t_ : a.T > t_ && b.T < t_;
-    if (depth >= kSure && encloses) return found(root(a, b, at));
+    if (encloses && (depth >= kSure || left <= 0)) return found(root(a, b, at));
     const Scalar middle = a.v + (b.v - a.v) / Scalar(2);
     if (left <= 0 || !(middle > std::min(a.v, b.v) && middle < std::max(a.v, b.v))) return;
     --left;

@@ -136,7 +136,7 @@ std::vector<Path<Scalar>> SlopedMedium<Scalar>::best_paths(const std::vector<Sca
     self(self, middle, hi);
   };
   paths.front() = this->best_path(z.front(), t);
-  paths.back() = this->best_path(z.back(), t);
+  if (z.size() > 1) paths.back() = this->best_path(z.back(), t);
   fill(fill, 0, z.size() - 1);
   return paths;
 }

@@ -33,8 +33,10 @@ LayerStack<Scalar> pieces_between_knots(const Scene<Scalar>& scene) {
 }
 
 template <Real Scalar>
-LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
+LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers, bool is_graded) {
   using std::ceil;
+  const bool thins_down = is_graded && scene.rate_at(scene.bottom()) == 0,
+             thins_up = is_graded && scene.rate_at(scene.top()) == 0;
   std::vector<Scalar> cuts{scene.bottom()};
   std::vector<bool> is_break;
   for (const Scalar& z : scene.knots()) cuts.push_back(z);
@@ -51,9 +53,12 @@ LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
     const double share = to_double(Scalar(piece / height)) * static_cast<double>(n_layers);
     const std::size_t n = std::max<std::size_t>(1, static_cast<std::size_t>(ceil(share - 1e-9)));
     for (std::size_t j = 1; j <= n; ++j) {
-      const Scalar z =
-          j == n ? cuts[i + 1]
-                 : cuts[i] + piece * Scalar(static_cast<double>(j)) / Scalar(static_cast<double>(n));
+      Scalar part = Scalar(static_cast<double>(j)) / Scalar(static_cast<double>(n));
+      if (thins_down && i == 0)
+        part *= part;
+      else if (thins_up && i + 2 == cuts.size())
+        part *= Scalar(2) - part;
+      const Scalar z = j == n ? cuts[i + 1] : cuts[i] + piece * part;
       if (!(z > boundaries.back())) continue;  // the piece is too thin for n distinct numbers
       rates.push_back(scene.mean_rate(boundaries.back(), z));
       boundaries.push_back(z);
@@ -68,6 +73,6 @@ LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers) {
 template LayerMaterial<Instantiated> material_of(const Scene<Instantiated>&,
                                                  const std::vector<Instantiated>&);
 template LayerStack<Instantiated> pieces_between_knots(const Scene<Instantiated>&);
-template LayerStack<Instantiated> staircase(const Scene<Instantiated>&, std::size_t);
+template LayerStack<Instantiated> staircase(const Scene<Instantiated>&, std::size_t, bool);
 
 }  // namespace shearfront

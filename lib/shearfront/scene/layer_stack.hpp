@@ -104,12 +104,14 @@ template <Real Scalar>
 /// whole layers are then exact; M(z, t) is second order in the layer height where no path turns and of
 /// order 3/2 where paths do (a falling along them), phi first order. With a solid fraction, layers also end at
 /// the initial jumps: the layers, each with the mean of c, then hold what the bed does.
+/// `is_graded`: towards an end where a is 0 they get thinner as the squares of 1 / n, 2 / n, ..., so that a root falls by as much in each.
 /// Cost: O(n_layers + knots).
 template <Real Scalar>
-[[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers);
+[[nodiscard]] LayerStack<Scalar> staircase(const Scene<Scalar>& scene, std::size_t n_layers,
+                                           bool is_graded = false);
 
 extern template LayerMaterial<double> material_of(const Scene<double>&, const std::vector<double>&);
 extern template LayerStack<double> pieces_between_knots(const Scene<double>&);
-extern template LayerStack<double> staircase(const Scene<double>&, std::size_t);
+extern template LayerStack<double> staircase(const Scene<double>&, std::size_t, bool);
 
 }  // namespace shearfront

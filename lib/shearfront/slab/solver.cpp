@@ -27,7 +27,7 @@ slab::Settings settings_of(const SlabSolver::Options& options, const Scene<doubl
   return settings;
 }
 
-class MarchedField final : public SlabField {
+class MarchedField final : public Field, public SlabField {
  public:
   MarchedField(const Scene<double>& scene, const slab::SlabMarch& march)
       : scene_(scene), march_(march), mean_(march.mean_profile()) {}
@@ -42,6 +42,7 @@ class MarchedField final : public SlabField {
     return sum / static_cast<double>(march_.n_x());
   }
   [[nodiscard]] std::optional<Profile<double>> profile() const override { return mean_; }
+  [[nodiscard]] const SlabField* slab() const override { return this; }
   [[nodiscard]] std::vector<double> middles() const override {
     std::vector<double> x;
     for (std::size_t i = 0; i < march_.n_x(); ++i)

@@ -8,7 +8,7 @@
 
 namespace shearfront {
 
-/// Slabs, phi(x, z, t), by slab::SlabMarch. The field is the mean over x, SlabField the whole.
+/// Slabs, phi(x, z, t), by slab::SlabMarch. The field is the mean over x, its slab() the whole.
 ///
 /// Domain: scenes with a table slab, walls, solid fraction 1; with D > 0 what Crank-Nicolson takes, else what MUSCL or Godunov's
 /// scheme take. Finite times only. Errors: Summary with Status::unsupported, not_converged, interrupted.
@@ -48,19 +48,5 @@ struct SlabSolver {
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
 };
 static_assert(Solver<SlabSolver>);
-
-namespace slab {
-class SlabMarch;
-}
-
-/// phi of a slab at one time. at(z), profile() and integral() are means over x.
-class SlabField : public Field {
- public:
-  /// Middles of the cells along x, ascending.
-  [[nodiscard]] virtual std::vector<double> middles() const = 0;
-  /// phi(x[i], z[j]) at [i * z.size() + j], linear between the middles of cells; x in [0, length].
-  [[nodiscard]] virtual std::vector<double> section(const std::vector<double>& x,
-                                                    const std::vector<double>& z) const = 0;
-};
 
 }  // namespace shearfront

@@ -24,6 +24,18 @@ struct Sample {
   double M = 0;    ///< int_bottom^z phi
 };
 
+/// phi of a slab at one time, over x, which repeats with the length of the slab, and z.
+class SlabField {
+ public:
+  virtual ~SlabField() = default;
+
+  /// Middles of the cells along x, ascending.
+  [[nodiscard]] virtual std::vector<double> middles() const = 0;
+  /// phi(x[i], z[j]) at [i * z.size() + j], linear between the middles of cells; x in [0, length].
+  [[nodiscard]] virtual std::vector<double> section(const std::vector<double>& x,
+                                                    const std::vector<double>& z) const = 0;
+};
+
 /// The solution at one time, as a function of height.
 class Field {
  public:
@@ -42,6 +54,9 @@ class Field {
   [[nodiscard]] virtual double integral(const ShareFunction& g) const = 0;
   /// phi over the whole domain, where the solver's solution is linear in pieces (Guarantees::has_profiles).
   [[nodiscard]] virtual std::optional<Profile<double>> profile() const { return std::nullopt; }
+  /// Where phi depends on x as well (Guarantees::has_slab): all of it, of which the others are means over x. Valid as long as
+  /// this. Null otherwise.
+  [[nodiscard]] virtual const SlabField* slab() const { return nullptr; }
 };
 
 /// A solution that is linear in pieces.

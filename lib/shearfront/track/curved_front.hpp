@@ -98,32 +98,31 @@ struct LevelWay {
 
 namespace curved_front_detail {
 
-/// `shrink` = r(origin) / r(z) - 1.
+/// q of a level at z; `shrink` = r(origin) / r(z) - 1.
+[[nodiscard]] inline double exponential_root(const LevelCurves& grid, const CurvedNode& f, std::size_t level,
+                                             double q_origin, double z, double rate, double shrink) {
+  if (level == 0) return 1;
+  constexpr double kFarFromTurn = 0.75, kCancelling = 0.1;
+  const double h = grid.capacity(level), x = h / rate;
+  if (x < kFarFromTurn) return std::sqrt(1 - x);
+  const double before = q_origin * q_origin, square = before - (h / f.rate) * shrink;
+  return before > 0 && square > kCancelling * before ? std::sqrt(square) : grid.q(f.layer, level, z, rate);
+}
 [[nodiscard]] inline LevelWay exponential_way(const LevelCurves& grid, const CurvedNode& f, std::size_t level,
-                                              double q_origin, double z, double rate, double shrink) {
+                                              double q_origin, double q, double z, double rate,
+                                              double shrink) {
   if (level == 0) return {1, 0, 0, 0};
   constexpr double kSmallRoot = 0.1;  // below it terms cancel: LevelCurves::area knows how
   const std::size_t p = f.layer;
-  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend, x = h / rate;
-  constexpr double kFarFromTurn = 0.75;
+  const double h = grid.capacity(level), factor = 2 / grid.piece(p).bend;
   if (!(q_origin > 0)) {  // from its turning height on
     const double turn = grid.turning_height(p, level);
-    const double q = x < kFarFromTurn ? std::sqrt(1 - x) : grid.q(p, level, z, rate);
     if (q < kSmallRoot) return {q, (z - f.z) - grid.area(p, level, {turn, h, 0}, {z, h, q}), 0, 0};
     return {q, (turn - f.z) + factor * q, factor, q};
   }
-  const double lost = (h / f.rate) * shrink;  // q^2 is less by so much
-  double q;
-  if (x < kFarFromTurn) {
-    q = std::sqrt(1 - x);
-  } else {
-    constexpr double kCancelling = 0.1;
-    const double origin_square = q_origin * q_origin, square = origin_square - lost;
-    q = square > kCancelling * origin_square ? std::sqrt(square) : grid.q(p, level, z, rate);
-  }
   if (!(q > 0) || (q < kSmallRoot && q_origin < kSmallRoot))
     return {q, (z - f.z) - grid.area(p, level, {f.z, f.rate, q_origin}, {z, rate, q}), 0, 0};
-  const double delta = -lost / (q_origin + q);
+  const double delta = -(h / f.rate) * shrink / (q_origin + q);
   return {q, factor * delta, factor, delta / (1 + q_origin)};
 }
 
@@ -171,10 +170,10 @@ namespace curved_front_detail {
 /// When a front of one side is at z after it was at its origin, as the mean over its levels of the times of characteristics, by Gauss's
 /// rule of three points: a relative error of 1e-15 where levels are near to each other, while the difference of their areas loses what
 /// their distance is of their flux. Next to the turning heights of levels very near to each other in q at z, of which times are smooth
-/// functions, and those that have turned apart. Nothing where they are not near.
+/// functions, and those that have turned apart. Nothing where they are not near. `shrink`: in an exponential piece, as there.
 [[nodiscard]] inline std::optional<double> mean_time(const LevelCurves& grid, const CurvedNode& f,
                                                      double h_below, double h_above, double z, double rate,
-                                                     double q_below, double q_above) {
+                                                     double q_below, double q_above, double shrink = 0) {
   const double spread = std::abs(h_below - h_above), least = std::min(q_below, q_above);
   const bool is_far = spread < kCloseLevels * rate * least * least;
   if (!is_far && !(spread < kVeryCloseLevels * rate)) return std::nullopt;
@@ -192,7 +191,7 @@ namespace curved_front_detail {
   if (!is_from_turn && !grid.flux()) {
     const double along = piece.bend * (z - f.z);
     const bool is_linear = piece.curve == RateCurve::linear;
-    change_here = is_linear ? along / rate : -std::expm1(-along);
+    change_here = is_linear ? along / rate : -shrink;
     if (is_linear) log_here = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(along / f.rate);
   }
   // Of the characteristic of the flux h / 4, up to where the rate is `to_rate`.
@@ -261,11 +260,13 @@ namespace curved_front_detail {
     if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink))
       return curved_front_detail::far_passage(f, h_i, h_j, s_i, s_j, piece.bend, d, shrink);
     const double rate = needs_rate ? f.rate / (1 + shrink) : piece.rate(z);
-    const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, z, rate, shrink),
-                   b = curved_front_detail::exponential_way(grid, f, j, f.q_above, z, rate, shrink);
+    const double q_i = curved_front_detail::exponential_root(grid, f, i, f.q_below, z, rate, shrink),
+                 q_j = curved_front_detail::exponential_root(grid, f, j, f.q_above, z, rate, shrink);
     if (is_one_side)
-      if (const auto mean = curved_front_detail::mean_time(grid, f, h_i, h_j, z, rate, a.q, b.q))
-        return {f.t + s_j * *mean, front_slope(grid, f, rate, a.q, b.q)};
+      if (const auto mean = curved_front_detail::mean_time(grid, f, h_i, h_j, z, rate, q_i, q_j, shrink))
+        return {f.t + s_j * *mean, front_slope(grid, f, rate, q_i, q_j)};
+    const LevelWay a = curved_front_detail::exponential_way(grid, f, i, f.q_below, q_i, z, rate, shrink),
+                   b = curved_front_detail::exponential_way(grid, f, j, f.q_above, q_j, z, rate, shrink);
     // Both logarithms at once: log1p(x) - log1p(y) = log1p((x - y) / (1 + y)).
     double way = is_one_side ? a.plain - b.plain : 2 * d - a.plain - b.plain;
     const double weight = std::max(std::abs(a.weight), std::abs(b.weight)) * (piece.bend < 0 ? -1 : 1);

@@ -60,6 +60,20 @@ class CurvedMeetings {
     const Passage& of = uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? near.f : near.g;
     return {z == near.z ? of.t : of.t + of.slope * (z - near.z), z};
   }
+  /// The cubic through the times and slopes at two heights.
+  [[nodiscard]] static double time_between(double z_a, const Passage& a, double z_b, const Passage& b,
+                                           double z) {
+    const double h = z_a - z_b, x = (z - z_b) / h, y = 1 - x;
+    return b.t + x * x * (3 - 2 * x) * (a.t - b.t) + h * x * y * (b.slope * y - a.slope * x);
+  }
+  /// The same by cubics through the times at both heights, if they too meet there.
+  [[nodiscard]] std::optional<CurvedMeeting> meeting(const Pair& far, const Pair& near, double z,
+                                                     double tolerance) const {
+    const double f = time_between(far.z, far.f, near.z, near.f, z),
+                 g = time_between(far.z, far.g, near.z, near.g, z);
+    if (!(std::abs(f - g) <= tolerance)) return std::nullopt;
+    return CurvedMeeting{uncertainty(f_, near.f, z) < uncertainty(g_, near.g, z) ? f : g, z};
+  }
   [[nodiscard]] CurvedMeeting at(double z) const { return meeting(pair_at(z), z); }
   /// Of the time, in units of rounding: of heights, which are found to a part of their piece, and of areas.
   [[nodiscard]] double uncertainty(const CurvedNode& f, const Passage& at, double z) const {
@@ -81,26 +95,36 @@ class CurvedMeetings {
     const double h = b.d.t - a.d.t, x = -a.d.t / h, y = 1 - x;
     return b.z + (a.z - b.z) * ((1 + 2 * x) * y * y) + h * x * y * (y / a.d.slope - x / b.d.slope);
   }
-  /// The first place from `from`, where the difference times `sign` of the times of f and g is positive, on the way to `to` at
+  /// The difference of the times of f and g, times `sign`.
+  [[nodiscard]] static Point point(const Pair& at, int sign) {
+    return {at.z, {sign * (at.f.t - at.g.t), sign * (at.f.slope - at.g.slope)}};
+  }
+  /// The first place from `start`, where the difference times `sign` of the times of f and g is positive, on the way to `to` at
   /// which it is 0; none if it is positive there. Precondition: it changes its sign once at most. Newton's method, then cubic
-  /// interpolation, in a bracket; `to` is looked at only if they lead there.
-  [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, double from, const Passage& at_from,
-                                                        double to) const {
+  /// interpolation, in a bracket; `to` is looked at only if they lead there, at once where nothing is known of `start`.
+  [[nodiscard]] std::optional<CurvedMeeting> first_zero(int sign, const Pair& start, double to,
+                                                        bool is_start_known = true) const {
     constexpr int kMostEvaluations = 200, kPatience = 8;
     constexpr double kLastStep = 1e-9;  // the next one would be its square at least
     constexpr double kRounding = 2e-16;
-    const double length = std::abs(to - from);
+    const RatePiece& piece = grid_.piece(f_.layer);
+    const double from = start.z, length = std::abs(to - from), height = piece.z_high - piece.z_low;
     double positive = from, beyond = to;
     bool has_bracket = false;
     const auto is_inside = [&](double z) {
       return positive < beyond ? z > positive && z < beyond : z < positive && z > beyond;
     };
-    Point last{from, at_from};
-    double z = from - at_from.t / at_from.slope;
-    if (!is_inside(z)) z = to;
+    Pair previous = start;
+    Point last = is_start_known ? point(start, sign) : Point{from, {1, 0}};
+    double z = from - last.d.t / last.d.slope;
+    enum class By { newton, cubic, other } by = By::newton;  // how z was found
+    if (!is_inside(z)) {
+      z = to;
+      by = By::other;
+    }
     for (int n = 0;; ++n) {
       const Pair both = pair_at(z);
-      const Point now{z, {sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)}};
+      const Point now = point(both, sign);
       if (z == to && !has_bracket && now.d.t > 0) return std::nullopt;
       if (n == kMostEvaluations) return meeting(both, z);
       has_bracket = has_bracket || now.d.t < 0;
@@ -108,7 +132,8 @@ class CurvedMeetings {
       if (std::abs(now.d.t) <= kRounding * std::abs(z * now.d.slope)) return meeting(both, z);
       const double newton = z - now.d.t / now.d.slope;
       double next = interpolated(last, now);
-      if (!is_inside(next)) next = newton;
+      const bool is_cubic = is_inside(next);
+      if (!is_cubic) next = newton;
       bool is_guess = is_inside(next);
       if (is_guess && has_bracket && n > kPatience && n % 3 == 0) is_guess = false;
       if (!is_guess) next = has_bracket ? positive + (beyond - positive) / 2 : to;
@@ -116,8 +141,20 @@ class CurvedMeetings {
       if (has_bracket && (next == positive || next == beyond)) return meeting(both, next);
       if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
       // Where one front stands for a while the cubic may stay at a place that is no root.
-      if (is_guess && std::max(step, std::abs(newton - z)) < kLastStep * std::abs(beyond - positive))
-        return meeting(both, next);
+      const double larger = std::max(step, std::abs(newton - z));
+      if (is_guess && larger < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
+      // d apart, Newton's step has left k d^2: then the cubic is off by about k^3 of the product of both squares, and K of them if it
+      // was a cubic that has left K d^4 at most. Where that is not so the cubics of both times do not meet there.
+      const double apart = std::abs(z - last.z), share = larger / apart, cube = share * share * share;
+      constexpr double kSmallShare = 0.01, kPartOfRounding = 0.01, kNear = 1.0 / 256;
+      if (is_guess && is_cubic && by != By::other && apart < kNear * height && share < kSmallShare &&
+          cube * (by == By::newton ? share * larger : apart) <=
+              kPartOfRounding * kRounding * (length + std::abs(z)))
+        if (const auto met = meeting(previous, both, next,
+                                     kRounding * (std::abs(now.d.slope) * (length + std::abs(z)) + both.f.t)))
+          return met;
+      by = is_guess && is_cubic ? By::cubic : By::other;
+      previous = both;
       last = now;
       z = next;
     }
@@ -148,7 +185,7 @@ class CurvedMeetings {
       return std::nullopt;
     }
     if (at_lo.t == 0) return at(lo);
-    if (const auto met = first_zero(-1, lo, at_lo, hi)) return met;
+    if (const auto met = first_zero(-1, both, hi)) return met;
     if (hi == g_.z) return at(hi);
     return std::nullopt;
   }
@@ -172,19 +209,18 @@ class CurvedMeetings {
       if (!ahead(hi, dead)) return std::nullopt;
       if (lag(rear, lead, hi) >= 0) return std::nullopt;
       const double from = ahead(dead, lo) ? (ahead(dead, hi) ? hi : dead) : lo;
-      const Passage at_from = difference(rear, lead, from);
-      if (!(at_from.t > 0)) return at(from);
-      return first_zero(s, from, at_from, hi);
+      const Pair both = pair_at(from);
+      if (!(point(both, s).d.t > 0)) return meeting(both, from);
+      return first_zero(s, both, hi);
     }
     const Pair both = pair_at(lo);
-    const int sign = &rear == &f_ ? 1 : -1;
-    const Passage at_lo{sign * (both.f.t - both.g.t), sign * (both.f.slope - both.g.slope)};
+    const Passage at_lo = point(both, s).d;
     // A front that has just turned is faster than any other: where another is then they touch and separate.
     const bool touches = s * at_lo.slope > 0 && std::abs(at_lo.t) <= tie(both);
-    if (at_lo.t <= 0 && !touches) return at(lo);
+    if (at_lo.t <= 0 && !touches) return meeting(both, lo);
     const bool may_part = gets_smaller && ahead(hi, dead);
-    if (!touches && !may_part) return first_zero(s, lo, at_lo, hi);
-    if (lag(rear, lead, hi) <= 0) return first_zero(s, lo, touches ? Passage{1, 0} : at_lo, hi);
+    if (!touches && !may_part) return first_zero(s, both, hi);
+    if (lag(rear, lead, hi) <= 0) return first_zero(s, both, hi, !touches);
     if (!may_part) return std::nullopt;
     return touching(rear, lead, lo, ahead(lo, dead) ? lo : dead, hi, s);
   }
@@ -193,7 +229,7 @@ class CurvedMeetings {
                                                       double lo, double from, double hi, int s) const {
     const auto growth = [&](double z) { return s * (slope_of(grid_, rear, z) - slope_of(grid_, lead, z)); };
     // Where one of them touches the other at lo, the place to begin with is not that.
-    const auto zero_before = [&](double z) { return first_zero(s, lo, Passage{1, 0}, z); };
+    const auto zero_before = [&](double z) { return first_zero(s, {lo, {}, {}}, z, false); };
     if (difference(rear, lead, from).t <= 0) return zero_before(from);
     if (!(growth(from) < 0) || !(growth(hi) > 0)) return std::nullopt;
     double falling = from, rising = hi;

@@ -91,7 +91,8 @@ double LevelCurves::linear_area(const RatePiece& piece, double h, const Place& a
 
 double LevelCurves::exponential_area(const RatePiece& piece, double h, const Place& a, const Place& b) {
   const double d = b.z - a.z;
-  const double delta = -(h / a.rate) * std::expm1(-piece.bend * d) / (a.q + b.q);
+  double delta = b.q - a.q;  // at a turning height it is all of q
+  if (a.q > 0 && b.q > 0) delta = -(h / a.rate) * std::expm1(-piece.bend * d) / (a.q + b.q);
   if (a.q < kSmallRoot && b.q < kSmallRoot)
     return (are_alike(a.q, b.q) ? small_root_integral(a.q, delta, [](double x) { return x / (1 - x); })
                                 : exponential_series(b.q) - exponential_series(a.q)) *

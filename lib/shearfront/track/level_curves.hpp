@@ -82,7 +82,10 @@ class LevelCurves {
     if (piece.curve == RateCurve::constant) return turning_[p][level];
     const double x = piece.bend * (z - turning_[p][level]);  // positive on the live side
     if (!(x > 0)) return 0;
-    return piece.curve == RateCurve::linear ? std::min(1.0, std::sqrt(x / rate)) : std::sqrt(-std::expm1(-x));
+    if (piece.curve == RateCurve::linear) return std::min(1.0, std::sqrt(x / rate));
+    constexpr double kFarFromTurn = 0.75;
+    const double share = h_[level] / rate;
+    return share < kFarFromTurn ? std::sqrt(1 - share) : std::sqrt(-std::expm1(-x));
   }
   [[nodiscard]] double q(std::size_t p, std::size_t level, double z) const {
     return q(p, level, z, pieces_[p].rate(z));
