@@ -28,6 +28,7 @@ extensions = [
     "gallery",
     "outside_links",
     "interfaces",
+    "unbroken",
 ]
 exclude_patterns = ["_extensions", "drawings"]
 nitpicky = False

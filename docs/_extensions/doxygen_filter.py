@@ -2,7 +2,7 @@
 """What Doxygen reads of a header:  doxygen_filter.py HEADER
 
 Indented lines of a comment (laws, tables, formulas) stay as they are written: they become blocks of code. Explicit
-instantiations, which say nothing new, are left out."""
+instantiations, which say nothing new, and private members are left out."""
 
 import re
 import sys
@@ -23,4 +23,5 @@ def filtered(lines):
 if __name__ == "__main__":
     with open(sys.argv[1], encoding="utf-8") as header:
         text = re.sub(r"^extern template [^;]*;", "", header.read(), flags=re.MULTILINE)
+        text = re.sub(r"^ private:\n.*?(?=^\};)", "", text, flags=re.MULTILINE | re.DOTALL)
         print("\n".join(filtered(text.split("\n"))))

@@ -3,7 +3,8 @@
 
 Every picture is a file of docs/gallery or, for the drawings of the theory, docs/drawings: a Python script (.py) that ends with
 `figure = ...` or `film = ...` (an animation of matplotlib), or a shell script (.sh) that makes picture.svg or picture.png. The
-first lines are comments: the title, then a sentence or two. What has changed since it last ran is run, a few at a time. The
+first lines are comments: the title, then a sentence or two. What has changed since it last ran is run, a few at a time, and all
+of it if the program or the package has. The
 gallery shows pictures with their code; `picture` shows one, with its code folded away.
 """
 
@@ -18,6 +19,8 @@ import sys
 from docutils import nodes
 from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
+
+import shearfront
 
 _DRAW = """
 import matplotlib
@@ -56,10 +59,10 @@ class Picture:
         """The picture."""
         return next(f for f in (self.folder / f"picture.{kind}" for kind in ("svg", "png", "gif")) if f.exists())
 
-    def draw(self, root):
+    def draw(self, root, makers):
         """Runs the script, if it is not the one that drew what is there. Returns what went wrong."""
         program = os.environ["SHEARFRONT_PROGRAM"]
-        key = hashlib.sha256(self.script.read_bytes() + _DRAW.encode()).hexdigest()
+        key = hashlib.sha256(self.script.read_bytes() + _DRAW.encode() + makers).hexdigest()
         mark = self.folder / "drawn-by"
         if mark.exists() and mark.read_text() == key:
             return ""
@@ -77,14 +80,22 @@ class Picture:
         return ""
 
 
+def _makers():
+    """A hash of what draws: the program and the package."""
+    package = sorted(p for p in pathlib.Path(shearfront.__file__).parent.iterdir() if p.suffix in (".py", ".so"))
+    files = [pathlib.Path(os.environ["SHEARFRONT_PROGRAM"]), *package]
+    return hashlib.sha256(b"".join(f.read_bytes() for f in files)).digest()
+
+
 def _pictures(app):
     if not hasattr(app, "shearfront_gallery"):
         source = pathlib.Path(app.srcdir)
         made = pathlib.Path(app.outdir).parent / "gallery"
         scripts = sorted(f for d in ("gallery", "drawings") for f in (source / d).iterdir() if f.suffix in (".py", ".sh"))
         all_of_them = [Picture(script, made) for script in scripts]
+        makers = _makers()
         with concurrent.futures.ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
-            wrong = [text for text in pool.map(lambda p: p.draw(source.parent), all_of_them) if text]
+            wrong = [text for text in pool.map(lambda p: p.draw(source.parent, makers), all_of_them) if text]
         if wrong:
             raise ExtensionError("\n".join(wrong))
         shown = pathlib.Path(app.outdir) / "_images" / "gallery"

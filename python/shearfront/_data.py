@@ -194,9 +194,9 @@ def data(scene: Scene, source: Any = None, *, replicates: str = "refuse", **colu
     if unknown:
         raise one_complaint(unknown[0], None, f"is no column; must be one of: {', '.join(_COLUMNS)}")
     if "t" not in columns or len(values) != 1 or (values != ["H"] and "z" not in columns):
-        has = [name for name in columns] if source is None or isinstance(source, Mapping) else list(source.columns)
+        has = list(columns) if source is None or isinstance(source, Mapping) else list(source.columns)
         shown = f"; has: {', '.join(map(str, has))}" if has else ""
-        raise one_complaint("data", None, f"must have columns t, z and one of phi, M; or t and H{shown}")
+        raise one_complaint("data", None, f"must have t, z and one of phi, M; or t and H{shown}")
     value = values[0]
     quantity = "bin" if value == "phi" and "width" in columns else _VALUES[value]
     given = {name: np.asarray(x, dtype=float) for name, x in columns.items()}

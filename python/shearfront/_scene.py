@@ -713,9 +713,7 @@ class Scene:
             known = _option_names(name)
             fine = "cells" if "cells" in known else "resolution"
             if known and fine not in known:
-                raise one_complaint(
-                    "methods", name, "must have cells or a resolution, to be made finer; exact is what is compared with"
-                )
+                raise one_complaint("methods", name, "must have cells or a resolution: exact is what is compared with")
             others = {key: value for key, value in options.items() if key in known}
             for value in cells if fine == "cells" else resolutions:
                 measured = _core.l1_errors(self._engine, method_of(name, {fine: value, **others}), flat(t))
