@@ -214,7 +214,8 @@ class GridRun final : public Run {
 }  // namespace
 
 Grid grid_of(const Scene<double>& scene, const GridOptions& options) {
-  return options.align_cells ? aligned_cells(scene, options.cells) : equal_cells(scene, options.cells);
+  const auto cells = static_cast<std::size_t>(options.cells);
+  return options.align_cells ? aligned_cells(scene, cells) : equal_cells(scene, cells);
 }
 
 std::string refusal(const Scheme& scheme, const Scene<double>& scene, const GridOptions& options) {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The engine in node: its answers are those of the program.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { expect, test } from "@playwright/test";
+import { FLUX_NAMES } from "../src/bed/edits.ts";
+import { COARSE, makePicture } from "../src/bed/picture.ts";
+import { Refusal } from "../src/engine/engine.ts";
+import { DATASETS, hasProgram, newEngine, program, sceneFiles } from "./places.ts";
+
+interface EventsJson {
+  t0: number | null;
+  t1: number | null;
+  t_star: number | null;
+  mass: number;
+  steady_height: number;
+  interfaces: { z: number; first: number | null; last: number | null }[];
+}
+
+/** Of a chute x stands for t. */
+const named = (text: string): EventsJson => JSON.parse(text.replace(/"x(\d|_star)"/g, '"t$1"')) as EventsJson;
+const orNaN = (x: number | null): number => x ?? NaN;
+
+for (const file of sceneFiles()) {
+  test(`event times of ${file} are those of the program to the bit`, () => {
+    test.skip(!hasProgram, "no program to compare with");
+    const engine = newEngine();
+    const path = join(DATASETS, file);
+    const toml = readFileSync(path, "utf8");
+    test.skip(/\bfile\s*=/.test(toml), "takes tables from other files");
+    engine.setScene(toml);
+    const refusal = engine.refusal("exact");
+    const { status, out } = program("events", path, "--json");
+    if (refusal) {
+      expect(status).not.toBe(0);
+      return;
+    }
+    expect(status).toBe(0);
+    const expected = named(out);
+    const events = engine.events("exact");
+    const ours = [events.t0, events.t1, events.tStar, events.mass, events.steadyHeight, ...events.interfaces.flatMap((i) => [i.z, i.first, i.last])];
+    const theirs = [expected.t0, expected.t1, expected.t_star, expected.mass, expected.steady_height, ...expected.interfaces.flatMap((i) => [i.z, i.first, i.last])].map(orNaN);
+    expect(ours).toEqual(theirs);
+  });
+}
+
+test("every scene of the data sets becomes a picture, or is refused in words", () => {
+  test.setTimeout(300_000);
+  const engine = newEngine();
+  const refused: string[] = [];
+  for (const file of sceneFiles()) {
+    try {
+      const picture = makePicture(engine, readFileSync(join(DATASETS, file), "utf8"), { ...COARSE, columns: 8, rows: 16, mixingPoints: 3 });
+      expect(picture.tMax, file).toBeGreaterThan(0);
+      expect(picture.raster.phi.every(Number.isFinite), file).toBe(true);
+    } catch (error) {
+      expect(error, file).toBeInstanceOf(Refusal);
+      refused.push(file);
+    }
+  }
+  // Slabs have no plane of t and z.
+  expect(refused.filter((file) => !/slab/.test(file))).toEqual([]);
+});
+
+interface FitJson {
+  parameters: { name: string; estimate: number; std_error: number | null }[];
+  warnings: string[];
+  misfit: number;
+}
+
+/** Of the data sets that come with the page. */
+const FITS = ["paper-example-4/fit-bin-noise-0.01.toml", "paper-example-5/fit-bin-noise-0.01.toml", "segregation-gamma-0.9/fit.toml", "settling-column/fit.toml"];
+
+for (const file of FITS) {
+  test(`the fit ${file} finds what the program finds`, () => {
+    test.skip(!hasProgram, "no program to compare with");
+    const path = join(DATASETS, file);
+    const expected = JSON.parse(program("fit", path, "--json").out) as FitJson;
+    const toml = readFileSync(path, "utf8");
+    const named = (key: string): string => readFileSync(join(path, "..", new RegExp(`^${key}\\s*=\\s*"([^"]+)"`, "m").exec(toml)![1]!), "utf8");
+    const engine = newEngine();
+    engine.setScene(named("scene"));
+    engine.setObservations(named("observations"));
+    const steps: number[] = [];
+    const estimate = engine.fit(toml.replace(/^(scene|observations)\s*=.*$/gm, ""), (_, misfit) => steps.push(misfit) > 0);
+    expect(estimate.status).toBe("ok");
+    expect(estimate.misfit).toBeLessThan(expected.misfit * (1 + 1e-6));
+    estimate.parameters.forEach((p, i) => {
+      const theirs = expected.parameters[i]!;
+      expect(p.name).toBe(theirs.name);
+      // Of front tracking the misfit has steps; minima of both searches lie within a small part of an error bar.
+      expect(Math.abs(p.estimate - theirs.estimate), p.name).toBeLessThan(0.05 * theirs.std_error!);
+      expect(Math.abs(p.error / theirs.std_error! - 1), p.name).toBeLessThan(0.02);
+    });
+    expect(estimate.warnings).toEqual(expected.warnings);
+    expect(steps.length).toBeGreaterThan(2);
+  });
+}
+
+test("refusals are those of the program, word for word", () => {
+  const engine = newEngine();
+  const wrong = '[shear_rate]\nmodel = "exponentail"\n[initial]\nbreaks = [0.5, 0.4]\nvalues = [0, 1]\n';
+  expect(() => engine.setScene(wrong)).toThrow(/scene.toml:2:9: shear_rate.model = "exponentail"; must be one of: piecewise/);
+  expect(() => engine.setScene(wrong)).toThrow(/scene.toml:4:10: initial.breaks\[1\] = 0.4; must be greater than the break before it \(0.5\)/);
+});
+
+test("the page knows every flux of the library", () => {
+  expect(FLUX_NAMES.toSorted()).toEqual(newEngine().fluxes().map((f) => f.name).toSorted());
+});
+
+test("numbers of an answer are written as the program writes them", () => {
+  const engine = newEngine();
+  const text = (x: number): string => {
+    const scene = `[shear_rate]\nmodel = "piecewise"\nbreaks = []\nvalues = [1]\n[domain]\nbottom = -1e30\ntop = 1e30\n[initial]\nbreaks = [${x}, ${x}]\nvalues = [0, 1, 0]\n`;
+    try {
+      engine.setScene(scene);
+      return "";
+    } catch (error) {
+      return /the break before it \((\S+)\)/.exec((error as Error).message)![1]!;
+    }
+  };
+  for (const [x, written] of [[-1, "-1"], [-0.1, "-0.1"], [-1 / 3, "-0.3333333333333333"], [-1e-7, "-1e-07"], [-1e22, "-1e+22"], [-123456789, "-123456789"], [-2.5e-300, "-2.5e-300"]] as const)
+    expect(text(x)).toBe(written);
+});
