@@ -222,7 +222,8 @@ def fit(
         loss : "squared", "huber" or "cauchy"; loss_scale; two_stage;
         algorithm : "ceres", "global" or "nlopt:NAME"; starts; seed; max_evaluations; tolerance;
         profile : bool, bootstrap : int, bootstrap_seed, threads : more intervals;
-        noise : "independent", "exponential" or "discrepancy", or a mapping as [noise]: ``{"model": "exponential", "length_z": 0.1}``;
+        noise : "independent", "exponential" or "discrepancy", or a mapping as [noise], ``{"model": "exponential",
+        "length_z": 0.1}``;
         name.
         They are those of a fit file (docs/reference/formats.md), with the same defaults.
 

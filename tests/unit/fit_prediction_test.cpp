@@ -113,9 +113,10 @@ TEST(FitPrediction, BandsAfterABootstrapAreThoseOfItsReplicates) {
   const Scene<double> scene(spec);
   const Parameters parameters(scene, {{"shear_rate.scale"}, {}, {}, {}, Shape::none});
   Estimate estimate = estimate_of(parameters, {0.5}, 0);
-  constexpr Eigen::Index kReplicates = 199;  // (n + 1) p is the 5th and the 195th
-  estimate.replicates.resize(kReplicates, 1);
-  for (Eigen::Index b = 0; b < kReplicates; ++b) estimate.replicates(b, 0) = 2 * (1 + 0.001 * double(b + 1));
+  constexpr Eigen::Index kPredictionReplicates = 199;  // (n + 1) p is the 5th and the 195th
+  estimate.replicates.resize(kPredictionReplicates, 1);
+  for (Eigen::Index b = 0; b < kPredictionReplicates; ++b)
+    estimate.replicates(b, 0) = 2 * (1 + 0.001 * double(b + 1));
   const DrawnScenes draws = scenes_behind(parameters, estimate, 10, 1);
   EXPECT_TRUE(draws.are_replicates);
   EXPECT_EQ(draws.scenes.size(), 199U);

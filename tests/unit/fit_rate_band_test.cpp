@@ -66,9 +66,9 @@ TEST(FitRateBand, OfLayersThatMoveTogetherIsTheSameAtAllHeights) {
 // The error bars are left wrong, so that only the replicates can give these numbers.
 TEST(FitRateBand, AfterABootstrapLiesBetweenTheQuantilesOfTheReplicates) {
   TwoRates two(0);
-  constexpr Eigen::Index kReplicates = 199;  // (n + 1) p is the 5th and the 195th
-  two.estimate.replicates.resize(kReplicates, 2);
-  for (Eigen::Index b = 0; b < kReplicates; ++b)
+  constexpr Eigen::Index kBandReplicates = 199;  // (n + 1) p is the 5th and the 195th
+  two.estimate.replicates.resize(kBandReplicates, 2);
+  for (Eigen::Index b = 0; b < kBandReplicates; ++b)
     two.estimate.replicates.row(b) << 3 * (1 + 0.001 * double(b + 1)), 0.5 * (1 + 0.001 * double(b + 1));
   const RateBand band = rate_band(two.parameters, two.estimate);
   EXPECT_EQ(band.n_replicates, 199U);
@@ -81,11 +81,11 @@ TEST(FitRateBand, AfterABootstrapLiesBetweenTheQuantilesOfTheReplicates) {
 
 TEST(FitRateBand, AfterABootstrapHoldsInBothLayersAtOnce) {
   TwoRates two(0);
-  constexpr Eigen::Index kReplicates = 10000;
+  constexpr Eigen::Index kBandReplicates = 10000;
   boost::random::mt19937_64 generator(7);
   boost::random::normal_distribution<double> normal;
-  two.estimate.replicates.resize(kReplicates, 2);
-  for (Eigen::Index b = 0; b < kReplicates; ++b)
+  two.estimate.replicates.resize(kBandReplicates, 2);
+  for (Eigen::Index b = 0; b < kBandReplicates; ++b)
     for (Eigen::Index i = 0; i < 2; ++i)
       two.estimate.replicates(b, i) = (i == 0 ? 3 : 0.5) * std::exp(0.02 * normal(generator));
   EXPECT_NEAR(rate_band(two.parameters, two.estimate).stretch, kStretchOfTwo, 2 * kSampled);

@@ -82,7 +82,8 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
 }
 
 Estimate report_of(const StagedSearch& search) {
-  Estimate estimate = report(search.spec(), search.parameters(), search.objective(), search.result(), search.noise());
+  Estimate estimate =
+      report(search.spec(), search.parameters(), search.objective(), search.result(), search.noise());
   if (!search.noise_warning().empty()) estimate.warnings.push_back(search.noise_warning());
   return estimate;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/noise_covariance.hpp"
 #include "shearfront/fit/study/study_spec.hpp"
 #include "shearfront/solver/solve.hpp"
 
