@@ -190,11 +190,8 @@ class SlopedRootSearch {
       if (more.T >= t_ - tolerance_) found_(more, Scalar(0));
       return;
     }
-    Scalar lo = less.v, hi = more.v;
-    Point last = point(less);
-    const Point other = point(more);
-    Scalar v = guess(last, other);
-    if (knows_slope(other) && (!knows_slope(last) || size(other.rest) < size(last.rest))) last = other;
+    Scalar lo = less.v, hi = more.v, lo_T = less.T, hi_T = more.T;
+    Scalar v = guess(lo, lo_T, hi, hi_T);
     using std::sqrt;
     const Scalar close = sqrt(unit_roundoff<Scalar>());
     for (int n = 0; n < 400; ++n) {
@@ -204,65 +201,27 @@ class SlopedRootSearch {
       Scalar step = step_(s, gap);
       // Newton on 1 / T where that is the straighter line: T has a pole next to a flat piece of rate h.
       if (gap < 0) step *= s.T / t_;
-      const Scalar newton = size(step), scale = size(v);
-      if (newton <= close * scale || newton == 0) return found_(s, step);
-      const auto is_inside = [&](const Scalar& x) { return x > std::min(lo, hi) && x < std::max(lo, hi); };
-      const Point now = point(s);
-      if (knows_slope(last) && knows_slope(now)) {
-        const Scalar by = cubic_step(now, last);
-        if (is_inside(Scalar(v + by))) {
-          step = by;
-          // Off by about the square of the way to the last point as well; of M the cube of the step is left.
-          const Scalar apart = size(Scalar(last.v - v)), larger = std::max(newton, size(by));
-          if (larger * apart <= close * scale * scale &&
-              larger * larger * larger <= unit_roundoff<Scalar>() * scale * scale * scale)
-            return found_(s, step);
-        }
-      }
+      const Scalar size = step < 0 ? Scalar(-step) : step, scale = v < 0 ? Scalar(-v) : v;
+      if (size <= close * scale || size == 0) return found_(s, step);
       Scalar next = v + step;
-      if (!is_inside(next)) next = split(lo, hi);
-      if (next == v || !is_inside(next)) return found_(s, Scalar(0));
-      last = now;
+      const bool inside = next > std::min(lo, hi) && next < std::max(lo, hi);
+      if (!inside) next = split(lo, hi);
+      if (next == v || !(next > std::min(lo, hi) && next < std::max(lo, hi))) return found_(s, Scalar(0));
       v = next;
     }
   }
 
  private:
-  /// A place of the search: v by (T - t) / (T + t), which is finite and nearly straight where T has a pole.
-  struct Point {
-    Scalar v, rest;
-    Scalar slope;  ///< dv by it; 0: not known
-  };
-  [[nodiscard]] static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
-  [[nodiscard]] Point point(const SlopedSample<Scalar>& s) const {
-    if (!is_finite(s.T)) return {s.v, Scalar(1), Scalar(0)};
-    const Scalar sum = s.T + t_;
-    const Scalar slope = s.h > 0 ? Scalar(step_(s, sum) * (sum / (t_ + t_))) : Scalar(0);
-    return {s.v, (s.T - t_) / sum, is_finite(slope) ? slope : Scalar(0)};
-  }
-  [[nodiscard]] static bool knows_slope(const Point& p) { return p.slope != 0; }
-  /// From a point to where `rest` is 0 on the cubic through two points.
-  [[nodiscard]] static Scalar cubic_step(const Point& from, const Point& other) {
-    const Scalar h = other.rest - from.rest, x = -from.rest / h, y = Scalar(1) - x;
-    return x * x * (Scalar(3) - x - x) * (other.v - from.v) + h * x * y * (from.slope * y - other.slope * x);
-  }
-  /// Where `rest` is 0: on the cubic through both ends, or the parabola or the line, as slopes are known; in the middle of their
-  /// logarithms where they are far apart.
-  [[nodiscard]] Scalar guess(const Point& a, const Point& b) const {
-    const Scalar &least = std::min(a.v, b.v), &most = std::max(a.v, b.v);
-    if (least > 0 && least * Scalar(64) < most) return split(a.v, b.v);
-    const Scalar h = b.rest - a.rest, x = -a.rest / h, y = Scalar(1) - x, line = b.v - a.v;
-    Scalar step = x * line;
-    if (knows_slope(a) && knows_slope(b))
-      step = cubic_step(a, b);
-    else if (knows_slope(a))
-      step += x * y * (a.slope * h - line);
-    else if (knows_slope(b))
-      step += x * y * (line - b.slope * h);
-    if (!(a.v + step > least && a.v + step < most)) step = x * line;
-    const Scalar part =
-        std::clamp(Scalar(step / line), Scalar(1) / Scalar(1024), Scalar(1023) / Scalar(1024));
-    return a.v + line * part;
+  /// Where 1 / T is 1 / t if it is linear in v.
+  Scalar guess(const Scalar& lo, const Scalar& lo_T, const Scalar& hi, const Scalar& hi_T) const {
+    Scalar part(0.5);
+    if (lo_T > 0)
+      part = is_finite(hi_T) ? Scalar((hi_T / t_) * ((t_ - lo_T) / (hi_T - lo_T)))
+                             : Scalar(Scalar(1) - lo_T / t_);
+    part = std::clamp(part, Scalar(1) / Scalar(1024), Scalar(1023) / Scalar(1024));
+    const Scalar v = lo + (hi - lo) * part;
+    return v > 0 && std::min(lo, hi) * Scalar(64) < std::max(lo, hi) && std::min(lo, hi) > 0 ? split(lo, hi)
+                                                                                             : v;
   }
   static Scalar split(const Scalar& a, const Scalar& b) {
     const Scalar &lo = std::min(a, b), &hi = std::max(a, b);
