@@ -197,4 +197,10 @@ SearchResult search_nlopt(Objective&, const VectorXd&, const SearchSpec&, std::s
                    "must be \"ceres\", \"global\" or \"pattern\" here: the explorer has no NLopt");
 }
 
+VectorXd least_in_box(const std::function<double(const VectorXd&)>&, const VectorXd&, const VectorXd&,
+                      const VectorXd&, double, double, int) {
+  throw InputError("noise.model", "",
+                   "needs its numbers given here, or \"independent\": the explorer has no NLopt");
+}
+
 }  // namespace shearfront::fit

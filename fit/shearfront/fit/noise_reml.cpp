@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/noise_reml.hpp"
 
-#include <nlopt.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
@@ -10,6 +8,8 @@
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "shearfront/fit/search/search.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -161,35 +161,15 @@ class RestrictedLikelihood {
   double freedom_ = 0;
 };
 
-double minus_2_log_likelihood(unsigned n, const double* x, double*, void* likelihood) {
-  const auto* of = static_cast<const RestrictedLikelihood*>(likelihood);
-  const double value = (*of)(Eigen::Map<const VectorXd>(x, n)).criterion;
-  return std::isfinite(value) ? value : HUGE_VAL;
-}
-
-struct DestroyNoiseSearch {
-  void operator()(nlopt_opt search) const { nlopt_destroy(search); }
-};
-
 VectorXd RestrictedLikelihood::found(const VectorXd& from) const {
-  const auto n = static_cast<unsigned>(sought_.size());
-  // BOBYQA needs two unknowns.
-  const std::unique_ptr<nlopt_opt_s, DestroyNoiseSearch> search(
-      nlopt_create(n > 1 ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, n));
-  std::vector<double> lower, upper;
-  for (const Sought& s : sought_) lower.push_back(s.lower), upper.push_back(s.upper);
-  nlopt_set_lower_bounds(search.get(), lower.data());
-  nlopt_set_upper_bounds(search.get(), upper.data());
-  nlopt_set_min_objective(search.get(), minus_2_log_likelihood,
-                          const_cast<RestrictedLikelihood*>(this));  // NOLINT: read only
-  nlopt_set_xtol_abs1(search.get(), kNoiseTolerance);
-  nlopt_set_maxeval(search.get(), kMostCovariances);
-  nlopt_set_initial_step1(search.get(), 0.3);
-  std::vector<double> x(from.begin(), from.end());
-  for (unsigned i = 0; i < n; ++i) x[i] = std::clamp(x[i], lower[i], upper[i]);
-  double least = 0;
-  nlopt_optimize(search.get(), x.data(), &least);  // wherever it ends
-  return Eigen::Map<const VectorXd>(x.data(), n);
+  VectorXd lower(from.size()), upper(from.size());
+  for (Index i = 0; i < from.size(); ++i) {
+    lower[i] = sought_[static_cast<std::size_t>(i)].lower;
+    upper[i] = sought_[static_cast<std::size_t>(i)].upper;
+  }
+  constexpr double kFirstNoiseStep = 0.3;
+  return least_in_box([this](const VectorXd& x) { return (*this)(x).criterion; }, from, lower, upper,
+                      kFirstNoiseStep, kNoiseTolerance, kMostCovariances);
 }
 
 /// The best of a lattice.

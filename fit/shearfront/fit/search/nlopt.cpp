@@ -287,4 +287,27 @@ SearchResult search_nlopt(Objective& objective, const VectorXd& start, const Sea
   return NloptSearch(objective, start, spec, *algorithm)();
 }
 
+VectorXd least_in_box(const std::function<double(const VectorXd&)>& f, const VectorXd& from,
+                      const VectorXd& lower, const VectorXd& upper, double first_step, double tolerance,
+                      int most) {
+  const auto n = static_cast<unsigned>(from.size());
+  const Optimiser optimiser(nlopt_create(n > 1 ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, n));  // BOBYQA needs two
+  const auto value = [](unsigned size, const double* x, double*, void* function) {
+    const auto& g = *static_cast<const std::function<double(const VectorXd&)>*>(function);
+    const double y = g(Eigen::Map<const VectorXd>(x, size));
+    return std::isfinite(y) ? y : HUGE_VAL;
+  };
+  nlopt_set_lower_bounds(optimiser.get(), lower.data());
+  nlopt_set_upper_bounds(optimiser.get(), upper.data());
+  nlopt_set_min_objective(optimiser.get(), value,
+                          const_cast<std::function<double(const VectorXd&)>*>(&f));  // NOLINT: read only
+  nlopt_set_xtol_abs1(optimiser.get(), tolerance);
+  nlopt_set_maxeval(optimiser.get(), most);
+  nlopt_set_initial_step1(optimiser.get(), first_step);
+  VectorXd x = from.cwiseMax(lower).cwiseMin(upper);
+  double least = 0;
+  nlopt_optimize(optimiser.get(), x.data(), &least);
+  return x;
+}
+
 }  // namespace shearfront::fit

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,13 @@ struct SearchResult {
 /// (search.algorithm) if a global algorithm lacks finite bounds or there are too few unknowns for it.
 [[nodiscard]] SearchResult search_nlopt(Objective& objective, const Eigen::VectorXd& start,
                                         const SearchSpec& spec, std::string_view name);
+
+/// Where a function of few numbers is least in a box, without derivatives, by NLopt (BOBYQA; of one number SBPLX): steps begin with
+/// first_step and end below `tolerance`, or after `most` values wherever it is then. f may be infinite.
+[[nodiscard]] Eigen::VectorXd least_in_box(const std::function<double(const Eigen::VectorXd&)>& f,
+                                           const Eigen::VectorXd& from, const Eigen::VectorXd& lower,
+                                           const Eigen::VectorXd& upper, double first_step, double tolerance,
+                                           int most);
 
 /// Compass search with the defaults of MATLAB's patternsearch, for comparison with papers that used it: from a mesh of 1 it
 /// tries +e_1 ... +e_N, -e_1 ... -e_N times the mesh, goes to the first point that is better and doubles the mesh, and
