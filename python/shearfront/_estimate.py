@@ -476,8 +476,11 @@ class Fit:
             {k: list(v) if isinstance(v, tuple) else v for k, v in row.items() if v is not None or k not in on_request}
             for row in self._engine.parameters
         ]
+        z, t = self.scene._engine.units if self.scene is not None else ("", "")
+        along = "x" if self.scene is not None and any(e.startswith("velocity.") for e in self.scene.entries) else "t"
         return {
             **self.facts,
+            **({"units": {"z": z, along: t}} if z or t else {}),
             "parameters": rows,
             "correlation": self.correlation.tolist(),
             "covariance": self.covariance.tolist(),
