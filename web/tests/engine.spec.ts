@@ -4,8 +4,11 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "@playwright/test";
 import { FLUX_NAMES } from "../src/bed/edits.ts";
-import { COARSE, makePicture } from "../src/bed/picture.ts";
+import { CELLS, fineEnough } from "../src/bed/costs.ts";
+import { COARSE, makePicture, type Picture } from "../src/bed/picture.ts";
+import { mixingAt } from "../src/bed/why.ts";
 import { Refusal } from "../src/engine/engine.ts";
+import { stretches } from "../src/view/fit_charts.ts";
 import { DATASETS, hasProgram, newEngine, program, sceneFiles } from "./places.ts";
 
 interface EventsJson {
@@ -96,6 +99,36 @@ for (const file of FITS) {
     expect(steps.length).toBeGreaterThan(2);
   });
 }
+
+test("the search is drawn in stretches that only go down", () => {
+  const course = [[1, 9], [2, 5], [3, 5], [4, 7], [5, 6], [6, 8]] as const;
+  expect(stretches(course)).toEqual([[[1, 9], [2, 5], [3, 5]], [[4, 7], [5, 6]], [[6, 8]]]);
+});
+
+test("what an accuracy costs a grid: of a power law the law itself, beyond the grids too", () => {
+  const trail = CELLS.map((n): [number, number] => [1e-5 * n ** 2, 3 / n]);
+  for (const cells of [30, 170, 800, 5000]) {
+    const found = fineEnough(trail, 3 / cells);
+    expect(found.cells / cells).toBeCloseTo(1, 10);
+    expect(found.ms / (1e-5 * cells ** 2)).toBeCloseTo(1, 10);
+  }
+});
+
+test("the largest mixing lies where a parabola has its top, between the times computed", () => {
+  const t = Array.from({ length: 11 }, (_, i) => i / 10);
+  const psi = t.map((x) => 0.9 - (x - 0.437) ** 2);
+  const found = mixingAt({ mixing: { t, psi } } as unknown as Picture, 0.25)!;
+  expect(found.tMost).toBeCloseTo(0.437, 12);
+  expect(found.psi).toBeCloseTo((psi[2]! + psi[3]!) / 2, 12);
+});
+
+test("fronts are shocks by the way the flux bends", () => {
+  const engine = newEngine();
+  const of = (file: string): Picture => makePicture(engine, readFileSync(join(DATASETS, file), "utf8"), COARSE);
+  expect(of("may-2010-piecewise/scene.toml").bend).toBe(1);
+  expect(of("traffic-red-light/scene.toml").bend).toBe(-1);
+  expect(of("segregation-gamma-0.9/scene.toml").bend).toBe(0);
+});
 
 test("refusals are those of the program, word for word", () => {
   const engine = newEngine();

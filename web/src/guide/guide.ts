@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The card of a guided scene, and the way from one to the next.
 import { GUIDED, type GuidedScene } from "./scenes.ts";
+import { prose } from "../view/prose.ts";
 import { html } from "../view/svg.ts";
 
 export interface Guide {
@@ -34,10 +35,10 @@ export function makeGuide(open: (scene: GuidedScene) => void): Guide {
       if (!scene) return;
       index = GUIDED.indexOf(scene);
       title.textContent = `${index + 1}. ${scene.title}`;
-      text.textContent = scene.sentences.join(" ");
-      question.textContent = scene.question;
+      text.replaceChildren(...prose(scene.sentences.join(" ")));
+      question.replaceChildren(...prose(scene.question));
       answer.open = false;
-      answer.querySelector("p")!.textContent = scene.answer;
+      answer.querySelector("p")!.replaceChildren(...prose(scene.answer));
     },
   };
 }
