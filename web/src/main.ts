@@ -185,9 +185,13 @@ async function start(): Promise<void> {
     if (scene.timeShown) app.setTimeShown(scene.timeShown);
     app.setTime(scene.t ?? 0.3 * app.picture.tMax);
     guide.show(scene);
+    told = app.toml;
+    guide.setChanged(false);
     tabs.show(scene.tab);
   };
   const guide = makeGuide(openGuided);
+  let told = app.toml;
+  app.listen({ sceneChanged: () => guide.setChanged(app.toml !== told) });
   const take = listenToDrops(app, fit, () => tabs, () => guide.show(undefined));
   const complaint = html("p", { id: "complaint", role: "alert", hidden: true });
   const left = html("div", { class: "planes" }, app.plane.figure, app.mixing.figure);

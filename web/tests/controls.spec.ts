@@ -126,6 +126,10 @@ test("every flux and all ends", async ({ explorer }) => {
     expect(complaint, name).toBe("");
     expect(toml).toContain(`model = "${name}"`);
   }
+  await explorer.selectOption("#flux-model", "table");
+  await explorer.fill("#flux-point-2", "-0.3");
+  await explorer.press("#flux-point-2", "Enter");
+  expect((await shown(explorer)).toml).toMatch(/values = \[ 0(\.0)?, -0\.2, -0\.3, -0\.12, 0(\.0)? \]/);
   await explorer.selectOption("#flux-model", "cubic");
   await explorer.fill("#flux-gamma", "0.3");
   await explorer.press("#flux-gamma", "Enter");

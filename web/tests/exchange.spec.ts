@@ -19,6 +19,12 @@ test("guided scenes: each opens without a complaint, with three sentences and a 
     await explorer.click("#guide summary");
   }
   await explorer.click("#guide-next");
+  const told = (await shown(explorer)).toml;
+  await expect(explorer.locator("#guide-again")).toBeHidden();
+  await drag(explorer, "plane", "interface-0", 0, -20);
+  await explorer.click("#guide-again");
+  expect((await shown(explorer)).toml).toBe(told);
+  await expect(explorer.locator("#guide-again")).toBeHidden();
   await expect(explorer.locator("#guide h2")).toContainText("1.");
   await explorer.click("#guide-before");
   await expect(explorer.locator("#guide h2")).toContainText("8.");
@@ -73,7 +79,10 @@ test("downloads: pictures, numbers, and a scene that the program runs to the sam
   const path = (name: string): string => info.outputPath(name);
   await drag(explorer, "plane", "interface-0", 0, -21);
   expect(readFileSync(await save(explorer, "plane.png", path)).subarray(1, 4).toString()).toBe("PNG");
-  expect(readFileSync(await save(explorer, "plane.svg", path), "utf8")).toContain("<image");
+  const picture = readFileSync(await save(explorer, "plane.svg", path), "utf8");
+  expect(picture).toContain("<image");
+  expect(picture).toContain("share of small grains: 0</text>");
+  expect(picture).toContain("May et al. 2010");
   expect(readFileSync(await save(explorer, "solution.csv", path), "utf8")).toMatch(/^t,z,phi,M\n0,0,0,0\n/);
   const scene = await save(explorer, "scene.toml", path);
   if (!hasProgram) return;

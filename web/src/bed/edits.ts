@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What can be done to a bed: each edit gives a new scene, valid if the old one was.
-import { bottomOf, fluxOf, hasSteps, number, numbers, rateModel, type Scene, scaleOf, type Table, table, topOf, withTable, without } from "./scene.ts";
+import { bottomOf, fluxOf, hasSteps, number, numbers, rateModel, type Scene, scaleOf, type Table, table, topOf, type Value, withTable, without } from "./scene.ts";
 
 const clamp = (x: number, low: number, high: number): number => Math.min(high, Math.max(low, x));
 
@@ -137,7 +137,7 @@ export function setFlux(scene: Scene, model: string): Scene {
   return endsOf(scene) === "open" ? setEnds(changed, "open") : changed;
 }
 
-export function setFluxEntry(scene: Scene, key: string, value: number): Scene {
+export function setFluxEntry(scene: Scene, key: string, value: Value): Scene {
   return { ...scene, flux: { ...fluxOf(scene), [key]: value } };
 }
 

@@ -4,6 +4,7 @@ import formulas from "virtual:formulas";
 import type { App } from "../app.ts";
 import * as edit from "../bed/edits.ts";
 import { fluxOf, hasManyFluxes, hasSteps, number, numbers, rateModel, scaleOf, type Scene, table, type Table } from "../bed/scene.ts";
+import { brief } from "../view/numbers.ts";
 import { html } from "../view/svg.ts";
 
 function field(label: string, value: number, apply: (x: number) => void, id: string): HTMLElement {
@@ -75,10 +76,13 @@ function fluxBox(app: App): HTMLElement {
   const model = String(flux["model"] ?? "quadratic");
   const formula = html("p", { class: "formula" });
   formula.innerHTML = formulas[`flux ${model}`] ?? "";
+  const at = numbers(flux, "phi");
+  const points = numbers(flux, "values").map((value, i, all) =>
+    field(`f(${brief(at[i] ?? NaN)})`, value, (x) => app.change(edit.setFluxEntry(app.scene, "values", all.map((v, k) => (k === i ? x : v)))), `flux-point-${i}`));
   const entries = Object.entries(flux).filter(([, value]) => typeof value === "number");
   return box("Flux",
     choice("f(φ)", edit.FLUX_NAMES, model, (to) => app.change(edit.setFlux(app.scene, to)), "flux-model"), formula,
-    ...entries.map(([key, value]) => field(key, Number(value), (x) => app.change(edit.setFluxEntry(app.scene, key, x)), `flux-${key}`)),
+    ...entries.map(([key, value]) => field(key, Number(value), (x) => app.change(edit.setFluxEntry(app.scene, key, x)), `flux-${key}`)), ...points,
     ...(edit.needsOneRate(model) ? [html("p", { class: "note" }, "Its bed has one rate everywhere: the flux does not vanish at the ends of its states, so no interface passes it on.")] : []),
     ...(hasManyFluxes(scene) ? [html("p", { class: "note" }, "Layers of this bed have fluxes of their own; choosing one replaces them all.")] : []));
 }

@@ -2,6 +2,7 @@
 // The (t, z) plane: phi in colour, fronts, event times, the time shown beside it.
 import type { NamedTime } from "../bed/event_list.ts";
 import type { Picture, Raster } from "../bed/picture.ts";
+import { shocksOf } from "../bed/shocks.ts";
 import type { ObservedRow } from "../engine/engine.ts";
 import { css, paint } from "./colours.ts";
 import { brief } from "./numbers.ts";
@@ -30,14 +31,9 @@ function drawRaster(context: CanvasRenderingContext2D, panel: Panel, raster: Ras
 
 /** Fronts as lines: thin for the many of a fan, thick for shocks. White on black, to be seen on any colour. */
 function drawFronts(context: CanvasRenderingContext2D, panel: Panel, picture: Picture): void {
-  const states = picture.facts.highest - picture.facts.lowest;
-  // Near the extremum of the flux fans of curved fronts have wider steps.
-  const widestStep = (picture.facts.isLayered ? 1.5 : 3.5) * picture.frontStep;
-  // Where the flux bends one way only, shocks are those that waves run into from both sides.
-  const isShock = (f: Picture["fronts"][number]): boolean =>
-    picture.bend !== 0 ? picture.bend * (f.below - f.above) > 0.01 * states : Math.abs(f.above - f.below) > widestStep * states;
-  const shocks = picture.fronts.filter(isShock);
-  const fans = picture.fronts.filter((f) => !isShock(f));
+  const shocks = shocksOf(picture);
+  const isShock = new Set(shocks);
+  const fans = picture.fronts.filter((f) => !isShock.has(f));
   const draw = (fronts: Picture["fronts"], colour: string, width: number): void => {
     context.strokeStyle = colour;
     context.lineWidth = width;
