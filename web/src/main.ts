@@ -74,7 +74,7 @@ function scaleBar(app: App): HTMLElement {
   app.listen({ sceneChanged: show });
   show();
   return html("div", { id: "scale" }, meaning, " ", low, " ", html("span", { class: "bar", "aria-hidden": "true" }), " ", high,
-    html("span", { class: "hint" }, "Thin lines are waves of a fan, thick ones shocks, dashed ones interfaces; in the profile, the start. Drag the white knobs, move over the plane to choose t, press a time such as ", ...prose("t_1"), " to read why it is when it is."));
+    html("span", { class: "hint" }, "Thin lines: waves of a fan; thick: shocks; dashed: interfaces, and in the profile the start. Drag the white knobs, move over the plane to choose t, press a time such as ", ...prose("t_1"), " to read why."));
 }
 
 function listenToKeys(app: App): void {

@@ -141,6 +141,22 @@ test("shocks are there from the walls to t*, and no wave of a fan is one", () =>
   expect([bend("traffic-red-light/scene.toml"), bend("segregation-gamma-0.9/scene.toml")]).toEqual([-1, 0]);
 });
 
+test("answers of the guided scenes hold", () => {
+  const engine = newEngine();
+  const open = (file: string): void => void engine.setScene(readFileSync(join(DATASETS, file), "utf8"));
+  // Five layers: some 600 cells for front tracking with a step of 0.05, at the time that the scene opens with.
+  open("paper-example-4/scene.toml");
+  const error = (method: string): number => engine.pieces(method, 0.69, true).l1;
+  const tracked = error("front-tracking resolution=0.05");
+  expect(error("engquist-osher cells=500")).toBeGreaterThan(tracked);
+  expect(error("engquist-osher cells=700")).toBeLessThan(tracked);
+  // Best mixed one and a half times as late as t_1 = 0.5.
+  open("shear-cell-ideal/scene-inverse.toml");
+  const t = Array.from({ length: 41 }, (_, i) => 0.5 + 0.0125 * i);
+  const psi = Array.from(engine.mixing("front-tracking resolution=0.005 reconstruct=linear", t));
+  expect(t[psi.indexOf(Math.max(...psi))]! / 0.5).toBeCloseTo(1.5, 1);
+});
+
 test("refusals are those of the program, word for word", () => {
   const engine = newEngine();
   const wrong = '[shear_rate]\nmodel = "exponentail"\n[initial]\nbreaks = [0.5, 0.4]\nvalues = [0, 1]\n';

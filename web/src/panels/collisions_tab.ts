@@ -46,7 +46,7 @@ export class CollisionsTab {
     const rule = html("span", { class: "formula" });
     rule.innerHTML = formulas["hugoniot"]!;
     this.element = html("div", {},
-      html("p", { class: "lead" }, "Front tracking knows the solution between collisions: fronts run straight. Step from one to the next, and see the Riemann problem that each is. A front is a chord of the flux; its slope is its speed, ", rule, "."),
+      html("p", { class: "lead" }, "Front tracking knows the solution between collisions: fronts run straight. Step from one to the next, and see the Riemann problem that each is. Steps of φ stand for a fan: the finer, the more fronts, and the nearer to the event times. A front is a chord of the flux; its slope is its speed, ", rule, "."),
       html("div", { class: "row steps" }, step(-1, "collision-before", "◀", "collision before"), this.range, step(1, "collision-next", "▶", "next collision"), this.count),
       this.fan.element, html("div", { class: "cards" }, html("section", { class: "card wide" }, this.chart.element), html("section", { class: "card" }, this.words, this.table,
         html("p", { class: "note" }, html("span", { class: "key incoming" }, "- - -"), " chord of a front that comes in  ", html("span", { class: "key outgoing" }, "——"), " that goes out"), this.sides)));

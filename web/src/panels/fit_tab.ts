@@ -268,6 +268,7 @@ export class FitTab {
   private showResult(): void {
     const { estimate } = this;
     this.result.hidden = !estimate;
+    if (!estimate) this.result.replaceChildren();
     this.ellipseBox.hidden = !estimate || estimate.parameters.length < 2;
     this.sure.textContent = "";
     this.warnings.replaceChildren(...(estimate?.warnings ?? []).map((w) => html("li", {}, w)));
