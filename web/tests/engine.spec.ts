@@ -4,9 +4,11 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "@playwright/test";
 import { FLUX_NAMES } from "../src/bed/edits.ts";
+import { unknownOf } from "../src/bed/entries.ts";
 import { CELLS, fineEnough } from "../src/bed/costs.ts";
 import { COARSE, FINE, makePicture, type Picture } from "../src/bed/picture.ts";
 import { shocksOf } from "../src/bed/shocks.ts";
+import { readScene, type Scene } from "../src/bed/scene.ts";
 import { mixingAt } from "../src/bed/why.ts";
 import { Refusal } from "../src/engine/engine.ts";
 import { stretches } from "../src/view/fit_charts.ts";
@@ -155,6 +157,17 @@ test("answers of the guided scenes hold", () => {
   const t = Array.from({ length: 41 }, (_, i) => 0.5 + 0.0125 * i);
   const psi = Array.from(engine.mixing("front-tracking resolution=0.005 reconstruct=linear", t));
   expect(t[psi.indexOf(Math.max(...psi))]! / 0.5).toBeCloseTo(1.5, 1);
+});
+
+test("a fit keeps what goes with the bed", () => {
+  const scene = (rate: string): Scene => readScene(`[shear_rate]\n${rate}\n[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n`);
+  const three = scene("breaks = [0.3, 0.6]\nvalues = [3, 2, 1]");
+  const two = scene("breaks = [0.3]\nvalues = [3, 2]");
+  const whole = { parameters: ["shear_rate.values", "flux.gamma"], lower: [0, 0, 0, 0], upper: [9, 9, 9, 1], shape: "decreasing" };
+  expect(unknownOf(three, whole)).toBe(whole);
+  expect(unknownOf(two, whole)).toEqual({ parameters: whole.parameters });
+  expect(unknownOf(two, { parameters: ["shear_rate.values[2]", "shear_rate.values[1]"] })).toEqual({ parameters: ["shear_rate.values[1]"] });
+  expect(unknownOf(scene('model = "exponential"\namplitude = 3\ndecay = 0.2'), { parameters: ["shear_rate.values", "initial.breaks"] })).toEqual({ parameters: ["initial.breaks"] });
 });
 
 test("refusals are those of the program, word for word", () => {

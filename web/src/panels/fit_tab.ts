@@ -3,7 +3,7 @@
 import datasets from "virtual:datasets";
 import type { App } from "../app.ts";
 import { textOf } from "../bed/files.ts";
-import { expanded, fieldsOf, withValues } from "../bed/entries.ts";
+import { expanded, fieldsOf, unknownOf, withValues } from "../bed/entries.ts";
 import { readScene, type Scene, type Table, writeScene } from "../bed/scene.ts";
 import type { Estimate } from "../engine/engine.ts";
 import type { FitNews, FitTask } from "../engine/fit_messages.ts";
@@ -153,16 +153,10 @@ export class FitTab {
   }
   /** The fit file, as far as it goes with the bed: layers may have come and gone since. */
   private get fitting(): Table {
-    const { scene } = this.app;
-    const unknown = this.fit["unknown"] as Table | undefined;
-    if (!unknown) return this.fit;
-    const known = fieldsOf(scene);
-    const all = unknown["parameters"] as string[];
-    const parameters = all.filter((name) => known.includes(name.replace(/\[\d+\]$/, "")));
-    const n = expanded(scene, parameters).length;
-    const isWhole = parameters.length === all.length && Object.entries(unknown).every(([key, value]) => key === "parameters" || !Array.isArray(value) || value.length === n);
-    if (isWhole) return this.fit;
-    return { ...this.fit, unknown: parameters.length > 0 ? { parameters } : this.usualUnknowns };
+    if (!this.fit["unknown"]) return this.fit;
+    const unknown = unknownOf(this.app.scene, this.fit["unknown"] as Table);
+    const isEmpty = Array.isArray(unknown["parameters"]) && unknown["parameters"].length === 0 && unknown !== this.fit["unknown"];
+    return { ...this.fit, unknown: isEmpty ? this.usualUnknowns : unknown };
   }
   private get usualUnknowns(): Table {
     const names = ["shear_rate.values", "shear_rate.amplitude", "shear_rate.decay"];
