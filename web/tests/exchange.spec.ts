@@ -152,7 +152,7 @@ test("a fit in the worker: estimates, intervals, ellipse, and undo back to the s
   expect(Number(await explorer.locator("#panel-fit > div").getAttribute("data-rms"))).toBeLessThan(rms);
   const third = explorer.locator("#estimates tbody tr", { hasText: "rate of layer 3" });
   await expect(third).toContainText("shear_rate.values[2]");
-  await expect(third).toContainText(/1\.627 to 1\.631 ± 0\.1\d %/);
+  await expect(third).toContainText(/1\.627 to 1\.631 \(± 0\.1\d %\)/);
   await expect(explorer.locator("#how-sure")).toContainText("Known best: rate of layer 5");
   await expect(explorer.locator(".curve.ellipse path")).toHaveAttribute("d", /M/);
   await explorer.selectOption("#ellipse-b", { index: 3 });

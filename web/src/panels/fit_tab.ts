@@ -33,7 +33,7 @@ export const DATASETS: readonly DataSet[] = [
 /** Half the interval, of the estimate. */
 function percent(p: Estimate["parameters"][number]): string {
   const half = (100 * (p.high - p.low)) / 2 / Math.abs(p.estimate);
-  return Number.isFinite(half) ? ` ± ${Number(half.toPrecision(2))} %` : "";
+  return Number.isFinite(half) ? `± ${Number(half.toPrecision(2))} %` : "";
 }
 
 export class FitTab {
@@ -268,16 +268,16 @@ export class FitTab {
     this.warnings.replaceChildren(...(estimate?.warnings ?? []).map((w) => html("li", {}, w)));
     if (!estimate) return;
     const interval = (p: Estimate["parameters"][number]): string =>
-      Number.isFinite(p.low) ? `${brief(p.low)} to ${brief(p.high)}${percent(p)}` : Number.isFinite(p.profileLow) || Number.isFinite(p.profileHigh) ? `${brief(p.profileLow)} to ${brief(p.profileHigh)} (profile)` : p.atBound ? "at a bound" : "none";
+      Number.isFinite(p.low) ? `${brief(p.low)} to ${brief(p.high)}${percent(p) && ` (${percent(p)})`}` : Number.isFinite(p.profileLow) || Number.isFinite(p.profileHigh) ? `${brief(p.profileLow)} to ${brief(p.profileHigh)} (profile)` : p.atBound ? "at a bound" : "none";
     this.result.replaceChildren(
       html("thead", {}, html("tr", {}, ...["unknown", "start", "estimate", "std error", "95 % interval"].map((h) => html("th", { scope: "col" }, h)))),
       html("tbody", {}, ...estimate.parameters.map((p) => html("tr", {}, html("th", { scope: "row" }, parameterInWords(this.app.scene, p.name), html("span", { class: "code" }, ` ${p.name}`)),
         ...[brief(p.start), brief(p.estimate), Number.isFinite(p.error) ? brief(p.error) : "none", interval(p)].map((x) => html("td", { class: "number" }, x))))));
     const names = estimate.parameters.map((p) => parameterInWords(this.app.scene, p.name));
-    const bounded = estimate.parameters.filter((p) => Number.isFinite(p.error) && p.estimate !== 0).sort((a, b) => a.error / Math.abs(a.estimate) - b.error / Math.abs(b.estimate));
+    const bounded = estimate.parameters.filter((p) => percent(p) !== "" && p.estimate !== 0).sort((a, b) => a.error / Math.abs(a.estimate) - b.error / Math.abs(b.estimate));
     const [best, worst] = [bounded[0], bounded.at(-1)];
     if (best && worst && best !== worst)
-      this.sure.textContent = `Known best: ${parameterInWords(this.app.scene, best.name)},${percent(best)}; worst: ${parameterInWords(this.app.scene, worst.name)},${percent(worst)}` + (estimate.warnings.length > 0 ? ". But read the warnings." : ".");
+      this.sure.textContent = `Known best: ${parameterInWords(this.app.scene, best.name)}, ${percent(best)}; worst: ${parameterInWords(this.app.scene, worst.name)}, ${percent(worst)}` + (estimate.warnings.length > 0 ? ". But read the warnings." : ".");
     this.pair.a.replaceChildren(...names.map((n, i) => html("option", { value: i }, n)));
     this.pair.b.replaceChildren(...names.map((n, i) => html("option", { value: i, ...(i === 1 ? { selected: true } : {}) }, n)));
     this.showEllipse();
