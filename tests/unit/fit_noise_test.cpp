@@ -16,6 +16,7 @@
 #include "shearfront/fit/misfit_rows.hpp"
 #include "shearfront/fit/noise_reml.hpp"
 #include "support/fit_scenes.hpp"
+#include "support/identification.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -354,6 +355,35 @@ TEST(FitNoise, WhatCannotBeWhitenedIsRefused) {
   tau.noise = noise_spec(NoiseModel::discrepancy, 0.2, 0.3);
   tau.noise.tau = 0.03;
   EXPECT_NE(refusal_of(tau).find("needs the sigma of the data beside noise.tau"), std::string::npos);
+}
+
+// Example 4 in 20 bins at 20 times: whitened residuals have valleys that least squares do not, and a fit that begins where
+// those end stays in a wrong one: three of five rates were covered in 80 to 82 %. 150 sets, three standard deviations.
+TEST(SlowFitNoise, ValleysOfCorrelatedNoiseAreSearched) {
+  Identification problem = example_4();
+  problem.heights.clear();
+  for (int i = 0; i < 20; ++i) problem.heights.push_back(0.025 + 0.05 * i);
+  const Observations exact = exact_data(problem, Quantity::bin);
+  const auto& truth = std::get<Piecewise<double>>(problem.truth.shear_rate).values;
+  constexpr int kTrials = 150;
+  std::vector<int> covered(truth.size(), 0);
+  Engine engine(7);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Observations data = exact;
+    const VectorXd noise = autoregressive(20, 20, 0.9, 0.9, engine);
+    for (std::size_t k = 0; k < data.rows.size(); ++k)
+      data.rows[k].value += 0.02 * noise[static_cast<Index>(k)];
+    FitSpec spec = support::fit_of(problem, std::move(data));
+    spec.noise = noise_spec(NoiseModel::exponential);
+    const Estimate estimate = fit(spec);
+    ASSERT_TRUE(estimate.usable()) << trial;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const auto& interval = estimate.parameters[i].ci95;
+      if (interval && interval->low <= truth[i] && truth[i] <= interval->high) ++covered[i];
+    }
+  }
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_GT(covered[i], kTrials * (0.95 - 3 * std::sqrt(0.95 * 0.05 / kTrials))) << i;
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/fit/staged_search.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -46,6 +49,8 @@ constexpr double kScaleTolerance = 0.05;
 
 /// Refits with the correlation of the noise estimated anew; a few do, for most are nearly linear.
 constexpr int kMostNoiseRounds = 20;
+/// Further searches by the misfit of correlated noise.
+constexpr int kNoiseStarts = 20;
 /// It stands still when no length changes by more than this part.
 constexpr double kNoiseStands = 1e-3;
 
@@ -145,8 +150,38 @@ NoiseData StagedSearch::noise_data() const {
   return data;
 }
 
+void StagedSearch::search_other_valleys(const NoiseData& data) {
+  search_from_here(*objective_, 0);
+  if (!data.places || has_diffusion() || !uses_derivatives(spec_.search.algorithm)) return;
+  const VectorXd from = u_;
+  SearchResult best = result_;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> jacobian(data.jacobian);
+  const std::vector<bool> held = coordinates_.at_bound(u_);
+  const double sigma = data.residuals.norm() / std::sqrt(static_cast<double>(data.residuals.size()));
+  boost::random::mt19937_64 engine(spec_.search.seed);
+  boost::random::normal_distribution<double> normal;
+  for (int k = 0; k < kNoiseStarts && result_.status == Status::ok && !control_.must_stop(); ++k) {
+    VectorXd noise(data.residuals.size());
+    for (double& x : noise) x = sigma * normal(engine);
+    const VectorXd by = jacobian.solve(VectorXd(rows_.noise->coloured(noise)));
+    u_ = from;
+    for (Eigen::Index j = 0, i = 0; j < u_.size(); ++j)
+      if (!held[static_cast<std::size_t>(j)]) u_[j] += by[i++];
+    u_ = u_.cwiseMax(coordinates_.lower()).cwiseMin(coordinates_.upper());
+    search_from_here(*objective_, 0);
+    if (result_.status == Status::ok && result_.misfit < best.misfit) best = result_;
+  }
+  if (result_.status == Status::interrupted) return;
+  result_ = best;
+  u_ = best.u;
+}
+
 void StagedSearch::settle_noise() {
-  if (!places_ || given_noise(spec_.noise, *places_)) return;
+  if (!places_) return;
+  if (given_noise(spec_.noise, *places_)) {
+    if (result_.status == Status::ok) search_other_valleys(noise_data());
+    return;
+  }
   noise_warning_.clear();
   for (int round = 0; round < kMostNoiseRounds && result_.status == Status::ok && !control_.must_stop();
        ++round) {
@@ -161,11 +196,12 @@ void StagedSearch::settle_noise() {
                                      "correlated: error bars take it as independent";
       return;
     }
+    const bool is_first = !correlation_;
     const bool stands =
         correlation_ && (now->place - correlation_->place).cwiseAbs().maxCoeff() <= kNoiseStands;
     whiten(std::move(*now));
     objective_ = make_objective(rows_, loss_);
-    search_from_here(*objective_, 0);
+    is_first ? search_other_valleys(data) : search_from_here(*objective_, 0);
     if (stands) return;
   }
   if (result_.status == Status::ok)

@@ -88,6 +88,10 @@ class StagedSearch {
 
   /// Estimates the correlation of the noise from what the fit leaves and refits, until both stand still.
   void settle_noise();
+  /// Whitened residuals change at once where a shock enters an observation: there are many valleys, and that of independent noise
+  /// is often a wrong one. Searches from where least squares would have ended with other noise of this covariance as well, and
+  /// keeps the best.
+  void search_other_valleys(const NoiseData& data);
   [[nodiscard]] NoiseData noise_data() const;
   void whiten(NoiseNumbers numbers);
 
