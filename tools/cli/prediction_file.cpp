@@ -11,8 +11,10 @@
 
 #include "bed_course.hpp"
 #include "cli/command.hpp"
+#include "cli/fit_text.hpp"
 #include "cli/progress.hpp"
 #include "shearfront/io/detail/csv.hpp"
+#include "shearfront/io/detail/table_lines.hpp"
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solution/bed_height.hpp"
 
@@ -23,8 +25,8 @@ namespace {
 template <class Work>
 auto with_drawn_scenes(const fit::DrawnScenes& draws, Work&& work) {
   ProgressLine line;
-  return work([&](double done, std::uint64_t) {
-    line.show_part(static_cast<std::size_t>(done), draws.scenes.size());
+  return work([&](std::size_t done, double) {
+    line.show_part(done, draws.scenes.size());
     return true;
   });
 }
@@ -68,7 +70,7 @@ class PredictionRows {
 /// These and what follows return how many of the drawn scenes had no solution.
 std::size_t add_samples(PredictionRows& rows, const PredictionPlan& plan, const Scene<double>& estimated,
                         const fit::DrawnScenes& draws, const Method& method) {
-  const fit::PredictedSamples samples = with_drawn_scenes(draws, [&](const Progress& progress) {
+  const fit::PredictedSamples samples = with_drawn_scenes(draws, [&](const fit::Progress& progress) {
     return fit::predict_samples(estimated, draws, method, plan.times, plan.heights, progress);
   });
   const auto add = [&](const char* name, const std::vector<fit::PredictedNumber>& numbers,
@@ -92,7 +94,7 @@ std::size_t add_heights_of_bed(PredictionRows& rows, const PredictionPlan& plan,
   const auto heights = [&](const Scene<double>& scene) {
     return bed_numbers(SolvedQuantity::bed_height, scene, method, plan.times);
   };
-  const fit::PredictedNumbers predicted = with_drawn_scenes(draws, [&](const Progress& progress) {
+  const fit::PredictedNumbers predicted = with_drawn_scenes(draws, [&](const fit::Progress& progress) {
     return fit::predict_numbers(estimated, draws, heights, method.guarantees().exact, progress);
   });
   for (std::size_t i = 0; i < predicted.numbers.size(); ++i)
@@ -109,7 +111,7 @@ std::pair<std::optional<Method>, std::string> method_of_events(const Scene<doubl
     const Method other(name);
     const std::string refusal = other.refusal(scene);
     if (refusal.empty()) return {other, ""};
-    if (why.empty()) why = refusal;
+    if (why.empty()) why = refusal.substr(0, refusal.find("; use "));
   }
   return {std::nullopt, why};
 }
@@ -123,7 +125,7 @@ std::size_t add_events(PredictionRows& rows, const Scene<double>& estimated, con
   }
   std::optional<fit::PredictedEvents> events;
   try {
-    events = with_drawn_scenes(draws, [&](const Progress& progress) {
+    events = with_drawn_scenes(draws, [&](const fit::Progress& progress) {
       return fit::predict_events(estimated, draws, *timed, progress);
     });
   } catch (const InputError& error) {

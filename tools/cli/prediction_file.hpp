@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cli/fitted.hpp"
+#include "shearfront/io/results.hpp"
 
 /// What follows from an estimate, with 95 % bands, as files.
 namespace shearfront::tools {

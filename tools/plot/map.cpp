@@ -113,7 +113,7 @@ std::string label_rows(const MapGrid& grid, const std::vector<double>& states) {
 }
 
 /// Whether phi of the grid jumps with a front all along it, within so many of its heights, by half as much at least: steps by
-/// which a tracker stands for what varies smoothly do not, nor does one that comes near a shock.
+/// which a tracker stands for what varies smoothly do not, nor does one that comes near a shock of several times its jump.
 bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t reach) {
   const auto nearest = [](const std::vector<double>& xs, double x) {
     const double part = (x - xs.front()) / (xs.back() - xs.front());
@@ -129,14 +129,14 @@ bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t
                          (grid.times[1] - grid.times[0]) / (grid.heights[1] - grid.heights[0]);
   if (crossed > 0) reach += static_cast<std::size_t>(std::min(std::ceil(crossed), static_cast<double>(last)));
   const double jump = front.phi_above - front.phi_below;
-  const auto is_seen_at = [&](double part) {
+  const auto is_seen_at = [&](double part, double most) {
     const std::size_t i = nearest(grid.times, std::lerp(front.t_begin, t_end, part)),
                       j = nearest(grid.heights, std::lerp(front.z_begin, z_end, part));
     const double seen =
         grid.phi[grid.at(i, std::min(j + reach, last))] - grid.phi[grid.at(i, j - std::min(j, reach))];
-    return seen * jump > 0.5 * jump * jump;
+    return seen * jump > 0.5 * jump * jump && seen * jump < most * jump * jump;
   };
-  return is_seen_at(0.1) && is_seen_at(0.5) && is_seen_at(0.9);
+  return is_seen_at(0.5, 4) && (is_seen_at(0.1, HUGE_VAL) || is_seen_at(0.9, HUGE_VAL));
 }
 
 /// Shocks, by the first solver that has fronts; none where it does not solve the bed.

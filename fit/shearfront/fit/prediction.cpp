@@ -272,7 +272,7 @@ PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScen
   for (const Scene<double>& scene : draws.scenes) {
     drawn.push_back(numbers(scene));
     if (drawn.back().empty()) ++result.n_failed;
-    if (progress && !progress(static_cast<double>(drawn.size()), 0)) break;
+    if (progress && !progress(drawn.size(), 0)) break;
   }
   result.n_by_draws = set_drawn_bands(drawn, result.numbers);
   return result;

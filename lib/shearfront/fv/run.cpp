@@ -156,13 +156,19 @@ class GridRun final : public Run {
     constexpr double kLooksPerCrossing = 64;
     const double per_look = std::max(1.0, std::floor(n_cells_ / kLooksPerCrossing));
     const double most = static_cast<double>(n_updates_) + kMostUpdatesForRestTime;
+    std::optional<March> before;  // the last look
     while (!is_near_steady()) {
       const bool is_stopped = n_steps_ > steps_to_rest_;  // by rounding
       if (is_stopped || static_cast<double>(n_updates_) + per_look * n_cells_ > most) return Status::ok;
       if (progress_ && !progress_(begin_ + dt_ * n_steps_, n_updates_)) return Status::interrupted;
+      before = march_;
       for (double i = 0; i < per_look; ++i) march_.step(dt_);
       n_steps_ += per_look;
       n_updates_ += static_cast<std::uint64_t>(per_look * n_cells_);
+    }
+    if (before) {  // to the step
+      march_ = std::move(*before);
+      for (n_steps_ -= per_look; !is_near_steady(); ++n_steps_) march_.step(dt_);
     }
     rest_time_ = begin_ + dt_ * n_steps_;
     return Status::ok;

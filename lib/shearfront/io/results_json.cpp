@@ -33,18 +33,26 @@ Json document(std::string_view scene, std::string_view method, const SceneUnits&
   return all;
 }
 
+/// Pairs of numbers, too.
+std::string in_one_line(const Json& row) {
+  if (row.empty() || !row.front().is_array()) return json_text(row);
+  std::string text;
+  for (const Json& entry : row) text += (text.empty() ? "[" : ", ") + json_text(entry);
+  return text + "]";
+}
+
 /// One array per time, of what entry(k) says of the k-th of n numbers; of large results never more than a row in memory.
 template <class EntryOf>
 void write_matrix(OutputFile& file, std::string_view name, std::size_t n, std::size_t n_times,
-                  const EntryOf& entry, const char* end = ",\n") {
+                  const EntryOf& entry, const std::string& indent, const char* end) {
   const std::size_t n_depths = n_times == 0 ? 0 : n / n_times;
-  file.write("  " + json_text(name) + ": [");
+  file.write(indent + json_text(name) + ": [");
   for (std::size_t i = 0; i < n_times; ++i) {
     Json row = Json::array();
     for (std::size_t j = 0; j < n_depths; ++j) row.push_back(entry(i * n_depths + j));
-    file.write((i == 0 ? "\n    " : ",\n    ") + json_text(row));
+    file.write((i == 0 ? "\n  " : ",\n  ") + indent + in_one_line(row));
   }
-  file.write(std::string("\n  ]") + end);
+  file.write("\n" + indent + "]" + end);
 }
 
 Json ends_json(const ResultBand& band) {
@@ -56,9 +64,12 @@ Json error_json(const ResultBand& band) { return detail::json_or_null(band.std_e
 void write_bands(OutputFile& file, std::string_view name, const SampleBands& bands, std::size_t n_times,
                  Json (*entry)(const ResultBand&)) {
   file.write("  " + json_text(name) + ": {\n");
-  write_matrix(file, "phi", bands.phi.size(), n_times, [&](std::size_t k) { return entry(bands.phi[k]); });
-  write_matrix(
-      file, "M", bands.M.size(), n_times, [&](std::size_t k) { return entry(bands.M[k]); }, "\n  },\n");
+  const auto write = [&](const char* key, const std::vector<ResultBand>& all, const char* end) {
+    write_matrix(
+        file, key, all.size(), n_times, [&](std::size_t k) { return entry(all[k]); }, "    ", end);
+  };
+  write("phi", bands.phi, ",\n");
+  write("M", bands.M, "\n  },\n");
 }
 
 }  // namespace
@@ -73,8 +84,10 @@ void write_samples_json(OutputFile& file, std::string_view scene, std::string_vi
              ",\n  " + json_text(places_key(units)) + ": " + json_text(times) +
              ",\n  \"depths\": " + json_text(depths) + ",\n");
   const std::size_t n = samples.size(), n_times = times.size();
-  write_matrix(file, "phi", n, n_times, [&](std::size_t k) { return samples[k].phi; });
-  write_matrix(file, "M", n, n_times, [&](std::size_t k) { return samples[k].M; });
+  write_matrix(
+      file, "phi", n, n_times, [&](std::size_t k) { return samples[k].phi; }, "  ", ",\n");
+  write_matrix(
+      file, "M", n, n_times, [&](std::size_t k) { return samples[k].M; }, "  ", ",\n");
   if (!bands.phi.empty()) {
     write_bands(file, "ci95", bands, n_times, ends_json);
     write_bands(file, "std_error", bands, n_times, error_json);
