@@ -286,9 +286,7 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
   if (has_steady(times))
     note(fmt::format("{} has no time of the steady state{}: it goes to the state of rest, and t is empty",
                      task.method.name(),
-                     task.method.has_option("cells") ? " within some ten seconds of marching; fewer --cells "
-                                                       "do"
-                                                     : ""));
+                     task.method.has_option("cells") ? " that a march of some seconds comes to" : ""));
   else if (has_steady(request.times) && result.summary.rest_time)
     note(fmt::format("{} had come to rest at t = {}, which stands for steady", task.method.name(),
                      number_text(*result.summary.rest_time, 6)));
