@@ -116,23 +116,24 @@ std::pair<std::optional<Method>, std::string> method_of_events(const Scene<doubl
   return {std::nullopt, why};
 }
 
-std::size_t add_events(PredictionRows& rows, const Scene<double>& estimated, const fit::DrawnScenes& draws,
-                       const Method& method) {
-  const auto [timed, why] = method_of_events(estimated, method);
-  if (!timed) {
-    note("no event times: " + why);
+std::size_t add_event_times(PredictionRows& rows, const Scene<double>& estimated,
+                            const fit::DrawnScenes& draws, const Method& method) {
+  const auto found = method_of_events(estimated, method);
+  if (!found.first) {
+    note("no event times: " + found.second);
     return 0;
   }
+  const Method& by = *found.first;
   std::optional<fit::PredictedEvents> events;
   try {
     events = with_drawn_scenes(draws, [&](const fit::Progress& progress) {
-      return fit::predict_events(estimated, draws, *timed, progress);
+      return fit::predict_events(estimated, draws, by, progress);
     });
   } catch (const InputError& error) {
     note("no event times: " + std::string(error.what()));
     return 0;
   }
-  if (timed->name() != method.name()) note(fmt::format("event times by {}", timed->name()));
+  if (by.name() != method.name()) note(fmt::format("event times by {}", by.name()));
   const std::string along = rows.units().symbol(), unit = rows.units().t;
   const auto add_interfaces = [&](const std::string& name,
                                   fit::PredictedNumber fit::PredictedEvents::AtInterface::*member) {
@@ -156,7 +157,7 @@ void write_predictions_csv(OutputFile& file, const PredictionPlan& plan, const S
   PredictionRows rows(file, estimated.spec().units);
   std::size_t n_failed = add_samples(rows, plan, estimated, draws, method);
   n_failed = std::max(n_failed, add_heights_of_bed(rows, plan, estimated, draws, method));
-  n_failed = std::max(n_failed, add_events(rows, estimated, draws, method));
+  n_failed = std::max(n_failed, add_event_times(rows, estimated, draws, method));
   note_draws(draws, n_failed);
   note_bands(draws, rows.n_by_draws(), rows.size());
 }
