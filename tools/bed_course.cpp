@@ -16,6 +16,11 @@ double last_time(const std::vector<double>& times) {
   return last;
 }
 
+std::optional<double> steady_time_of(const SolverResult& result) {
+  if (result.timeline && result.timeline->t_star) return result.timeline->t_star;
+  return result.summary.rest_time;
+}
+
 namespace {
 
 /// The numbers of a bed whose integral of the quantity's function is this.
@@ -57,9 +62,8 @@ BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const 
   const SolverResult result = solve(scene, method, request, progress);
   BedCourse course{quantity, {{"H"}, times, {}}, {}, result.summary};
   if (is_mixing) course.table.columns = {"E", "Psi"};
-  if (result.timeline && result.timeline->t_star)
-    std::replace_if(course.table.times.begin(), course.table.times.end(), is_steady,
-                    *result.timeline->t_star);
+  if (const auto rest = steady_time_of(result))
+    std::replace_if(course.table.times.begin(), course.table.times.end(), is_steady, *rest);
   if (!course.summary.usable()) return course;
   for (const double integral : result.integrals)
     course.table.rows.push_back(row_of(quantity, scene, bed, integral));

@@ -33,6 +33,9 @@ struct BedCourse {
 [[nodiscard]] std::vector<double> bed_numbers(SolvedQuantity quantity, const Scene<double>& scene,
                                               const Method& method, const std::vector<double>& times);
 
+/// When what was computed had come to rest, as far as the method says.
+[[nodiscard]] std::optional<double> steady_time_of(const SolverResult& result);
+
 /// The last of the finite times, 0 if there is none.
 [[nodiscard]] double last_time(const std::vector<double>& times);
 

@@ -171,7 +171,7 @@ std::string json_of(const std::string& scene, const std::vector<Course>& courses
 }
 
 int draw(const std::string& path, const std::string& scene, const std::vector<Course>& courses,
-         const std::string& along) {
+         const SceneUnits& units) {
   std::vector<double> times;
   std::vector<std::string> methods;  // those with any run
   for (const Course& course : courses) {
@@ -183,7 +183,8 @@ int draw(const std::string& path, const std::string& scene, const std::vector<Co
   Picture picture(path, "comparison");
   picture.set("title", scene);
   picture.set("times", times);
-  picture.set("along", along);
+  picture.set("along", units.symbol());
+  picture.set("unit_t", without_markup(units.t));
   picture.set("methods", fmt::format("{}", fmt::join(methods, " ")));
   picture.add_file("comparison.csv", [&](OutputFile& file) { file.write(csv_of(courses, {})); });
   return picture.draw();
@@ -236,13 +237,12 @@ int compare(CompareArguments& arguments) {
   }
   const bool has_picture = !arguments.plot.empty() && !is_interrupted;
   if (is_interrupted && !arguments.plot.empty()) note("interrupted: no --plot");
-  if (is_csv)
-    return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units.symbol()) : kDone;
+  if (is_csv) return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units) : kDone;
   OutputFile out("-");
   out.write(arguments.json ? json_of(scene.name(), courses, read.spec().units)
                            : printable(scene.name(), 100) + "\n" + text_of(courses, read.spec().units));
   out.commit();
-  return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units.symbol()) : kDone;
+  return has_picture ? draw(arguments.plot, scene.name(), courses, read.spec().units) : kDone;
 }
 
 }  // namespace

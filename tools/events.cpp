@@ -15,6 +15,7 @@
 #include "cli/closed_form.hpp"
 #include "cli/command.hpp"
 #include "cli/method.hpp"
+#include "cli/prediction_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene.hpp"
 #include "cli/table.hpp"
@@ -135,12 +136,9 @@ std::string summary_line(const Summary& s) {
 }
 
 EventBands bands_of(const fit::PredictedEvents& events) {
-  const auto band = [](const fit::PredictedNumber& n) {
-    return EventBands::Band{n.band ? std::optional(std::pair(n.band->low, n.band->high)) : std::nullopt,
-                            n.std_error};
-  };
-  EventBands all{band(events.t0), band(events.t1), band(events.t_star), {}};
-  for (const auto& at : events.interfaces) all.interfaces.push_back({band(at.first), band(at.last)});
+  EventBands all{result_band(events.t0), result_band(events.t1), result_band(events.t_star), {}};
+  for (const auto& at : events.interfaces)
+    all.interfaces.push_back({result_band(at.first), result_band(at.last)});
   return all;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/fit_text.hpp"
 #include "cli/fitted.hpp"
+#include "cli/prediction_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_changes.hpp"
 #include "plot/pictures.hpp"
@@ -149,11 +150,6 @@ int print_models(const FittedModels& models, bool json) {
   return models.best ? kDone : kNoResult;
 }
 
-/// Where a prediction is wanted.
-struct PredictionPlan {
-  std::vector<double> times, heights;
-};
-
 PredictionPlan plan_of(const FitArguments& arguments, const Scene<double>& scene) {
   constexpr std::size_t kHeights = 101;
   if (arguments.predict.empty()) {
@@ -172,17 +168,6 @@ PredictionPlan plan_of(const FitArguments& arguments, const Scene<double>& scene
                                                number_text(scene.top())),
                                    Steady::refused);
   return plan;
-}
-
-void write_prediction(OutputFile& file, const PredictionPlan& plan, const fit::FitSpec& spec,
-                      const fit::Estimate& estimate) {
-  const fit::DrawnScenes draws = fit::scenes_behind(fit::Parameters(spec.scene, spec.unknown), estimate,
-                                                    kPredictionDraws, spec.search.seed);
-  const fit::PredictedSamples samples =
-      fit::predict_samples(*estimate.scene, draws, spec.forward.method, plan.times, plan.heights);
-  note_draws(draws, samples.n_failed);
-  note_bands(draws, samples.n_by_draws, 2 * samples.phi.size());
-  write_prediction_csv(file, plan.times, plan.heights, samples, spec.scene.spec().units);
 }
 
 int fit_files(const FitArguments& arguments) {
@@ -262,7 +247,11 @@ int fit_files(const FitArguments& arguments) {
     note_rate_band(rates);
   }
   if (prediction && estimate.usable() && !is_interrupted) {
-    write_prediction(*prediction, plan, files[0].spec, estimate);
+    const fit::FitSpec& spec = files[0].spec;
+    write_predictions_csv(*prediction, plan, *estimate.scene,
+                          fit::scenes_behind(fit::Parameters(spec.scene, spec.unknown), estimate,
+                                             kPredictionDraws, spec.search.seed),
+                          spec.forward.method);
     prediction->commit();
   }
   const int code = files[0].choice ? kDone : print_one(estimate, arguments.json);
@@ -290,8 +279,10 @@ Command add_fit(CLI::App& program) {
   app->add_option("--band", arguments->band,
                   "s a(z) with its 95 % bands as CSV, of each height by itself and of all at once")
       ->type_name("FILE");
-  app->add_option("--predict", arguments->predict,
-                  "phi and M with their 95 % bands as CSV, at --times and --heights")
+  app->add_option(
+         "--predict", arguments->predict,
+         "phi, M, the height of the bed and event times with their 95 % bands as CSV, at --times and "
+         "--heights")
       ->type_name("FILE");
   app->add_option("--times", arguments->times, "of --predict: 0.5,6 or start:stop:count")->type_name("LIST");
   app->add_option("--heights", arguments->heights, "of --predict; default 101 over the whole domain")

@@ -12,6 +12,7 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/method.hpp"
+#include "cli/prediction_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene.hpp"
 #include "plot/pictures.hpp"
@@ -117,12 +118,6 @@ double steady_time(const SolveArguments& arguments, const Scene<double>& scene, 
   return *t_star;
 }
 
-/// When what was computed has come to rest, as far as the method says.
-std::optional<double> steady_time_of(const SolverResult& result) {
-  if (result.timeline && result.timeline->t_star) return result.timeline->t_star;
-  return result.summary.rest_time;
-}
-
 /// --times, in which 0:steady:5 goes up to t*.
 std::vector<double> times_of(const SolveArguments& arguments, const Scene<double>& scene,
                              const Method& method) {
@@ -160,7 +155,7 @@ SolverRequest request_of(const SolveArguments& arguments, const Task& task) {
 
 /// Says how large a file of fronts becomes before it is written.
 void note_size(std::size_t n_fronts) {
-  constexpr double kBytes = 80, kMuch = 1e8;  // of a row
+  constexpr double kBytes = 90, kMuch = 1e8;  // of a row
   const double size = kBytes * static_cast<double>(n_fronts);
   if (size > kMuch)
     note(fmt::format("--fronts: {} fronts, about {:.0f} MB; a coarser --resolution has fewer", n_fronts,
@@ -278,15 +273,20 @@ int solve_concentration(const SolveArguments& arguments, const Task& task) {
         fit::predict_samples(task.scene, *draws, task.method, request.times, request.heights);
     note_draws(*draws, samples.n_failed);
     note_bands(*draws, samples.n_by_draws, 2 * samples.phi.size());
-    write_prediction_csv(output, times, request.heights, samples, task.scene.spec().units);
+    if (arguments.json)
+      write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights,
+                         result.samples, result.summary, task.scene.spec().units, sample_bands(samples));
+    else
+      write_sample_bands_csv(output, times, request.heights, samples, task.scene.spec().units);
   } else if (arguments.json)
     write_samples_json(output, task.scene.name(), task.method.name(), times, request.heights, result.samples,
                        result.summary, task.scene.spec().units);
   else
     write_samples_csv(output, times, request.heights, result.samples, task.scene.spec().units);
   if (has_steady(times))
-    note(fmt::format("{} has no time of the steady state: it goes to the state of rest, and t is empty",
-                     task.method.name()));
+    note(fmt::format("{} has no time of the steady state{}: it goes to the state of rest, and t is empty",
+                     task.method.name(),
+                     task.method.has_option("cells") ? " that a march of some seconds comes to" : ""));
   else if (has_steady(request.times) && result.summary.rest_time)
     note(fmt::format("{} had come to rest at t = {}, which stands for steady", task.method.name(),
                      number_text(*result.summary.rest_time, 6)));
@@ -314,8 +314,6 @@ int solve_scene(SolveArguments& arguments) {
            "must be one, unless --plot draws the profiles of several");
   check_arguments(arguments, method);
   const auto scene = arguments.scene.read();
-  if (arguments.scene.draws() && arguments.json)
-    throw InputError("--json", "", "must not be given with a fit file or [uncertain], whose bands are CSV");
   if (!arguments.riemann.empty()) return draw_riemann(arguments.riemann, scene);
   const Task task{scene, method, times_of(arguments, scene, method), std::move(methods),
                   contours_of(arguments, scene)};

@@ -99,7 +99,7 @@ class Prediction:
     remark: str = field(default="", repr=False)
 
     def to_dataframe(self) -> Any:
-        """A row per time and height, as ``fit --predict`` writes it; needs pandas.
+        """A row per time and height, as ``solve`` of a fit file writes it; needs pandas.
 
         Returns
         -------

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 from pathlib import Path
@@ -119,13 +120,21 @@ def test_observe(run, may: sf.Scene, tmp_path: Path) -> None:
 
 def test_predict_and_band(run, tmp_path: Path) -> None:
     path = DATASETS / "paper-example-3" / "fit.toml"
-    files = [str(tmp_path / name) for name in ("prediction.csv", "band.csv")]
-    run("fit", str(path), "--predict", files[0], "--times", "0.5,2", "--heights", "0.1,0.5,0.9", "--band", files[1])
+    files = [str(tmp_path / name) for name in ("samples.csv", "band.csv", "prediction.csv")]
+    places = ("--times", "0.5,2", "--heights", "0.1,0.5,0.9")
+    run("fit", str(path), "--predict", files[2], *places, "--band", files[1])
+    run("solve", str(path), *places, "-o", files[0])
     found = sf.fit(path)
     expected = np.genfromtxt(files[0], delimiter=",", names=True)
     table = found.predict([0.5, 2], [0.1, 0.5, 0.9]).to_dataframe()
     for name in table.columns:
         np.testing.assert_array_equal(expected[name], table[name].to_numpy(), err_msg=name)
+    with open(files[2], encoding="utf-8") as text:
+        rows = list(csv.DictReader(text))
+    phi = [float(row["upper"]) for row in rows if row["quantity"] == "phi"]
+    np.testing.assert_array_equal(phi, table.upper.to_numpy())
+    (t_star,) = [row for row in rows if row["quantity"] == "t*"]
+    assert (float(t_star["lower"]), float(t_star["upper"])) == found.predict_events()["t_star"]
     band = np.genfromtxt(files[1], delimiter=",", names=True)
     for name in ("z", "a", "lower", "upper"):
         np.testing.assert_array_equal(band[name], getattr(found.rate_band(), name), err_msg=name)

@@ -11,10 +11,10 @@
 namespace shearfront::cli_tests {
 namespace {
 
-const std::vector<std::string> kKinds{
-    "file",         "raw-file", "directory",   "args",   "env",
-    "stdout-to",    "exit",     "stdout",      "stderr", "stdout-match",
-    "stderr-match", "absent",   "expect-file", "json",   "expect-file-match"};
+const std::vector<std::string> kKinds{"file",   "raw-file",    "directory",    "args",
+                                      "env",    "stdin-from",  "stdout-to",    "exit",
+                                      "stdout", "stderr",      "stdout-match", "stderr-match",
+                                      "absent", "expect-file", "json",         "expect-file-match"};
 
 }  // namespace
 

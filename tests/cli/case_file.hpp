@@ -14,6 +14,7 @@
 ///     --- directory d                 an empty directory
 ///     --- args                        arguments, separated by blanks; "..." keeps blanks; {datasets} is replaced
 ///     --- env NAME=VALUE              an environment variable
+///     --- stdin-from PATH             what comes in through standard input, default nothing
 ///     --- stdout-to PATH              where standard output goes instead of being checked
 ///     --- exit                        exit code, default 0
 ///     --- stdout   --- stderr         exact text; default: empty

@@ -67,14 +67,15 @@ Outcome run(const Case& c, const fs::path& folder, const fs::path& streams) {
 
   const pid_t child = fork();
   if (child == 0) {
-    fs::path out = streams / "out";
+    fs::path out = streams / "out", in = "/dev/null";
     for (const Section& s : c.sections) {
       if (s.kind == "stdout-to") out = s.argument;
+      if (s.kind == "stdin-from") in = folder / with_datasets(s.argument);
       const std::size_t equals = s.argument.find('=');
       if (s.kind == "env")
         setenv(s.argument.substr(0, equals).c_str(), s.argument.substr(equals + 1).c_str(), 1);
     }
-    redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
+    redirect(STDIN_FILENO, in, O_RDONLY);
     redirect(STDOUT_FILENO, out, O_WRONLY | O_CREAT);
     redirect(STDERR_FILENO, streams / "err", O_WRONLY | O_CREAT);
     if (chdir(folder.c_str()) != 0) _exit(126);

@@ -151,6 +151,26 @@ TEST(SteadyTime, GridMethodsSayWhenTheyHadComeToRest) {
   EXPECT_EQ(n_checked, 9);
 }
 
+// 1500 cells had no such time.
+TEST(SteadyTime, FineGridsSayWhenTheyHadComeToRest) {
+  const Scene<> scene(upside_down(Quadratic<double>{}));
+  constexpr double kExact = 2;
+  double coarser = kExact;
+  for (const std::uint64_t cells : {400U, 2000U}) {
+    Method method("godunov");
+    method.set("cells", cells);
+    SolverRequest request;
+    request.times = {std::numeric_limits<double>::infinity()};
+    request.heights = {0.5};
+    const SolverResult steady = solve(scene, method, request);
+    ASSERT_TRUE(steady.summary.rest_time) << cells;
+    EXPECT_GT(*steady.summary.rest_time, kExact);
+    EXPECT_LT(*steady.summary.rest_time - kExact, coarser / 2);  // of order between 1/2 and 1 in the cells
+    coarser = *steady.summary.rest_time - kExact;
+    EXPECT_EQ(steady.phi(0, 0), solve(scene, method, {request.times, {0.5}}).phi(0, 0));
+  }
+}
+
 // With diffusion nothing has an end; the scheme says when what was left was less than its tolerance.
 TEST(SteadyTime, CrankNicolsonSaysWhenItHadComeToRest) {
   SceneSpec<> spec = upside_down(Quadratic<double>{});

@@ -226,6 +226,35 @@ TEST(LaboratoryFiles, ReplicatesAreRefusedKeptOrAveraged) {
   EXPECT_NE(means.understood.find("means of 4 values at 2 places"), std::string::npos) << means.understood;
 }
 
+/// Units that measure something else, or nothing that is known, than the numbers they stand by.
+TEST(LaboratoryFiles, UnitsThatContradictAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"t [mm],z [mm],phi\n20,1,0.5\n",
+       "column[0] = \"t [mm]\"; must be in a unit that can be converted to [s]"},
+      {"t [s],z [s],phi\n20,1,0.5\n",
+       "column[1] = \"z [s]\"; must be in a unit that can be converted to [mm]"},
+      {"t [s],z [mm],phi [mm]\n20,1,0.5\n",
+       "column[2] = \"phi [mm]\"; must be a fraction of 1 or in percent"},
+      {"t [s],z [mm],phi [s]\n20,1,0.5\n", "column[2] = \"phi [s]\"; must be a fraction of 1 or in percent"},
+      {"t [s],z [mm],phi [veh/km]\n20,1,0.5\n", "must be a fraction of 1 or in percent"},
+      {"t [s],z [mm],M [s]\n20,1,0.5\n",
+       "column[2] = \"M [s]\"; must be in a unit that can be converted to [mm]"},
+      {"t [s],z [mm],M [%]\n20,1,0.5\n",
+       "column[2] = \"M [%]\"; must be in a unit that can be converted to [mm]"},
+      {"t [s],H [s]\n20,41\n", "column[1] = \"H [s]\"; must be in a unit that can be converted to [mm]"},
+      {"t [s],H [kg]\n20,41\n", "column[1] = \"H [kg]\"; must be in a unit that can be converted to [mm]"},
+      {"t [s],z [mm],phi [%],sigma [mm]\n20,1,50,1\n", "must have the unit of phi, [%]"},
+      {"t [s],z [mm],phi,width [s]\n20,1,0.5,0.1\n", "must have the unit of z, [mm]"},
+      {"t;z;phi\ns;mm;mm\n20;1;0.5\n", "must be a fraction of 1 or in percent"},
+  };
+  for (const auto& [text, expected] : cases)
+    EXPECT_NE(complaint(text).find(expected), std::string::npos) << text << "gives\n" << complaint(text);
+  ObservationFormat said;  // what is said beats the header
+  said[Column::phi].unit = "1";
+  EXPECT_EQ(read("t [s],z [mm],phi [v/v]\n20,1,0.5\n", said).rows.size(), 1u);
+  EXPECT_EQ(read("t [s],z [mm],M [cm]\n20,1,0.05\n", {}).rows[0].value, 0.5);
+}
+
 TEST(LaboratoryFiles, ContradictionsAreRefused) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"t [mm],z [mm],phi\n20,1,0.5\n", "must be in a unit that can be converted to [s]"},

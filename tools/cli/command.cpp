@@ -35,7 +35,7 @@ std::string Command::usage() const {
 void check_outputs(const std::string& input, const std::vector<Output>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].path.empty()) continue;
-    if (is_same_file(input, outputs[i].path))
+    if (input != "-" && is_same_file(input, outputs[i].path))  // "-" comes in and goes out by different doors
       refuse(outputs[i].option, outputs[i].path, "must not be the input file");
     for (std::size_t j = 0; j < i; ++j)
       if (!outputs[j].path.empty() && is_same_output(outputs[i].path, outputs[j].path))

@@ -95,20 +95,6 @@ Fitted fitted(const std::string& path, const SceneChanges& changes) {
   return {std::move(file), std::move(estimate), std::move(draws)};
 }
 
-void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
-                          const std::vector<double>& heights, const fit::PredictedSamples& samples,
-                          const SceneUnits& units) {
-  file.write(csv_header({"t", "z", "phi", "lower", "upper", "M", "M_lower", "M_upper"}, units));
-  const auto low = [](const fit::PredictedNumber& n) { return n.band ? n.band->low : HUGE_VAL; };
-  const auto high = [](const fit::PredictedNumber& n) { return n.band ? n.band->high : HUGE_VAL; };
-  for (std::size_t i = 0; i < times.size(); ++i)
-    for (std::size_t j = 0; j < heights.size(); ++j) {
-      const fit::PredictedNumber &phi = samples.phi[i * heights.size() + j],
-                                 &M = samples.M[i * heights.size() + j];
-      file.write(csv_row({times[i], heights[j], phi.value, low(phi), high(phi), M.value, low(M), high(M)}));
-    }
-}
-
 void write_band_csv(OutputFile& file, const fit::RateBand& band, const SceneUnits& units) {
   constexpr fit::Interval kNone{HUGE_VAL, HUGE_VAL};
   const std::string unit = units.z.empty() || units.t.empty() ? "" : units.z + "/" + units.t;
@@ -133,17 +119,16 @@ void note_rate_band(const fit::RateBand& band) {
 }
 
 void note_bands(const fit::DrawnScenes& draws, std::size_t n_by_draws, std::size_t n) {
-  if (draws.are_replicates) {
-    if (draws.why_none.empty())
-      note(fmt::format("95 % bands from the {} replicates of the bootstrap", draws.scenes.size()));
-    return;
-  }
-  note(n_by_draws == 0
-           ? "95 % bands by exact derivatives"
-           : fmt::format(
-                 "95 % bands of {} of {} numbers by exact derivatives, of {}, which do not follow a straight "
-                 "line, by {} draws",
-                 n - n_by_draws, n, n_by_draws, kPredictionDraws));
+  if (!draws.why_none.empty()) return;
+  if (draws.are_replicates)
+    note(fmt::format("95 % bands from the {} replicates of the bootstrap", draws.scenes.size()));
+  else if (n_by_draws == 0)
+    note("95 % bands by derivatives");
+  else
+    note(
+        fmt::format("95 % bands of {} of {} numbers by derivatives, of {}, which do not follow a straight "
+                    "line, by {} draws",
+                    n - n_by_draws, n, n_by_draws, kPredictionDraws));
 }
 
 void note_draws(const fit::DrawnScenes& draws, std::size_t n_failed) {

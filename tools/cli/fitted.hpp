@@ -41,10 +41,6 @@ struct FittedModels {
 /// The same for every model of a file. Precondition: file.choice. Errors: FileError.
 [[nodiscard]] FittedModels run_models(const fit::FitFile& file, const std::string& path);
 
-/// Header t,z,phi,lower,upper,M,M_lower,M_upper: 95 % bands, empty without error bars. One row per time and height.
-void write_prediction_csv(OutputFile& file, const std::vector<double>& times,
-                          const std::vector<double>& heights, const fit::PredictedSamples& samples,
-                          const SceneUnits& units);
 /// Header z,a,lower,upper,lower_all,upper_all: s a(z) with its 95 % bands, of each height and of all at once; layers have a row
 /// at each end.
 void write_band_csv(OutputFile& file, const fit::RateBand& band, const SceneUnits& units);

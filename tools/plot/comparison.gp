@@ -9,12 +9,13 @@ if (!exists("methods")) methods = 'exact front-tracking front-tracking:linear en
 
 n_times = words(times)
 n_methods = words(methods)
-n_columns = n_times < 3 ? n_times : 3
+is_tall = exists("width_cm") && !exists("height_cm") && width_cm < 13  # a column of a page
+n_columns = is_tall ? (n_times > 3 ? 2 : 1) : n_times < 3 ? n_times : 3
 n_rows = (n_times + n_columns - 1) / n_columns
 title_height = 26
-panel_height = 310
-width = 330 * (n_columns < 2 ? 2 : n_columns)
-legend_columns = width / 210
+panel_height = is_tall ? 260 : 310
+width = is_tall ? 230 * n_columns + (n_columns < 2 ? 190 : 0) : 330 * (n_columns < 2 ? 2 : n_columns)
+legend_columns = is_tall && n_columns == 1 ? 1 : width / 210
 legend_height = 24 * ((n_methods + legend_columns - 1) / legend_columns) + 14
 height = title_height + n_rows * panel_height + legend_height
 is_panels = 1
@@ -58,7 +59,7 @@ set ytics ()
 do for [k=error_low:error_high] { minor = (k - error_low) % every_th > 0; set ytics add (minor ? '' : sprintf('10^{%d}', k) 10.0**k minor) }
 if (has_rounding) set ytics add ('rounding' 10.0**(error_low - 1))
 set grid xtics ytics lc rgb '#e4e4e4' lw 0.6
-set xlabel 'wall time [s]' offset 0,0.4
+set xlabel 'wall time (s)' offset 0,0.4
 set ylabel '{/:Italic L}^1 error of φ' offset 0.8,0
 set tmargin 2.4
 do for [k=1:n_times] {
@@ -67,7 +68,7 @@ do for [k=1:n_times] {
   i_row = (k - 1) / n_columns
   set size 1.0/n_columns,1.0*panel_height/height
   set origin 1.0*i_column/n_columns,1.0*(legend_height+(n_rows-1-i_row)*panel_height)/height
-  set title sprintf('{/:Italic '.along.'} = %s', word(times, k)) offset 0,-0.6
+  set title sprintf('{/:Italic '.along.'} = %s', word(times, k)) . (unit_t eq '' ? '' : ' ' . unit_t) offset 0,-0.6
   # The first method on top.
   plot for [i=n_methods:1:-1] 'comparison.csv' \
     using (strcol("method") eq word(methods, i) && column("t") == t ? column("wall_s") : NaN):(place(column("l1_error"))) \

@@ -5,10 +5,10 @@
 #
 # Variables: those of fit.gp
 load 'panel.gp'
-left = 0.13
-right = 0.82
-bottom = 0.56
-top = 0.9
+left = is_tall ? 0.19 : 0.13
+right = is_tall ? 0.73 : 0.82
+bottom = data_bottom
+top = data_top
 eval place
 stats 'residuals.csv' using (column("t")) nooutput
 n_points = STATS_records

@@ -8,7 +8,8 @@
 #            dt, dz      by which cells reach under their neighbours drawn later, else the page shines through between them
 if (!exists("are_cells")) are_cells = 1
 if (!exists("have_gaps")) have_gaps = 0
-panel_width = (0.895 - z_margin - 0.125) / 3
+before_last = is_tall ? 0.175 : 0.125  # between the panels, colours included
+panel_width = ((is_tall ? 0.825 : 0.895) - z_margin - before_last) / 3
 stats 'cells.csv' using (column("t_low")):(column("t_high")) nooutput
 t_low = STATS_min_x < 0.2 * STATS_max_y ? 0 : STATS_min_x
 t_high = are_cells ? STATS_max_y : 1.02 * STATS_max_y
@@ -31,10 +32,10 @@ residual_colours = "set cbrange [-limit:limit]; set cbtics (beyond('≤').sprint
 
 do for [k=1:3] {
   load 'panel.gp'
-  left = z_margin + (k - 1) * panel_width + word('0 0.045 0.125', k)
+  left = z_margin + (k - 1) * panel_width + (k == 1 ? 0 : k == 2 ? across(is_tall ? 17 : 32.4) : before_last)
   right = left + panel_width
-  bottom = 0.56
-  top = 0.885
+  bottom = data_bottom
+  top = data_top
   eval place
   set title word('observed fitted', k) . (k < 3 ? ' ' . label(symbol, unit_value) : 'observed − fitted') offset 0,-0.6
   set xlabel label(along_name, unit_t) offset 0,0.3

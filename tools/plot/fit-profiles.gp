@@ -10,7 +10,9 @@ sigmas = 1.96          # of a 95 % interval
 most_error_bars = 40   # more of them hide the points
 gap = 0.022
 n_times = words(times)
-panel_width = min(0.45, (0.97 - z_margin + gap) / n_times - gap)
+n_columns = (n_times + n_data_rows - 1) / n_data_rows
+panel_width = min(0.45, (0.97 - z_margin + gap) / n_columns - gap)
+row_height = up(185)
 error(i) = has_sigma ? sigmas * column("sigma") : 0
 stats 'residuals.csv' using (column("observed") - error(0)):(column("observed") + error(0)) nooutput
 low = min(value_low, STATS_min_x)
@@ -22,34 +24,35 @@ n = STATS_records / n_times
 
 do for [k=1:n_times] {
   load 'panel.gp'
-  left = z_margin + (k - 1) * (panel_width + gap)
+  i_column = (k - 1) % n_columns
+  is_lowest = k + n_columns > n_times
+  left = z_margin + i_column * (panel_width + gap)
   right = left + panel_width
-  bottom = 0.56
-  top = 0.855
+  top = 1 - up(81) - (k - 1) / n_columns * row_height
+  bottom = n_data_rows == 1 ? data_bottom : top - up(115)
   eval place
   t = real(word(times, k))
   stats 'residuals.csv' using (column("t") == t ? column("observed") : NaN) nooutput
   n_points = STATS_records
   has_bars = has_sigma && n_points <= most_error_bars
   set title sprintf('{/:Italic '.along.'} = %.5g', t) . (unit_t eq '' ? '' : ' ' . unit_t) offset 0,-0.6
-  set xlabel label(symbol, unit_value) offset 0,0.3
+  if (is_lowest) { set xlabel label(symbol, unit_value) offset 0,0.3 }
   set xrange [low-margin:high+margin]
   set xtics tic_step(low - margin, high + margin, panel_width)
   eval height_axis
   unset label
   unset arrow
+  if (i_column == 0) { set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0 } else { set format y '' }
   if (k == 1) {
-    set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0
     # The legend is one line above all panels; gnuplot's own would stand in two.
-    first = has_bars ? 0.36 : 0.4
-    second = has_bars ? 0.58 : 0.54
-    set label '' at screen first,0.93 point pt 6 ps 0.45 lc rgb dark_grey
-    if (has_bars) { set arrow from screen first-0.015,0.93 to screen first+0.015,0.93 heads size screen 0.005,90 lw 1 lc rgb dark_grey }
-    set label 'observed' . (has_bars ? ' (95 %)' : '') at screen first+(has_bars ? 0.025 : 0.015),0.93 left
-    set arrow from screen second,0.93 to screen second+0.035,0.93 nohead lw 2 lc rgb blue
-    set label 'fitted' at screen second+0.045,0.93 left
-  } else {
-    set format y ''
+    first = has_bars ? 0.5 - across(100) : 0.5 - across(72)
+    second = has_bars ? 0.5 + across(58) : 0.5 + across(29)
+    line = 1 - up(39)
+    set label '' at screen first,line point pt 6 ps 0.45 lc rgb dark_grey
+    if (has_bars) { set arrow from screen first-across(11),line to screen first+across(11),line heads size screen 0.005,90 lw 1 lc rgb dark_grey }
+    set label 'observed' . (has_bars ? ' (95 %)' : '') at screen first+across(has_bars ? 18 : 11),line left
+    set arrow from screen second,line to screen second+across(25),line nohead lw 2 lc rgb blue
+    set label 'fitted' at screen second+across(32),line left
   }
   size = n_points > 50 ? 0.3 : 0.45
   at(value) = column("t") == t ? value : NaN

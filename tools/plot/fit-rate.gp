@@ -35,13 +35,17 @@ if (n_models > 3) { estimates = '' }  # no room
 do for [word_of_them in estimates] { estimates_text = estimates_text . word_of_them . "\n" }
 longest_estimate = 0
 do for [word_of_them in estimates] { longest_estimate = max(longest_estimate, strlen(word_of_them)) }
-# As wide as the room before the panel on the right, whose label begins at 0.62 of the figure.
-estimates_size = 0.7 * letters * min(1, 23.0 / max(longest_estimate, 1))
-set label 1001 estimates_text noenhanced at screen 0.44,0.225 left font sprintf(',%.2f', estimates_size) textcolor rgb '#303030'
+# As wide as the room before the edge, or the panel on the right, whose label begins at 0.62 of the figure.
+estimates_size = 0.7 * letters * min(1, (is_tall ? 30.0 : 20.5) / max(longest_estimate, 1))
+n_entries = 3 + has_truth + n_models
+entry_size = min(1, (is_tall ? 5.0 : 6.0) / n_entries)
+entry_spacing = n_entries > 5 ? 1.0 : 1.2
+legend_bottom = rate_top - up(4 + 14.5 * entry_spacing * max(entry_size, 0.55) * n_entries)
+set label 1001 estimates_text noenhanced at screen rate_right+0.02,legend_bottom-up(6+4.6*words(estimates)) left font sprintf(',%.2f', estimates_size) textcolor rgb '#303030'
 left = z_margin
-right = 0.42
-bottom = 0.095
-top = 0.4
+right = rate_right
+bottom = rate_bottom
+top = rate_top
 eval place
 
 # Rows of the file, with lower = upper = a where there is no band.
@@ -104,6 +108,8 @@ if (is_logarithmic) {
   set logscale x
   set format x high > 1e4 * low ? '10^{%T}' : '%g'
   set mxtics high > 1e4 * low ? 1 : 10
+  every_decade = ceil(log10(high / low) * 5 * 0.73 * letters / ((right - left) * width))
+  if (every_decade > 1) { set xtics 10**every_decade }
   if (high < 100 * low) {  # less than two powers of ten
     set xtics ()
     do for [k=floor(log10(low)):ceil(log10(high))] { do for [m in '1 2 5'] {
@@ -114,10 +120,8 @@ if (is_logarithmic) {
   set xtics tic_step(low, high, right - left)
 }
 # One column beside the other panel: many models get smaller letters.
-n_entries = 3 + has_truth + n_models
-entry_size = min(1, 6.0 / n_entries)
 entry_font = sprintf(',%.2f', letters * max(entry_size, 0.55))
-set key at screen right+0.012,top left top vertical Left reverse samplen 1.8 spacing (n_entries > 5 ? 1.0 : 1.2) maxcols 1 font entry_font
+set key at screen right+0.012,top left top vertical Left reverse samplen 1.8 spacing entry_spacing maxcols 1 font entry_font
 set datafile nocolumnheaders
 is_given = !is_rate_unknown || count(banded) + count(open) > 0  # else the whole known curve is the estimate
 row(i) = int(column(0)) + 1

@@ -4,10 +4,10 @@
 #
 # Variables: those of fit.gp
 load 'panel.gp'
-left = 0.72
-right = 0.9
-bottom = 0.095
-top = 0.4
+left = last_left
+right = is_tall ? 0.8 : 0.9
+bottom = last_bottom
+top = last_top
 eval place
 stats 'residuals.csv' using (column("residual")) nooutput
 size = clamp(7 / sqrt(STATS_records + 1.0), 0.15, 0.5)
@@ -27,8 +27,9 @@ if (data eq 'heights') {
   set colorbox vertical noborder user origin screen right+0.01,bottom size screen 0.012,top-bottom
   eval "set palette defined (" . phi_palette . ")"
   set xrange [-largest:largest]
-  set xtics round_up(largest / 2.5)
+  set xtics tic_step(-largest, 1.2 * largest, 0.8 * (right - left))
   eval height_axis
+  if (is_tall) { set ylabel label('height {/:Italic z}', unit_z) offset z_offset,0 }
   set yzeroaxis lw 0.8 dt (8,6) lc rgb '#8c8c8c'
   plot 'residuals.csv' using "residual":"z":"t" with points pt 7 ps size lc palette
 }

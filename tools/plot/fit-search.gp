@@ -4,10 +4,10 @@
 #
 # Variables: those of fit.gp
 load 'panel.gp'
-left = 0.72
-right = 0.97
-bottom = 0.095
-top = 0.4
+left = last_left
+right = is_tall ? 0.93 : 0.97
+bottom = last_bottom
+top = last_top
 eval place
 least_misfit = 1e-30  # stands for zero
 misfit(x) = max(x, least_misfit)

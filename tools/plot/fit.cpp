@@ -28,7 +28,7 @@ void set_common(Picture& picture, const std::string& title, const fit::FitSpec& 
   const StateRange<double> states =
       is_cumulative ? StateRange<double>{0, std::max(estimate.scene->mass(), 1e-300)} : states_of(spec.scene);
   picture.set("title", printable(title, 120));
-  picture.set("subtitle", described(spec.forward.method));
+  picture.set("subtitle", described(spec.forward.method, *estimate.scene));
   constexpr std::size_t kMostEstimates = 7;
   std::string estimates;
   for (const fit::ParameterEstimate& p : estimate.parameters)

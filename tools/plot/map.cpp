@@ -112,8 +112,8 @@ std::string label_rows(const MapGrid& grid, const std::vector<double>& states) {
   return rows.empty() ? "" : "t,z,label\n" + rows;
 }
 
-/// Whether phi of the grid jumps with a front, within so many of its heights, by half as much at least: steps by which a
-/// tracker stands for what varies smoothly do not.
+/// Whether phi of the grid jumps with a front all along it, within so many of its heights, by half as much at least: steps by
+/// which a tracker stands for what varies smoothly do not, nor does one that comes near a shock of several times its jump.
 bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t reach) {
   const auto nearest = [](const std::vector<double>& xs, double x) {
     const double part = (x - xs.front()) / (xs.back() - xs.front());
@@ -123,16 +123,20 @@ bool is_seen(const MapGrid& grid, const FrontSegment<double>& front, std::size_t
   const double t_end =
                    std::isfinite(front.t_end) ? std::min(front.t_end, grid.times.back()) : grid.times.back(),
                z_end = std::isfinite(front.z_end) ? front.z_end : front.z_begin;
-  const std::size_t i = nearest(grid.times, (front.t_begin + t_end) / 2),
-                    j = nearest(grid.heights, (front.z_begin + z_end) / 2), last = grid.heights.size() - 1;
+  const std::size_t last = grid.heights.size() - 1;
   // A front may cross many heights of the grid between two of its times.
   const double crossed = std::abs(z_end - front.z_begin) / (t_end - front.t_begin) *
                          (grid.times[1] - grid.times[0]) / (grid.heights[1] - grid.heights[0]);
   if (crossed > 0) reach += static_cast<std::size_t>(std::min(std::ceil(crossed), static_cast<double>(last)));
-  const double jump = front.phi_above - front.phi_below,
-               seen = grid.phi[grid.at(i, std::min(j + reach, last))] -
-                      grid.phi[grid.at(i, j - std::min(j, reach))];
-  return seen * jump > 0.5 * jump * jump;
+  const double jump = front.phi_above - front.phi_below;
+  const auto is_seen_at = [&](double part, double most) {
+    const std::size_t i = nearest(grid.times, std::lerp(front.t_begin, t_end, part)),
+                      j = nearest(grid.heights, std::lerp(front.z_begin, z_end, part));
+    const double seen =
+        grid.phi[grid.at(i, std::min(j + reach, last))] - grid.phi[grid.at(i, j - std::min(j, reach))];
+    return seen * jump > 0.5 * jump * jump && seen * jump < most * jump * jump;
+  };
+  return is_seen_at(0.5, 4) && (is_seen_at(0.1, HUGE_VAL) || is_seen_at(0.9, HUGE_VAL));
 }
 
 /// Shocks, by the first solver that has fronts; none where it does not solve the bed.
@@ -168,7 +172,7 @@ int draw_map(const std::string& path, const Scene<double>& scene, const Method& 
   grid.find_steep(jumps);
   const std::vector<double> states = contour_states(contours, grid);
   Picture picture(path, "map");
-  set_scene(picture, scene, described(method));
+  set_scene(picture, scene, described(method, scene));
   picture.set("t_end", t_end);
   picture.set("contours", states);
   picture.add_file("map.csv", [&](OutputFile& file) {

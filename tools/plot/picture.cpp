@@ -61,6 +61,7 @@ void keep_blanks(std::string& svg) {
 
 /// What the templates are told about the size; of the one run this program makes.
 std::string size_settings;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+bool is_narrow = false;     // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 /// The status of a line of the shell as waitpid() gives it; nothing if Ctrl-C ended it. system() would not let Ctrl-C through.
 std::optional<int> status_of_shell(std::string line) {
@@ -94,16 +95,20 @@ void PictureOptions::add_to(CLI::App& app) {
   app.add_option("--dpi", dpi_, "pixels per inch of a .png, default 144")->type_name("N");
 }
 
+bool picture_is_narrow() { return is_narrow; }
+
 void PictureOptions::apply() const {
   constexpr Bounds kCentimetres{2, 200}, kDots{20, 2400};
+  constexpr double kColumn = 13;  // in cm; as in the templates
   size_settings.clear();
   if (!size_.empty()) {
     const auto parts = split(size_, 'x');
     if (parts.size() > 2) refuse("--size", size_, "must be a width in cm, or WIDTHxHEIGHT");
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      size_settings +=
-          fmt::format("{} = real('{}')\n", i == 0 ? "width_cm" : "height_cm",
-                      number_text(number_option("--size", parts[i], kCentimetres, "from 2 to 200")));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const double size = number_option("--size", parts[i], kCentimetres, "from 2 to 200");
+      size_settings += fmt::format("{} = real('{}')\n", i == 0 ? "width_cm" : "height_cm", number_text(size));
+      if (i == 0) is_narrow = size < kColumn;
+    }
   }
   if (!dpi_.empty())
     size_settings +=

@@ -23,6 +23,9 @@ class PictureOptions {
   std::string size_, dpi_;
 };
 
+/// Whether pictures are as wide as a column of a page.
+[[nodiscard]] bool picture_is_narrow();
+
 /// Refuses a picture whose name does not end in .svg, .png or .pdf. An empty name is no picture.
 void check_picture_name(std::string_view option, const std::string& path);
 /// Refuses a picture that cannot be written. Errors: FileError.

@@ -105,10 +105,11 @@ std::string pure_rows(const Scene<double>& scene, const Method& method, double t
   return rows;
 }
 
-constexpr std::size_t kMostLabels = 4;  // interfaces
+/// Interfaces whose events are labelled: in the width of a column there is no room between the labels of several.
+std::size_t most_labels() { return picture_is_narrow() ? 1 : 4; }
 
 /// Rows t,z,label,side,is_first of the events. Labels stand where no front is: before a first wave, after a last one,
-/// and outside the walls. Events at more than kMostLabels interfaces have none, but a place in the legend by their kind.
+/// and outside the walls. Events at more than most_labels() interfaces have none, but a place in the legend by their kind.
 std::string event_rows(const Scene<double>& scene, const Timeline<double>& timeline, double t_end) {
   std::string rows = "t,z,label,side,is_first\n";
   const std::string along = scene.spec().units.symbol();
@@ -118,15 +119,15 @@ std::string event_rows(const Scene<double>& scene, const Timeline<double>& timel
     const std::string label = symbol.empty() ? "" : fmt::format("\"{{/:Italic {}}}{}\"", symbol, index);
     rows += fmt::format("{},{},{},{},{:d}\n", number_text(*t), number_text(z), label, side, is_first);
   };
-  const std::size_t n = timeline.interfaces.size();
+  const std::size_t n = timeline.interfaces.size(), most = most_labels();
   const double z_jump = scene.initial_breaks().empty() ? scene.top() : scene.initial_breaks().front();
   for (std::size_t i = 0; i < n; ++i) {
     const auto& at = timeline.interfaces[i];
     const std::string index = n == 1 ? "_{c}" : fmt::format("_{{c}}({})", i + 1);  // as in tables
     const bool has_room = at.first && *at.first > 0.07 * t_end;
-    mark(at.first, at.z, n <= kMostLabels && has_room ? along : "", index,
-         at.z < z_jump ? "left-below" : "left-above", n > kMostLabels);
-    mark(at.last, at.z, n <= kMostLabels ? along + "\u0302" : "", index,
+    mark(at.first, at.z, n <= most && has_room ? along : "", index,
+         at.z < z_jump ? "left-below" : "left-above", n > most);
+    mark(at.last, at.z, n <= most ? along + "\u0302" : "", index,
          at.z < timeline.steady_height ? "right-below" : "right-above");
   }
   mark(timeline.t0, scene.bottom(), along, "_0", "below");
@@ -181,11 +182,21 @@ bool is_of_fan(const Scene<double>& scene, const FrontSegment<double>& front) {
   return flux.derivative(front.phi_below / c) < flux.derivative(front.phi_above / c);
 }
 
-std::string described(const Method& method) {
+std::string described(const Method& method, const Scene<double>& scene) {
   std::string text(method.name());
   if (method.has_option("resolution")) text += ", resolution " + number_text(number_of(method, "resolution"));
-  if (method.has_option("cells")) text += ", " + number_text(number_of(method, "cells")) + " cells";
-  return text;
+  if (method.has_option("cell-tolerance") && number_of(method, "cell-tolerance") > 0)
+    return text + ", cells to " + number_text(number_of(method, "cell-tolerance"));
+  if (!method.has_option("cells")) return text;
+  double cells = number_of(method, "cells");
+  if (cells == 0) {  // its own choice
+    SolverRequest request;
+    request.times = {0};
+    request.profiles = true;
+    const SolverResult start = solve(scene, method, request);
+    if (!start.profiles.empty()) cells = static_cast<double>(start.profiles.front().below().size());
+  }
+  return cells > 0 ? text + ", " + number_text(cells) + " cells" : text;
 }
 
 StateRange<double> states_of(const Scene<double>& scene) {
@@ -219,7 +230,7 @@ int draw_fronts(const std::string& path, const Scene<double>& scene, const Metho
   picture.add_file("fronts.csv", [&](OutputFile& file) { write_fronts_csv(file, shown); });
   picture.add_file("events.csv", [&](OutputFile& file) { file.write(event_rows(scene, timeline, t_end)); });
   const std::size_t n_interfaces = timeline.interfaces.size();
-  picture.set("n_listed", n_interfaces > kMostLabels ? static_cast<double>(n_interfaces) : 0.0);
+  picture.set("n_listed", n_interfaces > most_labels() ? static_cast<double>(n_interfaces) : 0.0);
   const std::string pure = pure_rows(scene, method, t_end);
   picture.set("has_pure", !pure.empty());
   picture.add_file("pure.csv", [&](OutputFile& file) { file.write(pure); });
@@ -235,7 +246,7 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
     return [&](OutputFile& file) { write_samples_csv(file, times, request.heights, result.samples); };
   };
   Picture picture(path, "profiles");
-  set_scene(picture, scene, described(method));
+  set_scene(picture, scene, described(method, scene));
   picture.set("times", times);
   picture.set("symbol", scene.is_plain() ? "of small grains " : "");
   picture.set("has_bound", scene.spec().solid_fraction.has_value());
@@ -261,7 +272,7 @@ int draw_profiles(const std::string& path, const Scene<double>& scene, const Met
 int draw_slab(const std::string& path, const Scene<double>& scene, const Method& method,
               const SlabSamples& frames) {
   Picture picture(path, "slab");
-  set_scene(picture, scene, described(method));
+  set_scene(picture, scene, described(method, scene));
   picture.set("times", frames.times);
   picture.set("x_high", scene.spec().slab->length);
   picture.add_file("slab.csv", [&](OutputFile& file) {
@@ -284,7 +295,7 @@ int draw_bed_course(const std::string& path, const Scene<double>& scene, const M
   if (!(t_end > 0)) t_end = 1;
   const BedCourse fine = bed_course(course.quantity, scene, method, equally_spaced(0, t_end, kCourseTimes));
   Picture picture(path, "bed");
-  set_scene(picture, scene, described(method));
+  set_scene(picture, scene, described(method, scene));
   picture.set("quantity", course.table.columns.back());
   picture.set("t_end", t_end);
   picture.set("has_points", course.table.times.size() <= kMostPoints);

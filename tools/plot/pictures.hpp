@@ -59,8 +59,8 @@ int draw_fit(const std::string& path, const fit::FitSpec& spec, const fit::Estim
              const std::string& title, const std::optional<Scene<double>>& truth = std::nullopt,
              const std::vector<OtherModel>& others = {});
 
-/// "front-tracking, resolution 0.01", for the small line of a picture.
-[[nodiscard]] std::string described(const Method& method);
+/// "front-tracking, resolution 0.01", for the small line of a picture; a method that chooses its cells is asked for them.
+[[nodiscard]] std::string described(const Method& method, const Scene<double>& scene);
 
 /// What every picture of a bed shows.
 void set_scene(Picture& picture, const Scene<double>& scene, const std::string& subtitle);

@@ -1,7 +1,7 @@
 # Profiles phi(z) at some times, z upwards.
 #
 # profiles.csv   t,z,phi,M   as written by `shearfront solve -o`: the same heights at every time
-# exact.csv      the same by the exact method, drawn as thin lines on top
+# exact.csv      the same by the exact method, drawn as thin lines on top, unless there are too many times for a legend
 # bound.csv      z,c   the solid fraction, which phi cannot exceed, drawn dashed
 # other1.csv, other2.csv, ...   the same by other methods, dashed
 #
@@ -15,6 +15,7 @@
 #            symbol              what stands before phi on the axis
 width = 560
 height = 480
+title_share = 0.73  # the legend stands beside the axes
 load 'style.gp'
 if (!exists("times")) {  # one profile, of unknown time
   times = 'unknown'
@@ -40,7 +41,7 @@ if (is_narrow) {
   key_font = sprintf(',%.2f', 0.9 * letters)
   n_keys = words(times) + words(others) + has_exact + has_bound
   n_key_columns = n_keys > 6 && words(others) == 0 ? 3 : 2
-  n_key_rows = words(times) > words(many_colours) ? 0 : (n_keys + n_key_columns - 1) / n_key_columns
+  n_key_rows = words(times) > words(many_colours) ? has_bound > 0 : (n_keys + n_key_columns - 1) / n_key_columns
   set bmargin 3.8 + 1.15 * n_key_rows
   set key at screen 0.5,0.012 center bottom horizontal Left reverse samplen 1.2 spacing 1.1 maxcols n_key_columns font key_font
 } else {
@@ -86,7 +87,5 @@ if (n_times <= words(many_colours)) {
   set colorbox noborder
   plot for [k=1:n_times] 'profiles.csv' using "phi":"z" every ::((n_times-k)*n)::((n_times-k+1)*n-1) \
       with lines lw line_width dt dash(n_times-k+1) lc palette cb t_of(n_times-k+1) notitle, \
-    for [i=1:has_exact*n_times] exact using "phi":"z" every ::((i-1)*n)::(i*n-1) \
-      with lines lw 0.8 lc rgb 'black' title i == 1 ? 'exact' : '', \
     for [i=1:has_bound] 'bound.csv' using "c":"z" with lines lw 1.2 dt (10,6) lc rgb dark_grey title 'bound {/:Italic c}({/:Italic z})'
 }

@@ -14,17 +14,19 @@ if (!exists("phi_low")) phi_low = 0
 if (!exists("phi_high")) phi_high = 1
 
 n_times = words(times)
-n_columns = n_times < 4 ? n_times : n_times == 4 ? 2 : n_times < 7 ? 3 : 4
+is_tall = exists("width_cm") && !exists("height_cm") && width_cm < 13  # a column of a page
+n_columns = is_tall && n_times > 1 ? 2 : n_times < 4 ? n_times : n_times == 4 ? 2 : n_times < 7 ? 3 : 4
 n_rows = (n_times + n_columns - 1) / n_columns
 left_space = 66
 right_space = 104
 title_height = 34
 bottom_space = 44
-panel_width = 190
-panel_height = 180
+panel_width = is_tall ? (n_columns == 1 ? 260 : 130) : 190
+panel_height = is_tall && n_columns == 2 ? 140 : 180
 width = left_space + n_columns * panel_width + right_space
 height = title_height + n_rows * panel_height + bottom_space
 is_panels = 1
+is_subtitle_below = is_tall
 load 'style.gp'
 full_width = 1.0 * (left_space + n_columns * panel_width + right_space)
 full_height = 1.0 * (title_height + n_rows * panel_height + bottom_space)

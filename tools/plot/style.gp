@@ -43,7 +43,8 @@ if (ending eq '.png') {
   set terminal svg enhanced size width,height font sprintf('sans-serif,%.2f', letters) linewidth lines background rgb 'white'
 } }
 # A long title becomes several lines.
-longest_line = floor(1.2 * width / letters)
+if (!exists("title_share") || scale < 0.75) title_share = 1.0  # of the width, where it stands beside the middle
+longest_line = floor(1.2 * title_share * width / letters)
 if (strlen(title) > longest_line) {
   wrapped = ''
   line = ''
@@ -84,7 +85,7 @@ steps_of(range) = round_up(range / (is_narrow ? 5.0 : 7.0))
 if (!exists("is_subtitle_below")) is_subtitle_below = 0
 if (subtitle ne '' && !is_panels && !is_subtitle_below) title = title . "\n"
 subtitle_font = sprintf(',%.2f', 0.75 * letters)
-set_subtitle = "if (subtitle ne '') { if (is_panels || is_subtitle_below) { set label 1000 subtitle noenhanced at screen 0.995,(is_panels ? 0.985 : 0.025) right font subtitle_font textcolor rgb '#707070' front } " .\
+set_subtitle = "if (subtitle ne '') { if (is_panels || is_subtitle_below) { set label 1000 subtitle noenhanced at screen 0.995,(is_panels ? (is_subtitle_below ? 0.012 : 0.985) : 0.025) right font subtitle_font textcolor rgb '#707070' front } " .\
   "else { set label 1000 subtitle noenhanced at graph 1,1 right offset 0,0.55 font subtitle_font textcolor rgb '#707070' front } }"
 
 load 'panel.gp'

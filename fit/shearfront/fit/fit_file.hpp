@@ -17,13 +17,14 @@ namespace shearfront::fit {
 /// unknown, beside those of [unknown]; the scene's a(z) is where all of them start.
 struct ModelChoice {
   struct Model {
-    std::string name;  ///< of a depth function
-    std::size_t n;     ///< pieces or points of one with arrays; 0: it has none
+    std::string name;                 ///< of a depth function
+    std::size_t n;                    ///< pieces or points of one with arrays; 0: it has none
+    std::vector<double> breaks = {};  ///< of n layers, where they are known
   };
   std::vector<Model> models;
-  bool has_free_breaks = false;  ///< of layers; else they are equally thick
+  bool has_free_breaks = false;  ///< of layers whose breaks are not known; else they are equally thick
 
-  /// "1 layer", "3 layers", "exponential", "table:6".
+  /// "1 layer", "3 layers", "3 known layers", "exponential", "table:6".
   [[nodiscard]] static std::string text(const Model& model);
 };
 

@@ -49,11 +49,15 @@ double harmonic_mean_of(const Scene<double>& scene, double lo, double hi) {
   return kPlaces / sum;
 }
 
-/// Arrays of n pieces between n - 1 breaks, or of n points from the bottom to the top.
+/// Arrays of n pieces between n - 1 breaks, or of n points from the bottom to the top. `breaks`: known ones.
 template <class Model>
-void fill_arrays(Model& model, std::size_t n, const Scene<double>& scene, bool is_constant) {
+void fill_arrays(Model& model, std::size_t n, const std::vector<double>& breaks, const Scene<double>& scene,
+                 bool is_constant) {
   const double bottom = scene.bottom(), height = scene.top() - scene.bottom();
-  const auto part = [&](double i, double of) { return bottom + height * (i / of); };
+  const auto part = [&](double i, double of) {
+    if (breaks.empty() || i == 0 || i == of) return bottom + height * (i / of);
+    return breaks[static_cast<std::size_t>(i) - 1];
+  };
   const double all = harmonic_mean_of(scene, bottom, scene.top());
   Model::fields(model, [&](const FieldInfo& info, auto& member) {
     if constexpr (is_array<decltype(member)>) {
@@ -159,7 +163,9 @@ std::string ModelChoice::text(const Model& model) {
   const auto function = new_function(model.name);
   const bool is_layered =
       function && std::visit([](const auto& m) { return std::decay_t<decltype(m)>::kIsLayered; }, *function);
-  if (is_layered) return fmt::format("{} layer{}", model.n, model.n == 1 ? "" : "s");
+  if (is_layered)
+    return fmt::format("{}{} layer{}", model.n, model.breaks.empty() ? "" : " known",
+                       model.n == 1 ? "" : "s");
   return model.n == 0 ? model.name : fmt::format("{}:{}", model.name, model.n);
 }
 
@@ -183,7 +189,7 @@ FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelCh
   std::visit(
       [&](auto& m) {
         if (arrays)
-          fill_arrays(m, model.n, resembled, base.unknown.shape != Shape::none);
+          fill_arrays(m, model.n, model.breaks, resembled, base.unknown.shape != Shape::none);
         else
           fit_numbers(m, resembled);
       },
@@ -196,7 +202,7 @@ FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelCh
   UnknownSpec unknown;
   unknown.shape = spec.unknown.shape;
   UnknownSpec own;
-  own.parameters = unknowns_of(function, choice.has_free_breaks);
+  own.parameters = unknowns_of(function, choice.has_free_breaks && model.breaks.empty());
   append(unknown, Parameters(spec.scene, own));
   UnknownSpec others = base.unknown;
   others.shape = Shape::none;

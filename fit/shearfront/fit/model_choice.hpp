@@ -13,7 +13,7 @@ namespace shearfront::fit {
 [[nodiscard]] std::string refusal(const ModelChoice::Model& model);
 
 /// The fit with this shear rate in place of the scene's, which it resembles at the start: layers have its harmonic means,
-/// a table its values, entries that are single numbers those that come closest in log a(z). Layers are equally thick, the
+/// a table its values, entries that are single numbers those that come closest in log a(z). Layers are equally thick if their breaks are not known, the
 /// points of a table equally far from each other. With a shape the start is constant, which has every shape.
 /// Precondition: refusal() is empty. Errors: InputError if the scene is invalid with it.
 [[nodiscard]] FitSpec with_model(const FitSpec& base, const ModelChoice& choice,

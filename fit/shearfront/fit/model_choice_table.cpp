@@ -11,6 +11,7 @@
 #include "shearfront/fit/model_choice.hpp"
 #include "shearfront/io/text.hpp"
 #include "shearfront/model/depth/all.hpp"
+#include "shearfront/numeric/number_text.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -45,7 +46,7 @@ ModelChoice read_model_choice(TableReader& table, const std::function<void(Compl
       if (!(counts[i] >= 1 && counts[i] <= kMostLayers && counts[i] == std::floor(counts[i])))
         refuse("layers", i, "", fmt::format("must be a whole number from 1 to {}", kMostLayers));
       else
-        choice.models.push_back({layered_name(), static_cast<std::size_t>(counts[i])});
+        choice.models.push_back({layered_name(), static_cast<std::size_t>(counts[i]), {}});
     }
   }
   if (table.node("models")) {
@@ -54,7 +55,7 @@ ModelChoice read_model_choice(TableReader& table, const std::function<void(Compl
       if (names[i].empty()) continue;  // refused
       const std::size_t colon = names[i].find(':');
       const auto n = colon == std::string::npos ? 0 : parse_count(names[i].substr(colon + 1));
-      const ModelChoice::Model model{names[i].substr(0, colon), static_cast<std::size_t>(n.value_or(0))};
+      const ModelChoice::Model model{names[i].substr(0, colon), static_cast<std::size_t>(n.value_or(0)), {}};
       if (!n || *n > kMostLayers)
         refuse("models", i, quoted_text(names[i]), "must be a name, or a name and a number such as table:6");
       else if (std::string why = refusal(model); !why.empty())
@@ -63,10 +64,20 @@ ModelChoice read_model_choice(TableReader& table, const std::function<void(Compl
         choice.models.push_back(model);
     }
   }
-  choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
+  if (const toml::node* breaks = table.node("breaks"); breaks && breaks->is_array()) {
+    std::vector<double> known;
+    table.number("breaks", Need::optional, known);
+    for (std::size_t i = 1; table.is_good("breaks") && i < known.size(); ++i)
+      if (!(known[i] > known[i - 1]))
+        refuse("breaks", i, number_text(known[i]), "must be in ascending order");
+    if (table.is_good("breaks") && !known.empty())
+      choice.models.push_back({layered_name(), known.size() + 1, std::move(known)});
+  } else {
+    choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
+  }
   const auto is_fine = [&](const char* key) { return !table.node(key) || table.is_good(key); };
-  if (choice.models.empty() && !is_refused && is_fine("layers") && is_fine("models"))
-    add({"compare", "", "must have layers or models"});
+  if (choice.models.empty() && !is_refused && is_fine("layers") && is_fine("models") && is_fine("breaks"))
+    add({"compare", "", "must have layers, models or known breaks"});
   table.finish();
   return choice;
 }

@@ -245,7 +245,7 @@ PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes
 }
 
 PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
-                                 const SceneNumbers& numbers, bool are_exact) {
+                                 const SceneNumbers& numbers, bool are_exact, const Progress& progress) {
   PredictedNumbers result;
   for (const double x : numbers(estimated)) result.numbers.push_back({x, {}, {}});
   const std::size_t n = result.numbers.size();
@@ -272,6 +272,7 @@ PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScen
   for (const Scene<double>& scene : draws.scenes) {
     drawn.push_back(numbers(scene));
     if (drawn.back().empty()) ++result.n_failed;
+    if (progress && !progress(drawn.size(), 0)) break;
   }
   result.n_by_draws = set_drawn_bands(drawn, result.numbers);
   return result;

@@ -102,6 +102,7 @@ struct PredictedNumbers {
   std::size_t n_failed = 0, n_by_draws = 0;
 };
 [[nodiscard]] PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
-                                               const SceneNumbers& numbers, bool are_exact);
+                                               const SceneNumbers& numbers, bool are_exact,
+                                               const Progress& progress = {});
 
 }  // namespace shearfront::fit

@@ -22,8 +22,10 @@ constexpr double kUpdatesPerCall = 1 << 22;
 constexpr double kRestChange = 4 * March::kQuantum;
 // M of a bed at rest this near to that of the steady state, relative to what the bed holds, has reached it.
 constexpr double kSteadyTolerance = 1e-9;
-// For the time of the settled state, which itself needs no march.
-constexpr double kMostUpdatesForRestTime = 0x1p22;
+// For the time of the settled state, which itself needs no march: so many steps per cell (beds whose rates do not differ much
+// take some ten), but milliseconds at least and ten seconds at most.
+constexpr double kStepsPerCellToRest = 256, kLeastUpdatesForRestTime = 0x1p22,
+                 kMostUpdatesForRestTime = 0x1p33;
 // Steps per cell after which a bed that does not come to rest is given up, if its last state is asked for.
 constexpr double kMostStepsPerCell = 1000;
 // Times the waves cross a bed between walls before it rests, at most.
@@ -155,13 +157,22 @@ class GridRun final : public Run {
   Status find_rest_time() {
     constexpr double kLooksPerCrossing = 64;
     const double per_look = std::max(1.0, std::floor(n_cells_ / kLooksPerCrossing));
-    const double most = static_cast<double>(n_updates_) + kMostUpdatesForRestTime;
+    const double most =
+        static_cast<double>(n_updates_) + std::clamp(kStepsPerCellToRest * n_cells_ * n_cells_,
+                                                     kLeastUpdatesForRestTime, kMostUpdatesForRestTime);
+    std::optional<March> before;  // the last look
     while (!is_near_steady()) {
-      if (static_cast<double>(n_updates_) + per_look * n_cells_ > most) return Status::ok;
+      const bool is_stopped = n_steps_ > steps_to_rest_;  // by rounding
+      if (is_stopped || static_cast<double>(n_updates_) + per_look * n_cells_ > most) return Status::ok;
       if (progress_ && !progress_(begin_ + dt_ * n_steps_, n_updates_)) return Status::interrupted;
+      before = march_;
       for (double i = 0; i < per_look; ++i) march_.step(dt_);
       n_steps_ += per_look;
       n_updates_ += static_cast<std::uint64_t>(per_look * n_cells_);
+    }
+    if (before) {  // to the step
+      march_ = std::move(*before);
+      for (n_steps_ -= per_look; !is_near_steady(); ++n_steps_) march_.step(dt_);
     }
     rest_time_ = begin_ + dt_ * n_steps_;
     return Status::ok;

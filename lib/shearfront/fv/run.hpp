@@ -32,8 +32,8 @@ namespace shearfront::fv {
 ///
 /// A march that has come to rest stops. t = infinity gives the steady state of the grid (March::settled_amounts); where
 /// there is none of that kind, a march until nothing changes by more than rounding. Summary::rest_time is when M was
-/// nowhere farther than 1e-9 of what the bed can hold from that of the settled state, to a 64th of the steps in which
-/// a wave crosses the bed; unknown where that takes more than 2^29 cell updates (half a second).
+/// nowhere farther than 1e-9 of what the bed can hold from that of the settled state, to a step; unknown where that takes
+/// more than 256 steps per cell and 2^22 cell updates, or more than 2^33 (ten seconds; some 2e4 cells).
 ///
 /// Outcomes beside ok and steady: interrupted (watch.progress said so); not_converged (the rates differ so much that
 /// rounding stopped the slow cells; no rest after 1000 steps per cell, for t = infinity); diverged (rules without bounds);

@@ -206,10 +206,25 @@ void ObservationColumns::check_units(const Target& target) {
   const std::string t = own(Column::t, target.t), z = own(Column::z, target.z);
   const bool is_length = value() == Column::M || value() == Column::H;
   std::string of_value = unit(value());
+  const auto kind = unit_of(of_value);
   if (is_length) {
-    if (unit_of(of_value) && unit_factor(of_value, z.empty() ? target.z : z))
-      of_value = z.empty() ? target.z : z;
-  } else if (const auto kind = unit_of(of_value); kind && kind->kind == UnitKind::fraction) {
+    const std::string& of_heights = z.empty() ? target.z : z;
+    const bool is_any = value() == Column::M && !target.are_parts;  // vehicles, say
+    if (kind && unit_factor(of_value, of_heights))
+      of_value = of_heights;
+    else if (!of_value.empty() && !is_any &&
+             (!of_heights.empty() || (kind && kind->kind != UnitKind::length)))
+      refuse(field(value()),
+             of_heights.empty()
+                 ? std::string("must be in a unit of length")
+                 : fmt::format("must be in a unit that can be converted to [{}], that of heights",
+                               printable(of_heights, kLongestName)));
+  } else if (target.are_parts && !of_value.empty() && (!kind || kind->kind != UnitKind::fraction)) {
+    refuse(
+        has(value()) ? field(value()) : 0,
+        "must be a fraction of 1 or in percent; units of [columns] or --units phi=1 say so where the header "
+        "does not");
+  } else if (kind && kind->kind == UnitKind::fraction) {
     if (!target.are_parts && kind->size != 1)
       refuse(field(value()), "must be in the unit of the flux, whose states are no fractions of 1");
     if (kind->size != 1 && !unit(value()).empty()) of_value = "1";

@@ -41,11 +41,22 @@ void write_slab_json(OutputFile& file, std::string_view scene, std::string_view 
 void write_fronts_csv(OutputFile& file, const std::vector<FrontSegment<double>>& fronts,
                       const SceneUnits& units = {});
 
-/// {"scene","method","times","depths","phi":[[..]],"M":[[..]],"summary"}, one inner array per time.
+/// Where a number lies with 95 %, infinity: never; and its standard error, where that is by derivatives.
+struct ResultBand {
+  std::optional<std::pair<double, double>> ends;
+  std::optional<double> std_error;
+};
+/// Bands of samples, in their order.
+struct SampleBands {
+  std::vector<ResultBand> phi, M;
+};
+
+/// {"scene","method","times","depths","phi":[[..]],"M":[[..]],"summary"}, one inner array per time. With bands also
+/// "ci95":{"phi":[[[low,high],..]],"M"} and "std_error":{"phi":[[..]],"M"}; null: by draws.
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
                         const std::vector<Sample>& samples, const Summary& summary,
-                        const SceneUnits& units = {});
+                        const SceneUnits& units = {}, const SampleBands& bands = {});
 
 /// What belongs to a whole bed, as a function of time: one row per time, with the names of its columns.
 struct TimeTable {
@@ -66,16 +77,12 @@ void write_time_table_json(OutputFile& file, std::string_view scene, std::string
                            const TimeTable& table, const NamedNumbers& extra, const Summary& summary,
                            const SceneUnits& units = {});
 
-/// Between which event times lie with 95 %, infinity: never; and their standard errors, where they are by derivatives.
+/// Between which event times lie with 95 %.
 struct EventBands {
-  struct Band {
-    std::optional<std::pair<double, double>> ends;
-    std::optional<double> std_error;
-  };
   struct InterfaceBands {
-    Band first, last;
+    ResultBand first, last;
   };
-  Band t0, t1, t_star;
+  ResultBand t0, t1, t_star;
   std::vector<InterfaceBands> interfaces;
 };
 

@@ -33,31 +33,65 @@ Json document(std::string_view scene, std::string_view method, const SceneUnits&
   return all;
 }
 
-/// One array per time, of one entry of the samples; of large results never more than a row in memory.
-void write_matrix(OutputFile& file, std::string_view name, const std::vector<Sample>& samples,
-                  std::size_t n_times, double Sample::*entry) {
-  const std::size_t n_depths = n_times == 0 ? 0 : samples.size() / n_times;
-  file.write("  " + json_text(name) + ": [");
+/// Pairs of numbers, too.
+std::string in_one_line(const Json& row) {
+  if (row.empty() || !row.front().is_array()) return json_text(row);
+  std::string text;
+  for (const Json& entry : row) text += (text.empty() ? "[" : ", ") + json_text(entry);
+  return text + "]";
+}
+
+/// One array per time, of what entry(k) says of the k-th of n numbers; of large results never more than a row in memory.
+template <class EntryOf>
+void write_matrix(OutputFile& file, std::string_view name, std::size_t n, std::size_t n_times,
+                  const EntryOf& entry, const std::string& indent, const char* end) {
+  const std::size_t n_depths = n_times == 0 ? 0 : n / n_times;
+  file.write(indent + json_text(name) + ": [");
   for (std::size_t i = 0; i < n_times; ++i) {
     Json row = Json::array();
-    for (std::size_t j = 0; j < n_depths; ++j) row.push_back(samples[i * n_depths + j].*entry);
-    file.write((i == 0 ? "\n    " : ",\n    ") + json_text(row));
+    for (std::size_t j = 0; j < n_depths; ++j) row.push_back(entry(i * n_depths + j));
+    file.write((i == 0 ? "\n  " : ",\n  ") + indent + in_one_line(row));
   }
-  file.write("\n  ],\n");
+  file.write("\n" + indent + "]" + end);
+}
+
+Json ends_json(const ResultBand& band) {
+  return band.ends ? Json::array({band.ends->first, band.ends->second}) : Json();
+}
+Json error_json(const ResultBand& band) { return detail::json_or_null(band.std_error); }
+
+/// "ci95" or "std_error" of phi and M.
+void write_bands(OutputFile& file, std::string_view name, const SampleBands& bands, std::size_t n_times,
+                 Json (*entry)(const ResultBand&)) {
+  file.write("  " + json_text(name) + ": {\n");
+  const auto write = [&](const char* key, const std::vector<ResultBand>& all, const char* end) {
+    write_matrix(
+        file, key, all.size(), n_times, [&](std::size_t k) { return entry(all[k]); }, "    ", end);
+  };
+  write("phi", bands.phi, ",\n");
+  write("M", bands.M, "\n  },\n");
 }
 
 }  // namespace
 
 void write_samples_json(OutputFile& file, std::string_view scene, std::string_view method,
                         const std::vector<double>& times, const std::vector<double>& depths,
-                        const std::vector<Sample>& samples, const Summary& summary, const SceneUnits& units) {
+                        const std::vector<Sample>& samples, const Summary& summary, const SceneUnits& units,
+                        const SampleBands& bands) {
   const std::string in_units =
       units.are_given() ? ",\n  \"units\": " + json_text(units_json(units)) : std::string();
   file.write("{\n  \"scene\": " + json_text(scene) + ",\n  \"method\": " + json_text(method) + in_units +
              ",\n  " + json_text(places_key(units)) + ": " + json_text(times) +
              ",\n  \"depths\": " + json_text(depths) + ",\n");
-  write_matrix(file, "phi", samples, times.size(), &Sample::phi);
-  write_matrix(file, "M", samples, times.size(), &Sample::M);
+  const std::size_t n = samples.size(), n_times = times.size();
+  write_matrix(
+      file, "phi", n, n_times, [&](std::size_t k) { return samples[k].phi; }, "  ", ",\n");
+  write_matrix(
+      file, "M", n, n_times, [&](std::size_t k) { return samples[k].M; }, "  ", ",\n");
+  if (!bands.phi.empty()) {
+    write_bands(file, "ci95", bands, n_times, ends_json);
+    write_bands(file, "std_error", bands, n_times, error_json);
+  }
   file.write("  \"summary\": " + json_text(to_json(summary)) + "\n}\n");
 }
 
@@ -116,10 +150,8 @@ void write_events_json(OutputFile& file, std::string_view scene, std::string_vie
       for (const auto& at : bands.interfaces)
         part["interfaces"].push_back({{"first", number(at.first)}, {"last", number(at.last)}});
     };
-    add("ci95", [](const EventBands::Band& band) {
-      return band.ends ? Json::array({band.ends->first, band.ends->second}) : Json();
-    });
-    add("std_error", [](const EventBands::Band& band) { return detail::json_or_null(band.std_error); });
+    add("ci95", ends_json);
+    add("std_error", error_json);
   }
   all["summary"] = to_json(summary);
   file.write(detail::json_document(all));

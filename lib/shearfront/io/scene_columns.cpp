@@ -143,4 +143,18 @@ std::vector<FileError> SceneColumns::errors() const {
   return all;
 }
 
+void read_units(TableReader& table, SceneUnits& units) {
+  const auto read = [&](const char* key, UnitKind kind) {
+    const std::string_view what = kind == UnitKind::length ? "must be the name of a unit of length"
+                                                           : "must be the name of a unit of time";
+    const auto name = table.text(key, TableReader::Need::optional, what);
+    const auto known = unit_of(name.value_or(""));
+    if (known && known->kind != kind) table.add(*table.node(key), table.path(key), what);
+    return name.value_or("");
+  };
+  units.z = read("z", UnitKind::length);
+  units.t = units.is_chute ? read("x", UnitKind::length) : read("t", UnitKind::time);
+  table.finish();
+}
+
 }  // namespace shearfront::detail

@@ -88,15 +88,8 @@ class SceneReader {
       table->number("top", Need::optional, spec_.top);
       table->finish();
     }
-    const bool is_chute = root.node("velocity") && !root.node("slab");
-    spec_.units.is_chute = is_chute;
-    if (auto table = root.table("units", Need::optional, kUnits)) {
-      spec_.units.z = table->text("z", Need::optional, "must be the name of a unit of length").value_or("");
-      spec_.units.t =
-          is_chute ? table->text("x", Need::optional, "must be the name of a unit of length").value_or("")
-                   : table->text("t", Need::optional, "must be the name of a unit of time").value_or("");
-      table->finish();
-    }
+    spec_.units.is_chute = root.node("velocity") && !root.node("slab");
+    if (auto table = root.table("units", Need::optional, kUnits)) detail::read_units(*table, spec_.units);
   }
 
   void fluxes(std::vector<TableReader> tables) {

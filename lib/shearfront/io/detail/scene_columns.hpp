@@ -9,6 +9,7 @@
 
 #include "shearfront/io/detail/named_columns.hpp"
 #include "shearfront/io/detail/number_literal.hpp"
+#include "shearfront/io/detail/toml_source.hpp"
 #include "shearfront/io/file_error.hpp"
 #include "shearfront/scene/scene_spec.hpp"
 
@@ -68,5 +69,8 @@ template <Real S>
   return column.numerator == column.denominator ? number
                                                 : number * S(column.numerator) / S(column.denominator);
 }
+
+/// z and t (of a chute x) of [units]. Any name is taken but that of a unit of something else.
+void read_units(TableReader& table, SceneUnits& units);
 
 }  // namespace shearfront::detail
