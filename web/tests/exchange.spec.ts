@@ -174,7 +174,8 @@ test("400 px wide: nothing sticks out, and a finger drags", async ({ browser, ur
 });
 
 test("how long a picture takes while it is dragged", async ({ explorer }, info) => {
-  const median = (xs: number[]): number => [...xs].sort((a, b) => a - b)[Math.floor(xs.length / 2)]!;
+  const below = (share: number, xs: number[]): number => xs.toSorted((a, b) => a - b)[Math.floor(share * (xs.length - 1))]!;
+  const median = (xs: number[]): number => below(0.5, xs);
   await drag(explorer, "plane", "interface-0", 0, -20, 10);
   const one = await drag(explorer, "plane", "interface-0", 0, 30, 30);
   const ten = "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9]\nvalues = [3,2.5,2.1,1.7,1.4,1.1,0.9,0.7,0.5,0.4]\n" +
@@ -182,7 +183,7 @@ test("how long a picture takes while it is dragged", async ({ explorer }, info) 
   await explorer.locator("#open-file").setInputFiles({ name: "ten.toml", mimeType: "text/plain", buffer: Buffer.from(ten) });
   await expect(explorer.locator('[data-event^="t_c"]')).toHaveCount(9);
   const many = await drag(explorer, "plane", "interface-4", 0, -16, 30);
-  const times = { ready: Number(await explorer.getAttribute("html", "data-ready")), example1: median(one), example1_best: Math.min(...one), ten: median(many), ten_best: Math.min(...many) };
+  const times = { ready: Number(await explorer.getAttribute("html", "data-ready")), example1: median(one), example1_nine_of_ten: below(0.9, one), ten: median(many), ten_nine_of_ten: below(0.9, many) };
   writeFileSync(info.outputPath("times.json"), JSON.stringify(times));
   console.log(JSON.stringify(times));
   expect((await shown(explorer)).complaint).toBe("");
