@@ -132,6 +132,8 @@ class Refinement {
 
   [[nodiscard]] bool has_exact() const { return bool(exact_); }
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
+  /// Of the finest run yet.
+  [[nodiscard]] std::uint64_t collisions() const { return answers_.back().summary.collisions; }
 
   /// Errors of all quantities over `levels` levels; empty if a run does not end (trouble()).
   [[nodiscard]] std::map<std::string, Convergence> errors(int levels) {

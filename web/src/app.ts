@@ -6,12 +6,15 @@ import { History } from "./bed/history.ts";
 import { toHash } from "./bed/link.ts";
 import { COARSE, columnTimes, FINE, makePicture, middles, type Picture, profileAt, type Raster } from "./bed/picture.ts";
 import { type Scene, readScene, unitsOf, writeScene } from "./bed/scene.ts";
+import { mixingAt } from "./bed/why.ts";
+import { phiInWords } from "./bed/words.ts";
 import { type Engine, type ObservedData, Refusal } from "./engine/engine.ts";
 import { profileHandles, planeHandles, rateHandles } from "./panels/handles.ts";
+import { widestTick } from "./view/axes.ts";
 import { drawMixing } from "./view/mixing.ts";
 import { brief, milliseconds, withUnit } from "./view/numbers.ts";
 import { Panel } from "./view/panel.ts";
-import { drawPlane, planeInWords, type PlaneMarks } from "./view/plane.ts";
+import { drawPlane, eventPlace, planeInWords, type PlaneMarks } from "./view/plane.ts";
 import { type Curve, drawProfile } from "./view/profile.ts";
 import { drawRate } from "./view/rate.ts";
 import { drawnRate } from "./bed/edits.ts";
@@ -20,6 +23,7 @@ import { drawnRate } from "./bed/edits.ts";
 export interface Listener {
   sceneChanged?(isDrag: boolean): void;
   timeChanged?(): void;
+  eventChosen?(id: string): void;
 }
 
 const IDLE_MS = 140;
@@ -40,6 +44,8 @@ export class App {
   collision: { t: number; z: number } | undefined;
   data: ObservedData = { quantity: "point", understood: "", notes: [], rows: [] };
   complaint = "";
+  /** Event times before the last change, by their names. */
+  timesBefore: ReadonlyMap<string, number> = new Map();
   private widest = 1;
   private isDragging = false;
   private beforeDrag: Scene | undefined;
@@ -56,13 +62,14 @@ export class App {
     const watch = { begin: () => this.beginDrag(), end: () => this.endDrag() };
     this.plane = new Panel("plane", "φ over time t and height z", watch);
     this.profile = new Panel("profile", "φ over z", watch);
-    this.rate = new Panel("rate", "shear rate s a(z)", watch);
-    this.mixing = new Panel("mixing", "mixing Ψ: 0 apart, 1 even", watch);
+    this.rate = new Panel("rate", "segregation speed s a(z)", watch);
+    this.mixing = new Panel("mixing", "mixing Ψ", watch);
     this.picture = makePicture(engine, writeScene(scene), FINE);
     this.raster = this.picture.raster;
     this.rate.frame.left = this.profile.frame.left = 30;
     this.mixing.frame = { ...this.mixing.frame, top: 6, bottom: 8 };
     for (const panel of [this.plane, this.mixing]) panel.onHover = (t) => this.setTime(t);
+    this.plane.onPress = (x, y, reach) => this.pressEvent(x, y, reach);
     this.settle();
   }
 
@@ -81,11 +88,27 @@ export class App {
     return events ? namedTimes(events, facts.top, facts.bottom) : [];
   }
 
+  private remember(): void {
+    this.timesBefore = new Map(this.times.map((m) => [m.id, m.t]));
+  }
+
+  /** An event of the plane, if one is near: its profile is shown, and why it is when it is. */
+  private pressEvent(x: number, y: number, reach: number): (() => void) | undefined {
+    const chosen = this.times.filter((m) => Number.isFinite(m.t) && m.t <= this.picture.tMax).find((m) => {
+      const [ex, ey] = eventPlace(this.plane, this.picture, m);
+      return Math.hypot(ex - x, ey - y) < reach;
+    });
+    if (!chosen) return undefined;
+    this.setTime(chosen.t);
+    return () => { for (const listener of this.listeners) listener.eventChosen?.(chosen.id); };
+  }
+
   /** Another scene altogether: one step to undo. */
   open(scene: Scene, t?: number): void {
     this.timeShown = undefined;
     this.collision = undefined;
     this.history.push(scene);
+    this.timesBefore = new Map();
     this.update(false);
     this.setTime(t ?? Math.min(this.t, this.picture.tMax));
   }
@@ -93,15 +116,20 @@ export class App {
   /** A change by a control: one step to undo. */
   change(scene: Scene): void {
     if (this.isDragging) this.history.replace(scene);
-    else this.history.push(scene);
+    else {
+      this.remember();
+      this.history.push(scene);
+    }
     this.update(this.isDragging);
   }
 
   undo(): void {
+    this.remember();
     this.history.undo();
     this.update(false);
   }
   redo(): void {
+    this.remember();
     this.history.redo();
     this.update(false);
   }
@@ -134,6 +162,7 @@ export class App {
   private beginDrag(): void {
     this.isDragging = true;
     this.beforeDrag = this.scene;
+    this.remember();
     this.history.push(this.scene);
   }
   private endDrag(): void {
@@ -234,11 +263,19 @@ export class App {
     this.draw();
   }
 
+  /** Room for the numbers of the axes of z. */
+  private makeRoom(): void {
+    const { top, bottom } = this.picture.facts;
+    for (const [panel, least] of [[this.plane, 44], [this.mixing, 44], [this.profile, 30], [this.rate, 30]] as const)
+      panel.setLeft(Math.max(least, 12 + 7 * widestTick(bottom, top, this.plane.frame.height)));
+  }
+
   draw(): void {
     const begin = performance.now();
     const bed = { scene: this.scene, picture: this.picture, change: (scene: Scene) => this.change(scene) };
     const current = { ...bed };
     Object.defineProperty(current, "scene", { get: () => this.scene });
+    this.makeRoom();
     drawPlane(this.plane, this.picture, this.raster, this.marks);
     this.plane.drawHandles(planeHandles(current));
     const most = Math.max(this.widest, 1.02 * Math.max(...this.picture.rate.speed));
@@ -251,7 +288,7 @@ export class App {
     this.plane.figure.dataset["ms"] = ms.toFixed(2);
     const state = document.getElementById("state");
     if (state) state.textContent = `${this.picture.method}, picture in ${milliseconds(ms)}`;
-    this.plane.svg.setAttribute("aria-label", planeInWords(this.picture, this.times, String(this.scene["name"] ?? "A bed")));
+    this.plane.svg.setAttribute("aria-label", planeInWords(this.picture, this.times, String(this.scene["name"] ?? "A bed"), phiInWords(this.scene)));
   }
 
   /** What depends on the time alone. */
@@ -268,7 +305,11 @@ export class App {
       this.profile.below.replaceChildren();
     }
     const caption = this.profile.figure.querySelector("figcaption");
-    if (caption) caption.textContent = `φ over z at t = ${withUnit(brief(this.t), unitsOf(this.scene).t)}`;
+    const when = `t = ${withUnit(brief(this.t), unitsOf(this.scene).t)}`;
+    if (caption) caption.textContent = `φ over z at ${when}`;
+    const mixed = mixingAt(this.picture, this.t);
+    const most = mixed && (mixed.isRising ? "still rising at the end" : `largest, ${mixed.most.toFixed(2)}, at t = ${withUnit(brief(Number(mixed.tMost.toPrecision(2))), unitsOf(this.scene).t)}`);
+    this.mixing.figure.querySelector("figcaption")!.textContent = mixed ? `mixing Ψ, 0 apart to 1 even: ${mixed.psi.toFixed(2)} at ${when}; ${most}` : "";
     this.rate.svg.setAttribute("aria-label", `s a(z): ${brief(this.picture.rate.speed[0]!)} at the bottom, ${brief(this.picture.rate.speed.at(-1)!)} at the top; ends: ${endsOf(this.scene)}`);
   }
 }

@@ -17,7 +17,9 @@ import { MethodsTab } from "./panels/methods_tab.ts";
 import { reading } from "./panels/reading.ts";
 import { saveMenu } from "./panels/save.ts";
 import { makeTabs, type Tabs } from "./panels/tabs.ts";
+import { phiInWords } from "./bed/words.ts";
 import { brief, withUnit } from "./view/numbers.ts";
+import { prose } from "./view/prose.ts";
 import { html } from "./view/svg.ts";
 import "./style.css";
 
@@ -60,6 +62,21 @@ function timeBar(app: App): HTMLElement {
   return html("div", { id: "timebar", class: "row" }, slider, shown, html("label", { class: "field" }, "shown until t", end), html("label", { class: "check" }, fronts, "fronts"), html("span", { id: "state", class: "note" }));
 }
 
+/** What the colours stand for, and how to read the plane. */
+function scaleBar(app: App): HTMLElement {
+  const [low, high, meaning] = [html("span"), html("span"), html("span")];
+  const show = (): void => {
+    const { lowest, highest } = app.picture.facts;
+    [low.textContent, high.textContent] = [brief(lowest), brief(highest)];
+    const words = phiInWords(app.scene);
+    meaning.textContent = words ? `φ, ${words}:` : "φ:";
+  };
+  app.listen({ sceneChanged: show });
+  show();
+  return html("div", { id: "scale" }, meaning, " ", low, " ", html("span", { class: "bar", "aria-hidden": "true" }), " ", high,
+    html("span", { class: "hint" }, "Thin lines: waves of a fan; thick: shocks; dashed: interfaces, and in the profile the start. Drag the white knobs, move over the plane to choose t, press a time such as ", ...prose("t_1"), " to read why."));
+}
+
 function listenToKeys(app: App): void {
   document.addEventListener("keydown", (event) => {
     const isText = event.target instanceof HTMLInputElement && event.target.type !== "range" && event.target.type !== "checkbox";
@@ -72,27 +89,37 @@ function listenToKeys(app: App): void {
   });
 }
 
-/** Scenes are opened wherever they are dropped, observations too. */
-function listenToDrops(app: App, fit: FitTab, tabs: () => Tabs, opened: () => void): (file: File) => Promise<void> {
-  const take = async (file: File): Promise<void> => {
-    const text = await textOf(file);
-    if (!/\.toml$/i.test(file.name)) {
+/** Files are opened wherever they are dropped: a scene first, then observations, then the fit of both. */
+function listenToDrops(app: App, fit: FitTab, tabs: () => Tabs, opened: () => void): (files: Iterable<File>) => Promise<void> {
+  const open = (name: string, text: string): void => {
+    if (!/\.toml$/i.test(name)) {
       tabs().show("fit");
-      fit.openCsv(text, file.name);
-      return;
+      return fit.openCsv(text, name);
     }
-    try {
-      app.open(readScene(text));
-      opened();
-    } catch (error) {
-      app.complaint = (error as Error).message;
-      showComplaint(app);
+    const content = readScene(text);
+    if (content["unknown"]) {
+      tabs().show("fit");
+      return fit.openFit(content, name);
+    }
+    app.open(content);
+    opened();
+  };
+  const take = async (files: Iterable<File>): Promise<void> => {
+    const texts = await Promise.all(Array.from(files, async (file) => ({ name: file.name, text: await textOf(file) })));
+    const order = ({ name, text }: { name: string; text: string }): number => (!/\.toml$/i.test(name) ? 1 : /^\s*\[unknown\]|^\s*unknown\s*[.=]/m.test(text) ? 2 : 0);
+    for (const { name, text } of texts.sort((a, b) => order(a) - order(b))) {
+      try {
+        open(name, text);
+      } catch (error) {
+        app.complaint = `${name}: ${(error as Error).message}`;
+        showComplaint(app);
+      }
     }
   };
   document.addEventListener("dragover", (event) => event.preventDefault());
   document.addEventListener("drop", (event) => {
     event.preventDefault();
-    for (const file of event.dataTransfer?.files ?? []) void take(file);
+    void take(event.dataTransfer?.files ?? []);
   });
   return take;
 }
@@ -103,16 +130,16 @@ function showComplaint(app: App): void {
   box.hidden = app.complaint === "";
 }
 
-function header(app: App, fit: FitTab, guided: HTMLElement, take: (file: File) => Promise<void>): HTMLElement {
+function header(app: App, fit: FitTab, guided: HTMLElement, take: (files: Iterable<File>) => Promise<void>): HTMLElement {
   const undo = button("undo", "↶", "undo", () => app.undo());
   const redo = button("redo", "↷", "redo", () => app.redo());
   const link = button("link", "copy link", "copy a link to this scene", () => {
     void app.share().then(() => navigator.clipboard.writeText(location.href)).then(() => (link.textContent = "copied"), () => (link.textContent = "in the address"));
     setTimeout(() => (link.textContent = "copy link"), 1500);
   });
-  const file = html("input", { type: "file", id: "open-file", accept: ".toml,.csv,.txt", hidden: true });
-  file.addEventListener("change", () => { for (const f of file.files ?? []) void take(f); });
-  const open = button("open", "open", "open a scene file or observations", () => file.click());
+  const file = html("input", { type: "file", id: "open-file", accept: ".toml,.csv,.txt", multiple: true, hidden: true });
+  file.addEventListener("change", () => void take(file.files ?? []).then(() => (file.value = "")));
+  const open = button("open", "open", "open a scene, observations, a fit file, or all three", () => file.click());
   const show = (): void => {
     undo.disabled = !app.history.canUndo;
     redo.disabled = !app.history.canRedo;
@@ -152,19 +179,23 @@ async function start(): Promise<void> {
   ]);
   const openGuided = (scene: GuidedScene): void => {
     const data = DATASETS.find((d) => d.observations === scene.dataset);
-    app.data = { quantity: "point", understood: "", notes: [], rows: [] };
+    fit.clear();
     if (data) fit.openDataSet(data);
     else app.open(readScene(scene.toml));
     if (scene.timeShown) app.setTimeShown(scene.timeShown);
     app.setTime(scene.t ?? 0.3 * app.picture.tMax);
     guide.show(scene);
+    told = app.toml;
+    guide.setChanged(false);
     tabs.show(scene.tab);
   };
   const guide = makeGuide(openGuided);
+  let told = app.toml;
+  app.listen({ sceneChanged: () => guide.setChanged(app.toml !== told) });
   const take = listenToDrops(app, fit, () => tabs, () => guide.show(undefined));
   const complaint = html("p", { id: "complaint", role: "alert", hidden: true });
   const left = html("div", { class: "planes" }, app.plane.figure, app.mixing.figure);
-  const scale = html("div", { id: "scale", "aria-hidden": "true" }, "φ = 0 ", html("span"), " 1", html("span", { class: "hint" }, "Thin lines are waves of a fan, thick ones shocks, dashed ones interfaces. Drag the white knobs; move over the plane to choose t."));
+  const scale = scaleBar(app);
   document.body.replaceChildren(
     header(app, fit, guide.select, take), complaint, guide.element,
     html("main", {}, html("div", { id: "panels" }, left, app.profile.figure, app.rate.figure), scale, timeBar(app), html("div", { id: "lower" }, eventsTable(app), tabs.element), reading(app)),

@@ -126,6 +126,10 @@ test("every flux and all ends", async ({ explorer }) => {
     expect(complaint, name).toBe("");
     expect(toml).toContain(`model = "${name}"`);
   }
+  await explorer.selectOption("#flux-model", "table");
+  await explorer.fill("#flux-point-2", "-0.3");
+  await explorer.press("#flux-point-2", "Enter");
+  expect((await shown(explorer)).toml).toMatch(/values = \[ 0(\.0)?, -0\.2, -0\.3, -0\.12, 0(\.0)? \]/);
   await explorer.selectOption("#flux-model", "cubic");
   await explorer.fill("#flux-gamma", "0.3");
   await explorer.press("#flux-gamma", "Enter");
@@ -151,10 +155,12 @@ test("methods side by side: errors fall as resolutions are slid", async ({ explo
   await expect(explorer.locator("#error-tracked")).toContainText("e-");
   const error = async (id: string): Promise<number> => Number(await explorer.locator(`#error-${id}`).textContent());
   const coarse = { tracked: await error("tracked"), grid: await error("grid") };
+  await expect(explorer.locator("#lesson")).toContainText(/^For the error of front tracking as slid, \d\.\de-\d in [\d.]+ ms, engquist-osher needs about \d00 cells and [\d.]+ ms, [\d.]+ times as long/, { timeout: 20_000 });
   await explorer.locator("#resolution").fill("200");
   await explorer.locator("#cells").fill("800");
   expect(await error("tracked")).toBeLessThan(coarse.tracked / 3);
   expect(await error("grid")).toBeLessThan(coarse.grid / 2);
+  await expect(explorer.locator("#lesson")).toContainText("needs more than 6400 cells if it goes on so");
   for (const scheme of ["godunov", "muscl", "engquist-osher"]) {
     await explorer.selectOption("#scheme", scheme);
     expect(await error("grid")).toBeGreaterThan(0);
@@ -172,10 +178,65 @@ test("collisions are stepped through, each with its Riemann problem", async ({ e
   await expect(explorer.locator("#collision-words")).toContainText("in,");
   await expect(explorer.locator("#panel-collisions .chord.incoming")).not.toHaveCount(0);
   await expect(explorer.locator("#panel-collisions .chord.outgoing")).not.toHaveCount(0);
+  await expect(explorer.locator("#collision-fronts tbody tr")).toHaveCount(await explorer.locator("#panel-collisions .chord").count());
   await explorer.locator("#collision-index").fill("2");
   await expect(explorer.locator("#collision-count")).toContainText("3 of");
   await explorer.locator("#fan-step").fill("500");
   await expect(explorer.locator("#collision-count")).not.toContainText("of 1 ");
+});
+
+test("a time of the plane is pressed: its profile, why it is when it is, and the sum that it is", async ({ explorer }) => {
+  await explorer.locator('#plane [data-event-mark="t_1"] circle').click();
+  expect((await shown(explorer)).t).toBe(1.6129032258064517);
+  await expect(explorer.locator("#why-t_1")).toContainText("why the bed is about as well mixed");
+  await expect(explorer.locator("#why-t_1")).toContainText("(1 - 0.5) / 0.31 = 1.613");
+  await explorer.click('[aria-controls="why-t_c"]');
+  await expect(explorer.locator("#why-t_c")).toContainText("(0.5 - 0.29) / 0.31 = 0.6774");
+  await explorer.click('[aria-controls="why-t_0"]');
+  await expect(explorer.locator("#why-t_0")).toContainText("(0.5 - 0.29) / 0.31 + (0.29 - 0) / 2.4 = 0.7983");
+  await expect(explorer.locator("#mixing figcaption")).toContainText("at t = 1.613; largest");
+});
+
+test("what is not grains is not called so", async ({ explorer }) => {
+  await expect(explorer.locator("#scale")).toContainText("φ, share of small grains: 0 1");
+  await explorer.selectOption("#flux-model", "lwr");
+  await expect(explorer.locator("#scale")).toContainText("density of cars");
+  await explorer.click('[aria-controls="why-t_0"]');
+  await expect(explorer.locator("#why-t_0")).not.toContainText("grains");
+  await explorer.selectOption("#flux-model", "burgers");
+  await expect(explorer.locator("#scale")).toContainText("φ: -1 1");
+});
+
+test("a layer is cut in two, made slow, and the times say what they were", async ({ explorer }) => {
+  await explorer.click("#split-layer-1");
+  await explorer.fill("#rate-1", "0.1");
+  await explorer.press("#rate-1", "Enter");
+  const { toml, picture } = await shown(explorer);
+  expect(toml).toContain("breaks = [ 0.29, 0.645 ]");
+  await expect(explorer.locator("#events .was").last()).toContainText("was 8.781"); // of the cut alone
+  await explorer.click("#undo");
+  await expect(explorer.locator("#events .was").last()).toContainText(`was ${Number(picture.events!.tStar.toPrecision(4))}`);
+});
+
+test("names of times do not lie on each other, crowded as they are", async ({ explorer }) => {
+  await explorer.click("#tab-fit");
+  await explorer.selectOption("#dataset", { index: 1 }); // five layers, far beyond t*
+  const boxes = await explorer.$$eval("#plane .event text", (texts) => texts.map((t) => t.getBoundingClientRect()).map((b) => ({ left: b.left, right: b.right, top: b.top + 3, bottom: b.bottom - 3 })));
+  expect(boxes.length).toBeGreaterThan(5);
+  const clashes = boxes.flatMap((a, i) => boxes.slice(i + 1).filter((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom));
+  expect(clashes).toEqual([]);
+});
+
+test("knobs of the start lie on it, in a bed with pores too", async ({ explorer }) => {
+  await explorer.selectOption("#guided", "mixes-first");
+  const [knob, at] = await explorer.evaluate(() => {
+    const { profile } = (window as unknown as { shearfront: { profile: { x(phi: number): number; svg: SVGSVGElement } } }).shearfront;
+    const box = profile.svg.querySelector('[data-handle="state-1"] .knob')!.getBoundingClientRect();
+    return [box.left + box.width / 2 - profile.svg.getBoundingClientRect().left, profile.x(0.64)];
+  });
+  expect(Math.abs(knob! - at!)).toBeLessThan(1);
+  await drag(explorer, "profile", "state-1", -20, 0);
+  expect((await shown(explorer)).complaint).toBe("");
 });
 
 test("theme, text alternatives, names of all controls", async ({ explorer }) => {

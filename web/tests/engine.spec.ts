@@ -4,8 +4,14 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "@playwright/test";
 import { FLUX_NAMES } from "../src/bed/edits.ts";
-import { COARSE, makePicture } from "../src/bed/picture.ts";
+import { unknownOf } from "../src/bed/entries.ts";
+import { CELLS, fineEnough } from "../src/bed/costs.ts";
+import { COARSE, FINE, makePicture, type Picture } from "../src/bed/picture.ts";
+import { shocksOf } from "../src/bed/shocks.ts";
+import { readScene, type Scene } from "../src/bed/scene.ts";
+import { mixingAt } from "../src/bed/why.ts";
 import { Refusal } from "../src/engine/engine.ts";
+import { stretches } from "../src/view/fit_charts.ts";
 import { DATASETS, hasProgram, newEngine, program, sceneFiles } from "./places.ts";
 
 interface EventsJson {
@@ -96,6 +102,73 @@ for (const file of FITS) {
     expect(steps.length).toBeGreaterThan(2);
   });
 }
+
+test("the search is drawn in stretches that only go down", () => {
+  const course = [[1, 9], [2, 5], [3, 5], [4, 7], [5, 6], [6, 8]] as const;
+  expect(stretches(course)).toEqual([[[1, 9], [2, 5], [3, 5]], [[4, 7], [5, 6]], [[6, 8]]]);
+});
+
+test("what an accuracy costs a grid: of a power law the law itself, beyond the grids too", () => {
+  const trail = CELLS.map((n): [number, number] => [1e-5 * n ** 2, 3 / n]);
+  for (const cells of [30, 170, 800, 5000]) {
+    const found = fineEnough(trail, 3 / cells);
+    expect(found.cells / cells).toBeCloseTo(1, 10);
+    expect(found.ms / (1e-5 * cells ** 2)).toBeCloseTo(1, 10);
+  }
+});
+
+test("the largest mixing lies where a parabola has its top, between the times computed", () => {
+  const t = Array.from({ length: 11 }, (_, i) => i / 10);
+  const psi = t.map((x) => 0.9 - (x - 0.437) ** 2);
+  const found = mixingAt({ mixing: { t, psi } } as unknown as Picture, 0.25)!;
+  expect(found.tMost).toBeCloseTo(0.437, 12);
+  expect(found.psi).toBeCloseTo((psi[2]! + psi[3]!) / 2, 12);
+});
+
+test("shocks are there from the walls to t*, and no wave of a fan is one", () => {
+  const engine = newEngine();
+  for (const file of ["may-2010-piecewise/scene.toml", "may-2010-exponential/scene.toml"]) {
+    const picture = makePicture(engine, readFileSync(join(DATASETS, file), "utf8"), FINE);
+    const { t0, t1, tStar } = picture.events!;
+    const shocks = shocksOf(picture);
+    const at = (t: number): number => shocks.filter((f) => f.tBegin <= t && t < f.tEnd).length;
+    for (let i = 1; i < 50; ++i) {
+      // Of front tracking the first collision with a wall is late by part of a step.
+      if (i < 48) expect(at((t0 * i) / 50), file).toBe(0);
+      if (i > 5) expect(at(t0 + ((t1 - t0) * i) / 50), file).toBe(1);
+      if (i > 5) expect(at(t1 + ((tStar - t1) * i) / 50), file).toBe(2);
+    }
+  }
+  const bend = (file: string): number => makePicture(engine, readFileSync(join(DATASETS, file), "utf8"), COARSE).bend;
+  expect([bend("traffic-red-light/scene.toml"), bend("segregation-gamma-0.9/scene.toml")]).toEqual([-1, 0]);
+});
+
+test("answers of the guided scenes hold", () => {
+  const engine = newEngine();
+  const open = (file: string): void => void engine.setScene(readFileSync(join(DATASETS, file), "utf8"));
+  // Five layers: some 600 cells for front tracking with a step of 0.05, at the time that the scene opens with.
+  open("paper-example-4/scene.toml");
+  const error = (method: string): number => engine.pieces(method, 0.69, true).l1;
+  const tracked = error("front-tracking resolution=0.05");
+  expect(error("engquist-osher cells=500")).toBeGreaterThan(tracked);
+  expect(error("engquist-osher cells=700")).toBeLessThan(tracked);
+  // Best mixed one and a half times as late as t_1 = 0.5.
+  open("shear-cell-ideal/scene-inverse.toml");
+  const t = Array.from({ length: 41 }, (_, i) => 0.5 + 0.0125 * i);
+  const psi = Array.from(engine.mixing("front-tracking resolution=0.005 reconstruct=linear", t));
+  expect(t[psi.indexOf(Math.max(...psi))]! / 0.5).toBeCloseTo(1.5, 1);
+});
+
+test("a fit keeps what goes with the bed", () => {
+  const scene = (rate: string): Scene => readScene(`[shear_rate]\n${rate}\n[initial]\nbreaks = [0.5]\nvalues = [0, 1]\n`);
+  const three = scene("breaks = [0.3, 0.6]\nvalues = [3, 2, 1]");
+  const two = scene("breaks = [0.3]\nvalues = [3, 2]");
+  const whole = { parameters: ["shear_rate.values", "flux.gamma"], lower: [0, 0, 0, 0], upper: [9, 9, 9, 1], shape: "decreasing" };
+  expect(unknownOf(three, whole)).toBe(whole);
+  expect(unknownOf(two, whole)).toEqual({ parameters: whole.parameters });
+  expect(unknownOf(two, { parameters: ["shear_rate.values[2]", "shear_rate.values[1]"] })).toEqual({ parameters: ["shear_rate.values[1]"] });
+  expect(unknownOf(scene('model = "exponential"\namplitude = 3\ndecay = 0.2'), { parameters: ["shear_rate.values", "initial.breaks"] })).toEqual({ parameters: ["initial.breaks"] });
+});
 
 test("refusals are those of the program, word for word", () => {
   const engine = newEngine();

@@ -19,6 +19,12 @@ test("guided scenes: each opens without a complaint, with three sentences and a 
     await explorer.click("#guide summary");
   }
   await explorer.click("#guide-next");
+  const told = (await shown(explorer)).toml;
+  await expect(explorer.locator("#guide-again")).toBeHidden();
+  await drag(explorer, "plane", "interface-0", 0, -20);
+  await explorer.click("#guide-again");
+  expect((await shown(explorer)).toml).toBe(told);
+  await expect(explorer.locator("#guide-again")).toBeHidden();
   await expect(explorer.locator("#guide h2")).toContainText("1.");
   await explorer.click("#guide-before");
   await expect(explorer.locator("#guide h2")).toContainText("8.");
@@ -73,7 +79,10 @@ test("downloads: pictures, numbers, and a scene that the program runs to the sam
   const path = (name: string): string => info.outputPath(name);
   await drag(explorer, "plane", "interface-0", 0, -21);
   expect(readFileSync(await save(explorer, "plane.png", path)).subarray(1, 4).toString()).toBe("PNG");
-  expect(readFileSync(await save(explorer, "plane.svg", path), "utf8")).toContain("<image");
+  const picture = readFileSync(await save(explorer, "plane.svg", path), "utf8");
+  expect(picture).toContain("<image");
+  expect(picture).toContain("share of small grains: 0</text>");
+  expect(picture).toContain("May et al. 2010");
   expect(readFileSync(await save(explorer, "solution.csv", path), "utf8")).toMatch(/^t,z,phi,M\n0,0,0,0\n/);
   const scene = await save(explorer, "scene.toml", path);
   if (!hasProgram) return;
@@ -95,6 +104,40 @@ test("a fit set up on the page is run by the program", async ({ explorer }, info
   [3.314, 2.312, 1.629, 1.05, 0.5302].forEach((value, i) => expect(parameters[i]!.estimate).toBeCloseTo(value, 2));
 });
 
+test("scene, observations and fit are opened again, all three at once", async ({ explorer }, info) => {
+  await explorer.click("#tab-fit");
+  await explorer.selectOption("#dataset", { index: 3 });
+  await explorer.locator("#unknowns input").first().click();
+  const before = await shown(explorer);
+  const unknowns = (): Promise<string[]> => explorer.$$eval("#unknowns input:checked", (boxes) => boxes.map((b) => (b as HTMLInputElement).value));
+  const chosen = await unknowns();
+  expect(chosen.length).toBeGreaterThan(1);
+  const files: string[] = [];
+  for (const name of ["fit.toml", "observations.csv", "scene.toml"]) files.push(await save(explorer, name, (n) => info.outputPath(n)));
+  await explorer.selectOption("#guided", "may");
+  await explorer.locator("#open-file").setInputFiles(files);
+  await expect(explorer.locator("#data-about")).toContainText("400 observations (bin)");
+  expect((await shown(explorer)).toml).toBe(before.toml);
+  expect(await unknowns()).toEqual(chosen);
+  await expect(explorer.locator("#complaint")).toBeHidden();
+});
+
+test("a fit leaves nothing behind in the next scene, and outlives a layer", async ({ explorer }) => {
+  await explorer.selectOption("#guided", "particles");
+  await explorer.click("#tab-bed");
+  await explorer.click("#remove-layer-4");
+  await explorer.click("#tab-fit");
+  await expect(explorer.locator("#fit-state")).toHaveText(""); // bounds of five rates are no bounds of four
+  expect(Number(await explorer.locator("#panel-fit > div").getAttribute("data-rms"))).toBeGreaterThan(0);
+  await explorer.selectOption("#guided", "may");
+  await explorer.click("#tab-fit");
+  await expect(explorer.locator("#data-about")).toHaveText("");
+  await expect(explorer.locator("#dataset")).toHaveValue("");
+  await expect(explorer.locator("#run-fit")).toBeDisabled();
+  await explorer.click("#undo");
+  await expect(explorer.locator("#fit-state")).toHaveText("");
+});
+
 test("a fit in the worker: estimates, intervals, ellipse, and undo back to the start", async ({ explorer }, info) => {
   await explorer.click("#tab-fit");
   await explorer.selectOption("#dataset", { index: 1 });
@@ -107,6 +150,10 @@ test("a fit in the worker: estimates, intervals, ellipse, and undo back to the s
   const estimates = await explorer.$$eval("#estimates tbody tr td:nth-child(3)", (cells) => cells.map((c) => Number(c.textContent)));
   [3.314, 2.312, 1.629, 1.05, 0.5302].forEach((value, i) => expect(estimates[i]).toBeCloseTo(value, 2));
   expect(Number(await explorer.locator("#panel-fit > div").getAttribute("data-rms"))).toBeLessThan(rms);
+  const third = explorer.locator("#estimates tbody tr", { hasText: "rate of layer 3" });
+  await expect(third).toContainText("shear_rate.values[2]");
+  await expect(third).toContainText(/1\.627 to 1\.631 \(± 0\.1\d %\)/);
+  await expect(explorer.locator("#how-sure")).toContainText("Known best: rate of layer 5");
   await expect(explorer.locator(".curve.ellipse path")).toHaveAttribute("d", /M/);
   await explorer.selectOption("#ellipse-b", { index: 3 });
   await explorer.screenshot({ path: info.outputPath("fit.png"), fullPage: true });
@@ -160,7 +207,11 @@ test("400 px wide: nothing sticks out, and a finger drags", async ({ browser, ur
     expect(await page.evaluate(() => document.documentElement.scrollWidth), tab).toBeLessThanOrEqual(400);
     await page.screenshot({ path: info.outputPath(`400-${tab}.png`), fullPage: true });
   }
+  await page.evaluate(() => window.scrollTo(0, 0));
+  await page.tap('#plane [data-event-mark="t_1"] circle');
+  await expect(page.locator("#why-t_1")).toBeInViewport();
   const before = await shown(page);
+  expect(before.t).toBe(1.6129032258064517);
   await page.locator("#plane").scrollIntoViewIfNeeded();
   const box = (await page.locator('#plane [data-handle="interface-0"] .knob').boundingBox())!;
   const client = await context.newCDPSession(page);

@@ -2,7 +2,6 @@
 #include "shearfront/diffusion/cole_hopf_solver.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "shearfront/diffusion/closed_form.hpp"
 #include "shearfront/diffusion/steady_logistic.hpp"
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/numeric/quadrature.hpp"
 
 namespace shearfront {
 namespace {
@@ -31,9 +31,8 @@ class ColeHopfField final : public Field {
   [[nodiscard]] double integral(const ShareFunction& g) const override {
     constexpr unsigned kMostHalvings = 12;
     constexpr double kTolerance = 1e-11;
-    return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-        [&](double z) { return g.value(form_.value(z, t).phi); }, scene_.bottom(), scene_.top(),
-        kMostHalvings, kTolerance);
+    return integral_of_smooth<double>([&](double z) { return g.value(form_.value(z, t).phi); },
+                                      scene_.bottom(), scene_.top(), kMostHalvings, kTolerance);
   }
 
  private:

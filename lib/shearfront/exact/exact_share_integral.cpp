@@ -2,7 +2,6 @@
 #include "shearfront/exact/exact_share_integral.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +9,7 @@
 
 #include "shearfront/exact/smooth_pieces.hpp"
 #include "shearfront/numeric/contract.hpp"
+#include "shearfront/numeric/quadrature.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront {
@@ -127,8 +127,7 @@ class ShareIntegral {
     // Relative to the whole bed: in a short piece the rounding of phi would be taken for structure.
     constexpr unsigned kMostHalvings = 8;
     const double tolerance = 1e-12 * ((exact_.medium().top() - exact_.medium().bottom()) / (hi - lo));
-    sum_ += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(value, lo, hi, kMostHalvings,
-                                                                          std::min(tolerance, 1e-3));
+    sum_ += integral_of_smooth<double>(value, lo, hi, kMostHalvings, std::min(tolerance, 1e-3));
   }
 
   const ExactSolution<double>& exact_;

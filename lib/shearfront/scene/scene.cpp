@@ -3,15 +3,17 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 
 #include "shearfront/numeric/instantiated.hpp"
+#include "shearfront/numeric/quadrature.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront {
 namespace {
+
+constexpr unsigned kMostHalvings = 12;
 
 template <Real S>
 S value(const DepthFunction<S>& function, const S& z) {
@@ -36,6 +38,14 @@ S mean_of(const Function& f, const S& lo, const S& hi) {
   return boost::math::quadrature::gauss<S, 7>::integrate([&](const S& x) { return f(S(middle + half * x)); },
                                                          S(-1), S(1)) /
          S(2);
+}
+
+/// Of the quadrature of what is smooth over (lo, hi): above the rounding of the rule, and of z itself where that is a part of a
+/// narrow interval. Less is never met, and costs every halving that is allowed.
+template <Real S>
+S quadrature_tolerance(const S& lo, const S& hi) {
+  const S size = std::max(S(lo < 0 ? -lo : lo), S(hi < 0 ? -hi : hi)), most = S(1) / S(1000);
+  return std::min(most, S((S(32) + S(4) * size / (hi - lo)) * std::numeric_limits<S>::epsilon()));
 }
 
 /// int c share dz of a smooth start, no more than there is room for its least and largest value: by its own integral where c is
@@ -70,9 +80,9 @@ S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S&
     if (is_layered)
       sum += value(*c, from) * S(model.integral(from, to));
     else
-      sum += boost::math::quadrature::gauss_kronrod<S, 15>::integrate(
-          [&](const S& z) { return S(scene.solid_fraction_at(z) * u(z) * model.value(z)); }, from, to, 12u,
-          S(4) * std::numeric_limits<S>::epsilon());
+      sum += integral_of_smooth<S>(
+          [&](const S& z) { return S(scene.solid_fraction_at(z) * u(z) * model.value(z)); }, from, to,
+          kMostHalvings, quadrature_tolerance<S>(from, to));
     from = to;
   };
   for (const S& z : cuts)
@@ -291,9 +301,9 @@ S Scene<S>::solid(const S& lo, const S& hi) const {
       return S(value(*spec_.solid_fraction, z) *
                std::visit([&](const auto& u) { return S(u.value(z)); }, *spec_.velocity));
     };
-    sum += is_constant ? S(mean_solid_fraction(from, to) * flow(from, to))
-                       : boost::math::quadrature::gauss_kronrod<S, 15>::integrate(
-                             passing, from, to, 12u, S(4) * std::numeric_limits<S>::epsilon());
+    sum += is_constant
+               ? S(mean_solid_fraction(from, to) * flow(from, to))
+               : integral_of_smooth<S>(passing, from, to, kMostHalvings, quadrature_tolerance<S>(from, to));
     from = to;
   };
   std::vector<S> cuts = std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction);

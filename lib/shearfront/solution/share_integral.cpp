@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/solution/share_integral.hpp"
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <variant>
 #include <vector>
 
+#include "shearfront/numeric/quadrature.hpp"
 #include "shearfront/numeric/sum.hpp"
 
 namespace shearfront {
@@ -28,7 +28,7 @@ double integral_of(const Scene<double>& scene, const SharePiece& piece, const Sh
   if (is_layered && piece.phi_lo == piece.phi_hi) return g.value(piece.phi_lo / mean) * (mean * width);
   constexpr unsigned kMostHalvings = 5;
   constexpr double kTolerance = 1e-10;
-  return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+  return integral_of_smooth<double>(
       [&](double z) {
         const double c = is_layered ? mean : scene.solid_fraction_at(z);
         return g.value(phi_at(z) / c) * c;

@@ -2,9 +2,9 @@
 #include "shearfront/track/curved_field.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
+#include "shearfront/numeric/quadrature.hpp"
 #include "shearfront/track/level_lines.hpp"
 
 namespace shearfront {
@@ -51,16 +51,15 @@ double CurvedField::integral(const ShareFunction& g) const {
       constexpr unsigned kMostHalvings = 5;
       constexpr double kTolerance = 1e-10;
       if (turn < lo - (hi - lo) || turn > hi + (hi - lo)) {
-        sum += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-            [&](double z) { return value(z); }, cuts[k], cuts[k + 1], kMostHalvings, kTolerance);
+        sum += integral_of_smooth<double>([&](double z) { return value(z); }, cuts[k], cuts[k + 1],
+                                          kMostHalvings, kTolerance);
         continue;
       }
       // z = turn +- y^2: in y a level is smooth.
       const double from = std::sqrt(std::abs(cuts[k] - turn)), to = std::sqrt(std::abs(cuts[k + 1] - turn));
       const double sign = cuts[k] < turn ? -1 : 1;
-      sum += sign * boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-                        [&](double y) { return 2 * y * value(turn + sign * y * y); }, from, to, kMostHalvings,
-                        kTolerance);
+      sum += sign * integral_of_smooth<double>([&](double y) { return 2 * y * value(turn + sign * y * y); },
+                                               from, to, kMostHalvings, kTolerance);
     }
   }
   return sum.value();

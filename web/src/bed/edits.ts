@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What can be done to a bed: each edit gives a new scene, valid if the old one was.
-import { bottomOf, fluxOf, hasSteps, number, numbers, rateModel, type Scene, scaleOf, type Table, table, topOf, withTable, without } from "./scene.ts";
+import { bottomOf, fluxOf, hasSteps, number, numbers, rateModel, type Scene, scaleOf, type Table, table, topOf, type Value, withTable, without } from "./scene.ts";
 
 const clamp = (x: number, low: number, high: number): number => Math.min(high, Math.max(low, x));
 
@@ -41,24 +41,29 @@ export function setState(scene: Scene, i: number, phi: number, low: number, high
   return withTable(scene, "initial", { values: values.map((v, k) => (k === i ? state : v)) });
 }
 
-/** The widest piece between breaks, and its middle. */
+/** A piece between breaks, and its middle. */
+function middleOf(scene: Scene, breaks: number[], i: number): { i: number; z: number } {
+  const edges = [bottomOf(scene), ...breaks, topOf(scene)];
+  return { i, z: tidy((edges[i]! + edges[i + 1]!) / 2, edges.at(-1)! - edges[0]!) };
+}
+
 function widest(scene: Scene, breaks: number[]): { i: number; z: number } {
   const edges = [bottomOf(scene), ...breaks, topOf(scene)];
   let i = 0;
   for (let k = 1; k + 1 < edges.length; ++k) if (edges[k + 1]! - edges[k]! > edges[i + 1]! - edges[i]! + 1e-12) i = k;
-  return { i, z: tidy((edges[i]! + edges[i + 1]!) / 2, edges.at(-1)! - edges[0]!) };
+  return middleOf(scene, breaks, i);
 }
 
 function inserted<T>(xs: T[], at: number, x: T): T[] {
   return [...xs.slice(0, at), x, ...xs.slice(at)];
 }
 
-/** Cuts the thickest layer in two; the upper part moves at 0.6 of its rate. */
-export function addLayer(scene: Scene): Scene {
+/** Cuts layer i in two, or else the thickest; the upper part moves at 0.6 of its rate. */
+export function addLayer(scene: Scene, layer?: number): Scene {
   const rate = table(scene, "shear_rate");
   const breaks = numbers(rate, "breaks");
   const values = numbers(rate, "values");
-  const { i, z } = widest(scene, breaks);
+  const { i, z } = layer === undefined ? widest(scene, breaks) : middleOf(scene, breaks, layer);
   return withTable(scene, "shear_rate", {
     breaks: inserted(breaks, i, z),
     values: inserted(values, i + 1, tidy(values[i]! * 0.6, values[i]!)),
@@ -132,7 +137,7 @@ export function setFlux(scene: Scene, model: string): Scene {
   return endsOf(scene) === "open" ? setEnds(changed, "open") : changed;
 }
 
-export function setFluxEntry(scene: Scene, key: string, value: number): Scene {
+export function setFluxEntry(scene: Scene, key: string, value: Value): Scene {
   return { ...scene, flux: { ...fluxOf(scene), [key]: value } };
 }
 

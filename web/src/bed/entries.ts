@@ -40,6 +40,23 @@ export function withValues(scene: Scene, names: readonly string[], values: Array
   return changed;
 }
 
+/** False for what layers, jumps and kinds of a(z) brought with them, and took. */
+function isStillIn(scene: Scene, name: string): boolean {
+  const { table, key, index } = parsed(name);
+  if (!["shear_rate", "initial"].includes(table) || !["values", "breaks", "amplitude", "decay"].includes(key)) return true;
+  const value = lookUp(scene, parsed(name));
+  return value !== undefined && (index === undefined || (Array.isArray(value) && index < value.length));
+}
+
+/** [unknown] of a fit file as far as it goes with a scene: as it is, or the names that are left, without bounds and whatever else counts them. */
+export function unknownOf(scene: Scene, unknown: Table): Table {
+  const all = Array.isArray(unknown["parameters"]) ? unknown["parameters"].map(String) : [];
+  const parameters = all.filter((name) => isStillIn(scene, name));
+  const n = expanded(scene, parameters).length;
+  const isWhole = parameters.length === all.length && Object.entries(unknown).every(([key, value]) => key === "parameters" || !Array.isArray(value) || value.length === n);
+  return isWhole ? unknown : { parameters };
+}
+
 /** What of a scene can be unknown. */
 export function fieldsOf(scene: Scene): string[] {
   const names: string[] = [];

@@ -18,6 +18,7 @@ export interface Picture {
   events: EventTimes | undefined;
   fronts: Front[];
   frontStep: number; // largest step of phi in their fans
+  bend: number; // 1 for a convex flux, -1 for a concave one, 0 for others and where fronts are curved
   collisions: Collision[];
   tMax: number;
   raster: Raster;
@@ -76,6 +77,21 @@ function rateCurve(engine: Engine, facts: SceneFacts): Picture["rate"] {
   return { z, speed: Array.from(rate), solid: Array.from(solid) };
 }
 
+/** Which way the flux bends: in every layer, as they may have fluxes of their own. */
+function bendOf(engine: Engine, facts: SceneFacts): number {
+  const edges = [facts.bottom, ...facts.knots, facts.top];
+  let [low, high] = [0, 0];
+  for (let k = 0; k + 1 < edges.length; ++k) {
+    const flux = engine.flux((edges[k]! + edges[k + 1]!) / 2, 32).map((p) => p.flux);
+    const size = Math.max(...flux) - Math.min(...flux) || 1;
+    for (let i = 1; i + 1 < flux.length; ++i) {
+      const bend = (flux[i - 1]! - 2 * flux[i]! + flux[i + 1]!) / size;
+      [low, high] = [Math.min(low, bend), Math.max(high, bend)];
+    }
+  }
+  return low > -1e-9 ? 1 : high < 1e-9 ? -1 : 0;
+}
+
 /** How long there is something to see: a little more than t*, or while a wave crosses the bed a few times. */
 export function naturalTime(events: EventTimes | undefined, facts: SceneFacts, speeds: readonly number[]): number {
   const end = events?.tStar ?? NaN;
@@ -130,7 +146,7 @@ export function makePicture(engine: Engine, toml: string, detail: Detail, tMax?:
     }
   }
   return {
-    facts, method, events, noEvents, fronts, collisions, frontStep: detail.frontStep, tMax: end, raster,
+    facts, method, events, noEvents, fronts, collisions, frontStep: detail.frontStep, bend: facts.isBed && facts.isLayered ? bendOf(engine, facts) : 0, tMax: end, raster,
     mixing: { t: psi.length > 0 ? t : [], psi }, rate, ms: performance.now() - begin,
   };
 }

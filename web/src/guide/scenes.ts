@@ -86,7 +86,7 @@ export const GUIDED: readonly GuidedScene[] = [
       "Below, three methods do the same profile: watch what an error half as large costs each of them.",
     ],
     question: "How many cells does it take to be as accurate as front tracking with a step of 0.05, and how much longer does that last?",
-    answer: "Some 400, and roughly ten times as long: the error falls like 1/N at shocks while the work grows like N squared.",
+    answer: "Some 600, and ten to twenty times as long: the error falls like 1/N at shocks while the work grows like N squared.",
   },
   {
     id: "particles", title: "A particle simulation and its misfit", toml: of("dem-shear-cell-piecewise/scene-5-layers.toml"), tab: "fit", dataset: "dem-shear-cell-piecewise/observations-early.csv",

@@ -4,6 +4,7 @@ import formulas from "virtual:formulas";
 import type { App } from "../app.ts";
 import * as edit from "../bed/edits.ts";
 import { fluxOf, hasManyFluxes, hasSteps, number, numbers, rateModel, scaleOf, type Scene, table, type Table } from "../bed/scene.ts";
+import { brief } from "../view/numbers.ts";
 import { html } from "../view/svg.ts";
 
 function field(label: string, value: number, apply: (x: number) => void, id: string): HTMLElement {
@@ -22,7 +23,7 @@ function choice(label: string, options: readonly string[], chosen: string, apply
 }
 
 function button(text: string, act: () => void, id: string, label = text): HTMLButtonElement {
-  const element = html("button", { type: "button", id, "aria-label": label }, text);
+  const element = html("button", { type: "button", id, "aria-label": label, title: label }, text);
   element.addEventListener("click", act);
   return element;
 }
@@ -42,8 +43,9 @@ function rateBox(app: App): HTMLElement {
     const values = numbers(rate, "values");
     const rows = values.map((a, i) => html("div", { class: "row" },
       field(`layer ${i + 1}: a`, a, (x) => app.change(edit.setRateEntry(app.scene, "values", values.map((v, k) => (k === i ? x : v)))), `rate-${i}`),
-      i < breaks.length ? field("up to z", breaks[i]!, (z) => app.change(edit.moveInterface(app.scene, i, z)), `break-${i}`) : "",
-      values.length > 1 ? button("×", () => app.change(edit.removeLayer(app.scene, i)), `remove-layer-${i}`, `remove layer ${i + 1}`) : "")).reverse();
+      i < breaks.length ? field("up to z", breaks[i]!, (z) => app.change(edit.moveInterface(app.scene, i, z)), `break-${i}`) : html("span", { class: "note" }, "up to the top"),
+      html("span", { class: "tools" }, button("÷", () => app.change(edit.addLayer(app.scene, i)), `split-layer-${i}`, `cut layer ${i + 1} in two`),
+        values.length > 1 ? button("×", () => app.change(edit.removeLayer(app.scene, i)), `remove-layer-${i}`, `remove layer ${i + 1}`) : ""))).reverse();
     parts.push(...rows, button("add a layer", () => app.change(edit.addLayer(app.scene)), "add-layer"));
   } else if (model === "exponential") {
     for (const key of ["amplitude", "decay"])
@@ -63,8 +65,8 @@ function startBox(app: App): HTMLElement {
   const { lowest, highest } = app.picture.facts;
   const rows = values.map((phi, i) => html("div", { class: "row" },
     field(`piece ${i + 1}: φ`, phi, (x) => app.change(edit.setState(app.scene, i, x, lowest, highest)), `start-${i}`),
-    i < breaks.length ? field("up to z", breaks[i]!, (z) => app.change(edit.moveJump(app.scene, i, z)), `start-break-${i}`) : "",
-    i > 0 ? button("×", () => app.change(edit.removeJump(app.scene, i - 1)), `remove-jump-${i - 1}`, `remove jump ${i}`) : "")).reverse();
+    i < breaks.length ? field("up to z", breaks[i]!, (z) => app.change(edit.moveJump(app.scene, i, z)), `start-break-${i}`) : html("span", { class: "note" }, "up to the top"),
+    i > 0 ? html("span", { class: "tools" }, button("×", () => app.change(edit.removeJump(app.scene, i - 1)), `remove-jump-${i - 1}`, `remove jump ${i}`)) : "")).reverse();
   return box("Start φ(z, 0)", ...rows, button("add a jump", () => app.change(edit.addJump(app.scene, lowest, highest)), "add-jump"));
 }
 
@@ -74,10 +76,13 @@ function fluxBox(app: App): HTMLElement {
   const model = String(flux["model"] ?? "quadratic");
   const formula = html("p", { class: "formula" });
   formula.innerHTML = formulas[`flux ${model}`] ?? "";
+  const at = numbers(flux, "phi");
+  const points = numbers(flux, "values").map((value, i, all) =>
+    field(`f(${brief(at[i] ?? NaN)})`, value, (x) => app.change(edit.setFluxEntry(app.scene, "values", all.map((v, k) => (k === i ? x : v)))), `flux-point-${i}`));
   const entries = Object.entries(flux).filter(([, value]) => typeof value === "number");
   return box("Flux",
     choice("f(φ)", edit.FLUX_NAMES, model, (to) => app.change(edit.setFlux(app.scene, to)), "flux-model"), formula,
-    ...entries.map(([key, value]) => field(key, Number(value), (x) => app.change(edit.setFluxEntry(app.scene, key, x)), `flux-${key}`)),
+    ...entries.map(([key, value]) => field(key, Number(value), (x) => app.change(edit.setFluxEntry(app.scene, key, x)), `flux-${key}`)), ...points,
     ...(edit.needsOneRate(model) ? [html("p", { class: "note" }, "Its bed has one rate everywhere: the flux does not vanish at the ends of its states, so no interface passes it on.")] : []),
     ...(hasManyFluxes(scene) ? [html("p", { class: "note" }, "Layers of this bed have fluxes of their own; choosing one replaces them all.")] : []));
 }

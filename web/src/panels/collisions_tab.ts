@@ -9,8 +9,14 @@ import { brief } from "../view/numbers.ts";
 import { html } from "../view/svg.ts";
 import { logSlider } from "./slider.ts";
 
-const inWords = (chords: readonly Chord[]): string =>
-  chords.length === 0 ? "none" : chords.slice(0, 6).map((c) => `${brief(c.below)} | ${brief(c.above)} with speed ${brief(c.speed)}`).join(", ") + (chords.length > 6 ? `, and ${chords.length - 6} more` : "");
+const MOST = 6;
+
+/** Fronts as rows of a table: what they carry, and how fast. */
+function rowsOf(title: string, chords: readonly Chord[]): HTMLElement[] {
+  const rows = chords.slice(0, MOST).map((c) => [title, brief(c.below), brief(c.above), brief(c.speed)]);
+  if (chords.length > MOST) rows.push([title, `and ${chords.length - MOST} more`, "", ""]);
+  return rows.map(([first, ...rest]) => html("tr", {}, html("th", { scope: "row" }, first!), ...rest.map((x) => html("td", { class: "number" }, x))));
+}
 
 export class CollisionsTab {
   readonly element: HTMLElement;
@@ -18,6 +24,9 @@ export class CollisionsTab {
   private readonly chart = new Chart();
   private readonly count = html("output", { id: "collision-count", "aria-live": "polite" });
   private readonly words = html("p", { id: "collision-words" });
+  private readonly rows = html("tbody");
+  private readonly table = html("table", { id: "collision-fronts" }, html("thead", {}, html("tr", {}, ...["front", "φ below", "φ above", "speed"].map((h) => html("th", { scope: "col" }, h)))), this.rows);
+  private readonly sides = html("p", { class: "note" }, html("span", { class: "key below" }, "– · –"), " flux below the interface  ", html("span", { class: "key above" }, "——"), " above it");
   private readonly range = html("input", { type: "range", id: "collision-index", min: 0, max: 0, step: 1, "aria-label": "collision" });
   private readonly fan = logSlider("fan-step", "step of φ in the fans", 0.01, 0.5, 0.2, (x) => Number(x.toPrecision(2)), (x) => {
     this.app.frontResolution = x;
@@ -37,10 +46,10 @@ export class CollisionsTab {
     const rule = html("span", { class: "formula" });
     rule.innerHTML = formulas["hugoniot"]!;
     this.element = html("div", {},
-      html("p", { class: "lead" }, "Front tracking knows the solution between collisions: fronts run straight. Step from one to the next, and see the Riemann problem that each is. A front is a chord of the flux; its slope is its speed, ", rule, "."),
-      html("div", { class: "row" }, step(-1, "collision-before", "◀", "collision before"), this.range, step(1, "collision-next", "▶", "next collision"), this.count),
-      this.fan.element, html("div", { class: "cards" }, html("section", { class: "card wide" }, this.chart.element), html("section", { class: "card" }, this.words,
-        html("p", { class: "note" }, html("span", { class: "key incoming" }, "- - -"), " comes in  ", html("span", { class: "key outgoing" }, "——"), " goes out"))));
+      html("p", { class: "lead" }, "Front tracking knows the solution between collisions: fronts run straight. Step from one to the next, and see the Riemann problem that each is. Steps of φ stand for a fan: the finer, the more fronts, and the nearer to the event times. A front is a chord of the flux; its slope is its speed, ", rule, "."),
+      html("div", { class: "row steps" }, step(-1, "collision-before", "◀", "collision before"), this.range, step(1, "collision-next", "▶", "next collision"), this.count),
+      this.fan.element, html("div", { class: "cards" }, html("section", { class: "card wide" }, this.chart.element), html("section", { class: "card" }, this.words, this.table,
+        html("p", { class: "note" }, html("span", { class: "key incoming" }, "- - -"), " chord of a front that comes in  ", html("span", { class: "key outgoing" }, "——"), " that goes out"), this.sides)));
     app.listen({ sceneChanged: (isDrag) => { if (!isDrag && this.isShown()) this.show(); } });
   }
 
@@ -75,6 +84,8 @@ export class CollisionsTab {
     if (!collision) {
       this.count.textContent = "no collisions";
       this.words.textContent = app.engine.refusal("front-tracking") || "Nothing meets in the time shown.";
+      this.table.hidden = this.sides.hidden = true;
+      this.chart.element.setAttribute("hidden", "");
       app.collision = undefined;
       app.draw();
       return;
@@ -85,7 +96,11 @@ export class CollisionsTab {
     app.setTime(collision.t);
     const problem = riemannProblem(app.engine, app.picture.facts, app.picture.fronts, collision);
     const where = problem.isWall ? "at a wall" : problem.isInterface ? "at an interface" : "inside a layer";
-    this.words.textContent = `t = ${brief(collision.t)}, z = ${brief(collision.z)}, ${where}: ${collision.incoming} in, ${collision.outgoing} out. In: ${inWords(problem.incoming)}. Out: ${inWords(problem.outgoing)}.`;
+    this.words.textContent = `t = ${brief(collision.t)}, z = ${brief(collision.z)}, ${where}: ${collision.incoming} in, ${collision.outgoing} out.`;
+    this.rows.replaceChildren(...rowsOf("comes in", problem.incoming), ...rowsOf("goes out", problem.outgoing));
+    this.table.hidden = false;
+    this.sides.hidden = !problem.isInterface;
+    this.chart.element.removeAttribute("hidden");
     this.draw(problem);
   }
 
@@ -101,13 +116,9 @@ export class CollisionsTab {
     const fluxes = [...problem.below, ...problem.above].map((p) => p.flux);
     const [low, high] = [Math.min(...fluxes, 0), Math.max(...fluxes, 0)];
     const margin = 0.08 * (high - low || 1);
-    const texts = problem.isInterface ? [
-      { x: problem.below[80]!.phi, y: problem.below[80]!.flux, text: "below the interface" },
-      { x: problem.above[80]!.phi, y: problem.above[80]!.flux, text: "above" },
-    ] : [];
     this.chart.draw({
       width: 440, height: 300, xTitle: "φ", yTitle: "flux s a f(φ)", x: [facts.lowest, facts.highest], y: [low - margin, high + margin],
       label: "Flux plane of the collision: " + this.words.textContent,
-    }, series, texts);
+    }, series);
   }
 }

@@ -2,19 +2,11 @@
 // Event times: name, meaning, and every digit.
 import formulas from "virtual:formulas";
 import type { App } from "../app.ts";
+import { whyOf } from "../bed/why.ts";
 import { unitsOf } from "../bed/scene.ts";
 import { brief, full } from "../view/numbers.ts";
+import { prose } from "../view/prose.ts";
 import { html, join, set } from "../view/svg.ts";
-
-const WHY: Record<string, string> = {
-  "t_c": "A wave runs from the jump of the start to the interface: pure grains next to it, so with the speed s a of its layer. Until then the layer beyond does not know of it.",
-  "t_0": "The lower edge of the fan of waves meets the bottom. From here on small grains pile up there: a shock rises.",
-  "t_1": "The upper edge of the fan meets the top. By now the fan covers nearly the whole bed, and inside a fan both kinds of grains are present at every height: the bed is about as well mixed as it gets. From here on large grains pile up at the top, and a shock of pure large grains runs down. In a fast layer the same flux takes fewer grains, so φ is near 0 or 1 there even inside the fan. The mixing Ψ in the strip goes on rising a little, while the fan flattens, and falls when the shocks take away more.",
-  "t^_c": "The last shock has passed the interface.",
-  "t*": "The shock from the bottom and that from the top have met: all small grains lie below, all large ones above.",
-};
-
-const AT_ONCE = "Both kinds of grains are there from the start, so something moves at once.";
 
 export function eventsTable(app: App): HTMLElement {
   const body = html("tbody");
@@ -36,11 +28,11 @@ export function eventsTable(app: App): HTMLElement {
       if (isWhy) {
         row.className = "why";
         row.hidden = !opened.has(m.id);
-        row.replaceChildren(html("td", { colspan: 3, id: `why-${m.id}` }, m.t === 0 && ["t_c", "t_0", "t_1"].includes(m.formula) ? AT_ONCE : WHY[m.formula] ?? ""));
+        row.replaceChildren(html("td", { colspan: 3, id: `why-${m.id}` }, ...(row.hidden ? [] : prose(whyOf(app.scene, app.picture, m)))));
         return;
       }
       const symbol = html("th", { scope: "row" });
-      symbol.innerHTML = formulas[m.formula]! + m.index;
+      symbol.innerHTML = formulas[m.formula]! + (m.index && `<span class="index">${m.index}</span>`);
       const time = html("td", { class: "number", "data-event": m.id }, full(m.t));
       const explain = html("button", { type: "button", class: "explain", "aria-expanded": String(opened.has(m.id)), "aria-controls": `why-${m.id}` }, m.meaning);
       explain.addEventListener("click", () => {
@@ -48,7 +40,9 @@ export function eventsTable(app: App): HTMLElement {
         fill(true);
         body.querySelector<HTMLElement>(`[aria-controls="why-${CSS.escape(m.id)}"]`)?.focus();
       });
-      row.replaceChildren(symbol, html("td", {}, explain), time);
+      const before = app.timesBefore.get(m.id);
+      const was = before === undefined || before === m.t ? "" : html("span", { class: "note was" }, `was ${brief(before)}`);
+      row.replaceChildren(symbol, html("td", {}, explain, was), time);
       if (!Number.isFinite(m.t)) return;
       const go = html("button", { type: "button", title: `show φ at ${m.id}`, "aria-label": `${full(m.t)}: show the profile at ${m.id}` }, full(m.t));
       go.addEventListener("click", () => app.setTime(m.t));
@@ -58,7 +52,12 @@ export function eventsTable(app: App): HTMLElement {
     note.textContent = (app.picture.noEvents && `No event times: ${app.picture.noEvents}.`) || (app.picture.method === "exact" ? "" : `By front tracking, first order in its fans: ${app.engine.refusal("exact")}`);
     set(note, { hidden: note.textContent === "" });
   };
-  app.listen({ sceneChanged: fill });
+  const choose = (id: string): void => {
+    opened.add(id);
+    fill(true);
+    document.getElementById(`why-${id}`)?.scrollIntoView({ block: "nearest" });
+  };
+  app.listen({ sceneChanged: fill, eventChosen: choose });
   fill();
   return section;
 }

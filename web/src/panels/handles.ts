@@ -34,6 +34,15 @@ function jumps(bed: Bed, x: (i: number) => number): Handle[] {
   }));
 }
 
+/** Solids of the bed at a height: states of the start are shares of them. */
+function solidAt(picture: Picture, z: number): number {
+  const { z: heights, solid } = picture.rate;
+  const after = heights.findIndex((height) => height >= z);
+  if (after <= 0) return solid[Math.max(0, after)] ?? 1;
+  const [low, high] = [heights[after - 1]!, heights[after]!];
+  return solid[after - 1]! + ((z - low) / (high - low || 1)) * (solid[after]! - solid[after - 1]!);
+}
+
 export function planeHandles(bed: Bed): Handle[] {
   const { tMax } = bed.picture;
   return [...jumps(bed, () => 0), ...interfaces(bed, () => tMax)];
@@ -47,13 +56,16 @@ export function profileHandles(bed: Bed): Handle[] {
   const breaks = numbers(start, "breaks");
   const values = numbers(start, "values");
   const edges = [bottomOf(scene), ...breaks, topOf(scene)];
-  const states: Handle[] = values.map((phi, i) => ({
-    id: `state-${i}`, label: `Start, piece ${i + 1} from the bottom`, text: `phi = ${brief(phi)}`, value: phi,
-    x: phi, y: (edges[i]! + edges[i + 1]!) / 2, direction: "x",
-    drag: (to) => bed.change(edit.setState(bed.scene, i, to, lowest, highest)),
-    step: (by) => bed.change(edit.setState(bed.scene, i, phi + by * (highest - lowest), lowest, highest)),
-  }));
-  return [...states, ...jumps(bed, (i) => (values[i]! + values[i + 1]!) / 2)];
+  const states: Handle[] = values.map((phi, i) => {
+    const y = (edges[i]! + edges[i + 1]!) / 2;
+    const solid = solidAt(picture, y);
+    return {
+      id: `state-${i}`, label: `Start, piece ${i + 1} from the bottom`, text: `phi = ${brief(phi)}`, value: phi, x: phi * solid, y, direction: "x",
+      drag: (to) => bed.change(edit.setState(bed.scene, i, to / solid, lowest, highest)),
+      step: (by) => bed.change(edit.setState(bed.scene, i, phi + by * (highest - lowest), lowest, highest)),
+    };
+  });
+  return [...states, ...jumps(bed, (i) => ((values[i]! + values[i + 1]!) / 2) * solidAt(picture, breaks[i]!))];
 }
 
 export function rateHandles(bed: Bed, widest: number): Handle[] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture for those who do not see it: event times and a profile in words and numbers.
 import type { App } from "../app.ts";
+import { phiInWords } from "../bed/words.ts";
 import { spread } from "../bed/picture.ts";
 import { brief } from "../view/numbers.ts";
 import { planeInWords } from "../view/plane.ts";
@@ -15,7 +16,7 @@ export function reading(app: App): HTMLElement {
   const fill = (): void => {
     if (!details.open) return;
     const { picture, t } = app;
-    words.textContent = planeInWords(picture, app.times, String(app.scene["name"] ?? "A bed"));
+    words.textContent = planeInWords(picture, app.times, String(app.scene["name"] ?? "A bed"), phiInWords(app.scene));
     caption.textContent = `φ and M = ∫ φ dz at t = ${brief(t)}`;
     const z = spread(picture.facts.bottom, picture.facts.top, 11);
     try {

@@ -2,7 +2,10 @@
 // What is on the screen as files: pictures, numbers, the scene and the fit for the program.
 import type { App } from "../app.ts";
 import { spread } from "../bed/picture.ts";
-import { html } from "../view/svg.ts";
+import { phiInWords } from "../bed/words.ts";
+import { css } from "../view/colours.ts";
+import { brief } from "../view/numbers.ts";
+import { html, svg } from "../view/svg.ts";
 import type { FitTab } from "./fit_tab.ts";
 
 function give(name: string, content: Blob): void {
@@ -33,13 +36,34 @@ export function svgOf(app: App): string {
   copy.querySelectorAll(".handle, .now").forEach((element) => element.remove());
   const paper = getComputedStyle(document.body).backgroundColor;
   const { width, height } = plane.frame;
-  const image = `<rect width="${width}" height="${height}" fill="${paper}"/><image href="${plane.canvas.toDataURL("image/png")}" width="${width}" height="${height}"/>`;
+  const image = `<rect width="${width}" height="${height + LEGEND}" fill="${paper}"/><image href="${plane.canvas.toDataURL("image/png")}" width="${width}" height="${height}"/>`;
+  for (const [key, value] of Object.entries({ viewBox: `0 0 ${width} ${height + LEGEND}`, width, height: height + LEGEND })) copy.setAttribute(key, String(value));
+  copy.append(legend(app, height));
   const text = new XMLSerializer().serializeToString(copy);
   return text.replace(/^(<svg[^>]*>)/, `$1${image}`);
 }
 
+const LEGEND = 30; // pixels below the plane
+
+/** What the colours stand for, and which bed it is. */
+function legend(app: App, top: number): SVGGElement {
+  const { lowest, highest } = app.picture.facts;
+  const words = phiInWords(app.scene);
+  const style = { y: top + 18, "font-size": 13, "font-family": getComputedStyle(document.body).fontFamily, fill: getComputedStyle(document.body).color };
+  const before = `φ${words && ", " + words}: ${brief(lowest)}`;
+  const left = app.plane.frame.left;
+  const bar = left + 7.5 * before.length + 8;
+  const group = svg("g", {}, undefined);
+  group.append(svg("text", { ...style, x: left }, before));
+  for (let i = 0; i < 60; ++i) group.append(svg("rect", { x: bar + 2 * i, y: top + 8, width: 2.5, height: 11, fill: css(i / 59) }));
+  group.append(svg("text", { ...style, x: bar + 128 }, brief(highest)));
+  group.append(svg("text", { ...style, x: app.plane.frame.width - 14, "text-anchor": "end" }, String(app.scene["name"] ?? "")));
+  return group;
+}
+
 async function pngOf(app: App): Promise<Blob> {
-  const { width, height } = app.plane.frame;
+  const { width } = app.plane.frame;
+  const height = app.plane.frame.height + LEGEND;
   const image = new Image();
   image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svgOf(app));
   await image.decode();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Axes of a panel: ticks, numbers, title.
-import type { ScaleLinear, ScaleLogarithmic } from "d3-scale";
+import { format } from "d3-format";
+import { scaleLinear, type ScaleLinear, type ScaleLogarithmic } from "d3-scale";
 import { join, set, svg } from "./svg.ts";
 
 type Scale = ScaleLinear<number, number> | ScaleLogarithmic<number, number>;
@@ -14,6 +15,8 @@ export interface Frame {
   bottom: number;
 }
 
+const short = format(".2~g");
+
 interface Tick {
   value: number;
   text: string;
@@ -24,13 +27,21 @@ function ticks(scale: Scale, n: number): Tick[] {
   const isLog = "base" in scale;
   const values = scale.ticks(n);
   if (!isLog) {
-    const label = scale.tickFormat(n);
-    return values.map((value) => ({ value, text: label(value).replace("−", "-") }));
+    const usual = scale.tickFormat(n);
+    const isLong = values.some((value) => usual(value).length > 7);
+    return values.map((value) => ({ value, text: (isLong ? short(value) : usual(value)).replace("−", "-") }));
   }
   const lead = (x: number): number => Math.round(x / 10 ** Math.floor(Math.log10(x) + 1e-9));
   const powers = values.filter((x) => lead(x) === 1);
   const shown = powers.length >= 2 ? powers : values.filter((x) => [1, 2, 5].includes(lead(x)));
   return shown.map((value) => ({ value, text: value >= 1e-2 && value < 1e4 ? String(Number(value.toPrecision(2))) : value.toExponential(0) }));
+}
+
+const rowsOf = (height: number): number => Math.max(1, height / 60);
+
+/** Letters of the longest number of an axis upwards. */
+export function widestTick(low: number, high: number, height: number): number {
+  return Math.max(...ticks(scaleLinear().domain([low, high]), rowsOf(height)).map((t) => t.text.length));
 }
 
 export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: string, n: number = Math.max(2, (frame.width - frame.left) / 80)): void {
@@ -49,7 +60,7 @@ export function drawXAxis(group: SVGGElement, frame: Frame, x: Scale, title: str
   });
 }
 
-export function drawYAxis(group: SVGGElement, frame: Frame, y: Scale, title: string, n = Math.max(1, frame.height / 60)): void {
+export function drawYAxis(group: SVGGElement, frame: Frame, y: Scale, title: string, n = rowsOf(frame.height)): void {
   set(group, { class: "axis", "aria-hidden": "true" });
   join(group, [...ticks(y, n), { value: NaN, text: title }], (t) => (Number.isNaN(t.value) ? "title" : String(t.value)), () => svg("g"), (g, t) => {
     g.replaceChildren();

@@ -38,8 +38,11 @@ export class Panel {
   private readonly handleGroup = svg("g");
   private handles: Handle[] = [];
   private held: Handle | undefined;
+  private pressed: (() => void) | undefined; // while the pointer is on something that is no handle, it chooses no time
   /** Where the pointer is when it holds nothing, in the units of the axes. */
   onHover: (x: number, y: number) => void = () => undefined;
+  /** Told first of a press on no handle; what a click there does, if something is there. */
+  onPress: (px: number, py: number, reach: number) => (() => void) | undefined = () => undefined;
   onStroke: ((points: { x: number; y: number }[], done: boolean) => void) | undefined;
   private stroke: { x: number; y: number }[] = [];
 
@@ -49,6 +52,12 @@ export class Panel {
     this.svg.addEventListener("pointerdown", (event) => this.down(event));
     this.svg.addEventListener("pointermove", (event) => this.move(event));
     for (const name of ["pointerup", "pointercancel"] as const) this.svg.addEventListener(name, () => this.up());
+    // Not before the click: what scrolls the page would have it land elsewhere.
+    this.svg.addEventListener("click", () => {
+      this.pressed?.();
+      this.pressed = undefined;
+    });
+    this.svg.addEventListener("pointerleave", (event) => { if (event.pointerType === "mouse") this.pressed = undefined; });
     this.svg.addEventListener("keydown", (event) => this.key(event));
   }
 
@@ -60,8 +69,13 @@ export class Panel {
     const ratio = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(this.frame.width * ratio);
     this.canvas.height = Math.round(this.frame.height * ratio);
-    this.x.range([this.frame.left, this.frame.width - this.frame.right]);
+    this.setLeft(this.frame.left);
     this.y.range([this.frame.height - this.frame.bottom, this.frame.top]);
+  }
+
+  setLeft(left: number): void {
+    this.frame = { ...this.frame, left };
+    this.x.range([left, this.frame.width - this.frame.right]);
   }
 
   get inner(): { left: number; top: number; width: number; height: number } {
@@ -129,9 +143,11 @@ export class Panel {
       this.svg.setPointerCapture(event.pointerId);
       return;
     }
-    this.held = this.nearest(at.px, at.py, event.pointerType === "mouse" ? REACH / 2 : REACH);
+    const reach = event.pointerType === "mouse" ? REACH / 2 : REACH;
+    this.held = this.nearest(at.px, at.py, reach);
     if (!this.held) {
-      this.onHover(at.x, at.y);
+      this.pressed = this.onPress(at.px, at.py, reach);
+      if (!this.pressed) this.onHover(at.x, at.y);
       return;
     }
     event.preventDefault();
@@ -148,7 +164,7 @@ export class Panel {
       this.onStroke(this.stroke, false);
     } else if (this.held) {
       this.held.drag(at.x, at.y);
-    } else if (!this.onStroke) {
+    } else if (!this.onStroke && !this.pressed) {
       this.onHover(at.x, at.y);
     }
   }

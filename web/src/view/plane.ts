@@ -2,6 +2,7 @@
 // The (t, z) plane: phi in colour, fronts, event times, the time shown beside it.
 import type { NamedTime } from "../bed/event_list.ts";
 import type { Picture, Raster } from "../bed/picture.ts";
+import { shocksOf } from "../bed/shocks.ts";
 import type { ObservedRow } from "../engine/engine.ts";
 import { css, paint } from "./colours.ts";
 import { brief } from "./numbers.ts";
@@ -30,11 +31,9 @@ function drawRaster(context: CanvasRenderingContext2D, panel: Panel, raster: Ras
 
 /** Fronts as lines: thin for the many of a fan, thick for shocks. White on black, to be seen on any colour. */
 function drawFronts(context: CanvasRenderingContext2D, panel: Panel, picture: Picture): void {
-  const states = picture.facts.highest - picture.facts.lowest;
-  // Near the extremum of the flux fans of curved fronts have wider steps.
-  const widestStep = (picture.facts.isLayered ? 1.5 : 3.5) * picture.frontStep;
-  const shocks = picture.fronts.filter((f) => Math.abs(f.above - f.below) / states > widestStep);
-  const fans = picture.fronts.filter((f) => Math.abs(f.above - f.below) / states <= widestStep);
+  const shocks = shocksOf(picture);
+  const isShock = new Set(shocks);
+  const fans = picture.fronts.filter((f) => !isShock.has(f));
   const draw = (fronts: Picture["fronts"], colour: string, width: number): void => {
     context.strokeStyle = colour;
     context.lineWidth = width;
@@ -87,6 +86,7 @@ function drawMarks(panel: Panel, picture: Picture, marks: PlaneMarks): void {
   const [top, bottom] = [panel.y(facts.top), panel.y(facts.bottom)];
   const interfaces = facts.isLayered ? facts.knots : [];
   const seen = marks.times.filter((m) => Number.isFinite(m.t) && m.t <= picture.tMax);
+  const taken: Box[] = [];
   join(panel.below, [
     ...interfaces.map((z) => ({ key: `interface ${z}`, z })),
   ], (i) => i.key, () => svg("line", { class: "interface" }), (line, i) => {
@@ -94,8 +94,8 @@ function drawMarks(panel: Panel, picture: Picture, marks: PlaneMarks): void {
     set(line, { x1: panel.frame.left, x2: panel.frame.width - panel.frame.right, y1: y, y2: y });
   });
   join(panel.marks, [
-    ...seen.map((m) => ({ key: m.id, m })),
     { key: "now", m: undefined },
+    ...seen.map((m) => ({ key: m.id, m })),
     ...(marks.collision ? [{ key: "collision", m: undefined }] : []),
   ], (i) => i.key, () => svg("g"), (g, i) => {
     g.replaceChildren();
@@ -105,25 +105,49 @@ function drawMarks(panel: Panel, picture: Picture, marks: PlaneMarks): void {
     } else if (i.key === "collision" && marks.collision) {
       g.append(svg("circle", { class: "collision", cx: panel.x(marks.collision.t), cy: panel.y(marks.collision.z), r: 9 }));
     } else if (i.m) {
-      const x = panel.x(i.m.t);
-      set(g, { class: "event" });
+      const [x, y] = eventPlace(panel, picture, i.m);
+      set(g, { class: "event", "data-event-mark": i.m.id });
       if (i.m.z === undefined) g.append(svg("line", { x1: x, x2: x, y1: top, y2: bottom, class: "steady" }));
-      else g.append(svg("circle", { cx: x, cy: panel.y(i.m.z), r: 4.5 }));
-      const isTop = i.m.z === undefined || i.m.z === facts.top;
-      const y = isTop ? top - 6 : panel.y(i.m.z!) + (i.m.z === facts.bottom ? -8 : -7);
-      const text = svg("text", { x: Math.min(x, panel.frame.width - 30), y, "text-anchor": isTop ? "middle" : "start", dx: isTop ? 0 : 4, class: isTop ? "outside" : "inside" });
-      const [letter, low] = [i.m.id.startsWith("t^") ? "t^" : "t", i.m.id.replace(/^t\^?_?/, "")];
-      text.append(svg("tspan", {}, letter), svg("tspan", { dy: low === "*" ? -3 : 3, "font-size": "80%" }, low));
+      else g.append(svg("circle", { cx: x, cy: y, r: 4.5 }));
+      const place = labelPlace(panel, i.m, x, y, taken);
+      if (!place) return;
+      const text = svg("text", { x: place.x, y: place.y, "text-anchor": "start", class: place.y < top ? "outside" : "inside" });
+      const low = i.m.id.replace(/^t\^?_?/, "");
+      text.append(svg("tspan", {}, i.m.id.startsWith("t^") ? "t\u0302" : "t"), svg("tspan", { dy: low === "*" ? -3 : 3, "font-size": "80%" }, low));
       g.append(text);
     }
   });
 }
 
+interface Box {
+  x: number;
+  y: number; // of the baseline
+  width: number;
+}
+const LINE = 15;
+
+/** Where an event stands in the plane, in pixels; the steady state at its upper end. */
+export const eventPlace = (panel: Panel, picture: Picture, m: NamedTime): [number, number] => [panel.x(m.t), panel.y(m.z ?? picture.facts.top)];
+
+/** Beside the mark where no other name is; none where all places are taken. */
+function labelPlace(panel: Panel, m: NamedTime, x: number, y: number, taken: Box[]): Box | undefined {
+  const width = 9 + 6.5 * m.id.replace(/^t\^?_?/, "").length;
+  const isTop = y <= panel.frame.top + 1;
+  const around: [number, number][] = isTop ? [[-width / 2, -9], [6, -9], [-width - 6, -9]] : [[5, -7], [5, 16], [-width - 5, -7], [-width - 5, 16]];
+  const box = panel.inner;
+  const place = around.map(([dx, dy]) => ({ x: x + dx, y: y + dy, width })).find((b) =>
+    b.x >= box.left - 8 && b.x + width <= box.left + box.width + 12 && b.y <= box.top + box.height &&
+    taken.every((other) => b.x + width < other.x || other.x + other.width < b.x || Math.abs(b.y - other.y) > LINE));
+  if (place) taken.push(place);
+  return place;
+}
+
 /** The plane in words. */
-export function planeInWords(picture: Picture, times: NamedTime[], name: string): string {
+export function planeInWords(picture: Picture, times: NamedTime[], name: string, meaning: string): string {
   const { facts } = picture;
   const events = times.map((m) => `${m.id}, ${m.meaning}: ${brief(m.t)}`).join("; ");
-  const end = picture.events && Number.isFinite(picture.events.tStar) ? ` In the end phi is 1 below z = ${brief(picture.events.steadyHeight)} and 0 above.` : "";
-  return `${name}. Concentration phi of small grains over time 0 to ${brief(picture.tMax)} and height ${brief(facts.bottom)} to ${brief(facts.top)}. ` +
+  const isSegregated = meaning.includes("grains") && picture.events && Number.isFinite(picture.events.tStar);
+  const end = isSegregated ? ` In the end all small grains lie below z = ${brief(picture.events!.steadyHeight)}.` : "";
+  return `${name}. phi${meaning && ", " + meaning}, over time 0 to ${brief(picture.tMax)} and height ${brief(facts.bottom)} to ${brief(facts.top)}. ` +
     (events ? `Event times: ${events}.${end}` : picture.noEvents);
 }
