@@ -48,9 +48,15 @@ def test_a_fit_along_a_chute_finds_its_rate() -> None:
     assert found.estimates[0] == pytest.approx(THIRD, rel=1e-6)
 
 
-def test_bins_of_a_chute_are_refused() -> None:
-    with pytest.raises(sf.InputError, match="steady chute"):
-        chute(sf.Step(0.5), 1.0).observe([1.0], [0.5], quantity="bin", width=0.1)
+def test_bins_of_a_chute_are_means_over_height_and_fit() -> None:
+    scene = chute(sf.Step(0.5), sf.LinearVelocity(slope=2.0))
+    distances, middles = [0.5, 1, 2], np.linspace(0.05, 0.95, 10)
+    seen = scene.observe(distances, middles, quantity="bin", width=0.1)
+    heights = (np.arange(5000) + 0.5) / 5000
+    means = scene.solve(distances, heights).phi.reshape(3, 10, 500).mean(axis=2)
+    np.testing.assert_allclose(np.reshape(seen.value, (3, 10)), means, atol=3e-3)
+    found = sf.fit(scene, seen, "shear_rate.scale", start=[0.5])
+    assert found.estimates[0] == pytest.approx(THIRD, rel=1e-6)
 
 
 BAGNOLD = {"angle": 0.43, "grain": 0.04, "gravity": 1.0}

@@ -45,7 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, DatasetFit,
                          testing::Values("segregation-gamma-0.9/fit.toml", "settling-column/fit.toml",
                                          "packing-example-1/fit.toml", "packing-example-4/fit.toml",
                                          "packing-example-4/fit-share.toml",
-                                         "may-2010-diffusion/fit-noise.toml", "chute-steady-shear/fit.toml"));
+                                         "may-2010-diffusion/fit-noise.toml", "chute-steady-shear/fit.toml",
+                                         "chute-steady-shear/fit-bins.toml"));
 
 }  // namespace
 }  // namespace shearfront::fit

@@ -29,7 +29,7 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
     if (const std::string reason = BedHeight::refusal(scene); !reason.empty())
       throw InputError("misfit.quantity", quoted_text(std::string(name_of(Quantity::bed_height))),
                        "must suit the scene: " + reason);
-  if (observable == Observable::M) method_.prefer_amounts();
+  if (observable == Observable::M || observable == Observable::volume) method_.prefer_amounts();
   if (const std::string reason = method_.refusal(scene); !reason.empty())
     throw InputError("forward.method", quoted_text(method_.name()), "must suit the scene: " + reason);
   is_smooth_ = method_.guarantees().exact;
@@ -62,10 +62,14 @@ Prediction Forward::predict(const VectorXd& values, bool with_derivatives,
 void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
                               const shearfront::Progress& progress, Prediction& prediction) const {
   if (!can_linearise_) {
-    const PlaceSamples result = sample(scene, method_, places_, progress);
+    const bool is_volume = observable_ == Observable::volume;
+    const PlaceSamples result = sample(scene, method_, places_, progress, is_volume);
     if (!result.summary.usable()) prediction.failure = result.summary.message;
     prediction.remark = result.summary.remark;
-    return take(result.samples, prediction);
+    if (!is_volume) return take(result.samples, prediction);
+    prediction.values =
+        Eigen::Map<const VectorXd>(result.volumes.data(), static_cast<Index>(result.volumes.size()));
+    return;
   }
   if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
   const std::vector<std::size_t> none;

@@ -10,9 +10,9 @@
 
 namespace shearfront::fit {
 
-/// What the observations are made of. The height of the bed has no place in it: z of its places does not
-/// matter.
-enum class Observable { phi, M, bed_height };
+/// What the observations are made of. `volume` is int_bottom^z phi dz in a steady chute, where M is what passes below z. The
+/// height of the bed has no place in it: z of its places does not matter.
+enum class Observable { phi, M, bed_height, volume };
 
 /// Values at the places and, if asked for, their derivatives: row = place, column = parameter.
 struct Prediction {

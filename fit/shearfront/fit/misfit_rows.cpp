@@ -21,6 +21,9 @@ ResidualRows with_unit(ResidualRows rows, const FitSpec& spec, const Parameters&
   const bool is_height = measured == Quantity::bed_height, is_sum = measured == Quantity::cumulative;
   if (!spec.observations.has_sigma())
     rows.unit = (is_height || is_sum ? parameters.height() : 1) * (is_height ? 1 : parameters.states());
+  // Bins are means over z, whatever passes.
+  if (spec.scene.is_chute() && measured == Quantity::bin && rows.field == Observable::M)
+    rows.field = Observable::volume;
   return rows;
 }
 
@@ -33,9 +36,10 @@ ResidualRows rows_of(std::string_view quantity, const FitSpec& spec, const Param
     if (quantity != M::kName) return;
     refusal = M::refusal(spec.observations);
     // There M is what passes below z, not an integral of phi over z alone.
-    const bool is_measured = quantity == name_of(spec.observations.quantity);
-    if (spec.scene.is_chute() && (!is_measured || spec.observations.quantity == Quantity::bin))
-      refusal = "in a steady chute observations must be phi at points, or M, and be compared as such";
+    const Quantity measured = spec.observations.quantity;
+    if (spec.scene.is_chute() && measured != Quantity::bin && quantity != name_of(measured))
+      refusal = "in a steady chute phi at points and M must be compared as such: misfit.quantity = " +
+                quoted_text(name_of(measured));
     if (refusal.empty()) rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
   });
   if (!refusal.empty()) throw InputError("misfit.quantity", quoted_text(quantity), refusal);

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "shearfront/fit/interval_check.hpp"
-#include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/misfit_rows.hpp"
 #include "shearfront/fit/noise.hpp"
 #include "shearfront/fit/residual_structure.hpp"
 #include "shearfront/fit/search/allowance.hpp"
@@ -32,11 +32,7 @@ struct PredictedObservations {
 };
 PredictedObservations predictions(const FitSpec& spec, const Parameters& parameters, const VectorXd& values,
                                   RunControl& control) {
-  ResidualRows rows;
-  MisfitList::for_each([&]<class M>() {
-    if (name_of(spec.observations.quantity) == M::kName)
-      rows = M::rows(spec.observations, spec.scene.bottom(), spec.scene.top());
-  });
+  const ResidualRows rows = rows_of(name_of(spec.observations.quantity), spec, parameters);
   const Forward forward(parameters, spec.forward, rows.field, rows.points);
   const Prediction at =
       forward.predict(values, false, [&](double, std::uint64_t) { return control.may_run(); });

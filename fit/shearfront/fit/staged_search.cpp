@@ -292,8 +292,9 @@ void StagedSearch::search_from_here(Objective& objective, double tolerance) {
 }
 
 void StagedSearch::approach() {
-  // Sums over heights are no M of a steady chute.
-  if (!CumulativeMisfit::refusal(spec_.observations).empty() || spec_.scene.is_chute()) return;
+  if (!CumulativeMisfit::refusal(spec_.observations).empty()) return;
+  // Sums of points are no M of a steady chute; those of bins are volumes.
+  if (spec_.scene.is_chute() && spec_.observations.quantity != Quantity::bin) return;
   const bool is_point = spec_.observations.quantity == Quantity::point;
   {
     ResidualRows sums = rows_of(CumulativeMisfit::kName, spec_, parameters_);

@@ -102,6 +102,19 @@ S SteadyChute<S>::velocity(const S& z) const {
 }
 
 template <Real S>
+S SteadyChute<S>::flow(const S& lo, const S& hi) const {
+  return flow_of(velocity_, lo, hi);
+}
+
+template <Real S>
+std::vector<S> SteadyChute<S>::velocity_knots() const {
+  std::vector<S> inside;
+  for (const S& z : std::visit([](const auto& model) { return model.knots(); }, velocity_))
+    if (z > bottom_ && z < top_) inside.push_back(z);
+  return inside;
+}
+
+template <Real S>
 Scene<S> SteadyChute<S>::make_bed() {
   SceneSpec<S> bed = *spec_;
   bed.velocity.reset();

@@ -40,6 +40,12 @@ class SteadyChute {
   /// Its inverse, to rounding.
   [[nodiscard]] Scalar height(const Scalar& zeta) const;
   [[nodiscard]] bool is_sampled() const { return is_sampled_; }
+  /// u(z).
+  [[nodiscard]] Scalar velocity(const Scalar& z) const;
+  /// int_lo^hi u dz.
+  [[nodiscard]] Scalar flow(const Scalar& lo, const Scalar& hi) const;
+  /// Heights inside the chute where u or its slope jumps, ascending.
+  [[nodiscard]] std::vector<Scalar> velocity_knots() const;
 
  private:
   [[nodiscard]] Scene<Scalar> make_bed();
@@ -49,7 +55,6 @@ class SteadyChute {
                                                           bool follows_shear_rate);
   [[nodiscard]] InitialState<Scalar> carried(const InitialState<Scalar>& start);
   [[nodiscard]] std::vector<Scalar> cuts(std::vector<Scalar> knots) const;
-  [[nodiscard]] Scalar velocity(const Scalar& z) const;
   template <class Ends, class Value>
   void sample(const std::vector<Scalar>& knots, const Ends& ends, const Value& value, std::vector<Scalar>& z,
               std::vector<Scalar>& values);

@@ -57,6 +57,14 @@ class Field {
   /// Where phi depends on x as well (Guarantees::has_slab): all of it, of which the others are means over x. Valid as long as
   /// this. Null otherwise.
   [[nodiscard]] virtual const SlabField* slab() const { return nullptr; }
+  /// int_bottom^z phi dz at many heights, in any order: the volume of the grains that lie below z. It is M but in a steady
+  /// chute, where M is what passes below z.
+  [[nodiscard]] virtual std::vector<double> volumes(const std::vector<double>& heights) const {
+    std::vector<double> all;
+    all.reserve(heights.size());
+    for (const Sample& sample : at(heights)) all.push_back(sample.M);
+    return all;
+  }
 };
 
 /// A solution that is linear in pieces.

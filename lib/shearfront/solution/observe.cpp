@@ -99,9 +99,6 @@ std::optional<double> equal_spacing(std::vector<double> depths) {
 SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene) {
   if (Complaints complaints = find_complaints(plan, scene.bottom(), scene.top()); !complaints.empty())
     throw InputError(std::move(complaints));
-  if (plan.quantity == Quantity::bin && scene.is_chute())
-    throw InputError("quantity", std::string(name_of(plan.quantity)),
-                     "must be point or cumulative in a steady chute, where M is what passes below z");
   SolverRequest request;
   request.times = plan.times;
   if (plan.quantity == Quantity::bed_height) {
@@ -112,6 +109,7 @@ SolverRequest request_of(const ObservationPlan& plan, const Scene<double>& scene
     request.heights = plan.depths;
     return request;
   }
+  request.volumes = scene.is_chute();
   for (const double z : plan.depths) {
     const BinEdges edges = bin_edges(z, plan.width, scene.bottom(), scene.top());
     request.heights.push_back(edges.below);
@@ -142,16 +140,20 @@ Observations observe(const ObservationPlan& plan, const Scene<double>& scene, co
   observations.quantity = plan.quantity;
   observations.units.is_chute = scene.is_chute();
   observations.rows.reserve(plan.times.size() * plan.depths.size());
-  auto sample = samples.begin();
+  const auto volume_below = [&](std::size_t i) {
+    return result.volumes.empty() ? samples[i].M : result.volumes[i];
+  };
+  std::size_t next = 0;
   for (const double t : plan.times) {
     for (const double z : plan.depths) {
       Observation o{t, z, 0, plan.width};
       if (is_bin) {
-        const double below = (sample++)->M, above = (sample++)->M;
-        o.value = (above - below) / bin_edges(z, plan.width, scene.bottom(), scene.top()).width();
+        o.value = (volume_below(next + 1) - volume_below(next)) /
+                  bin_edges(z, plan.width, scene.bottom(), scene.top()).width();
+        next += 2;
       } else {
-        o.value = plan.quantity == Quantity::cumulative ? sample->M : sample->phi;
-        ++sample;
+        o.value = plan.quantity == Quantity::cumulative ? samples[next].M : samples[next].phi;
+        ++next;
       }
       observations.rows.push_back(o);
     }

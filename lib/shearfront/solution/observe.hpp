@@ -47,6 +47,7 @@ struct ObservationPlan {
 ///     bin          (M(z + w/2, t) - M(z - w/2, t)) / w, as exact as M is up to a rounding of about eps top / w
 ///     bed height   H(t)
 ///
+/// In a steady chute, where M is what passes below z, a bin takes Field::volumes in place of M.
 /// Precondition: the result is a usable one of request_of(plan, scene).
 [[nodiscard]] Observations observe(const ObservationPlan& plan, const Scene<double>& scene,
                                    const SolverResult& result);

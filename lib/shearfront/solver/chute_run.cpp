@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/solver/chute_volume.hpp"
+
 namespace shearfront {
 namespace {
 
@@ -23,6 +25,9 @@ class ChuteField final : public Field {
     std::vector<Sample> samples = bed_.at(chute_.bed_heights(heights));
     for (Sample& sample : samples) sample = passing(sample);
     return samples;
+  }
+  [[nodiscard]] std::vector<double> volumes(const std::vector<double>& heights) const override {
+    return chute_volumes(chute_, bed_, heights);
   }
   [[nodiscard]] double integral(const ShareFunction& g) const override {
     return chute_.mean_velocity() * bed_.integral(g);

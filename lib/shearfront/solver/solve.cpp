@@ -68,6 +68,7 @@ SolverResult solve(const Scene<double>& scene, const Method& method, const Solve
   const Guarantees guarantees = method.guarantees();
   const std::size_t n = request.heights.size();
   result.samples.resize(request.times.size() * n);
+  if (request.volumes) result.volumes.resize(result.samples.size());
   if (request.integrand) result.integrals.resize(request.times.size());
   if (request.profiles && guarantees.has_profiles) result.profiles.resize(request.times.size());
   bool is_complete = true;
@@ -77,6 +78,10 @@ SolverResult solve(const Scene<double>& scene, const Method& method, const Solve
     const Field& field = run->field();
     const std::vector<Sample> row = field.at(request.heights);
     std::copy(row.begin(), row.end(), result.samples.begin() + static_cast<std::ptrdiff_t>(i * n));
+    if (request.volumes) {
+      const std::vector<double> volumes = field.volumes(request.heights);
+      std::copy(volumes.begin(), volumes.end(), result.volumes.begin() + static_cast<std::ptrdiff_t>(i * n));
+    }
     if (request.integrand) result.integrals[i] = field.integral(request.integrand);
     if (!result.profiles.empty()) result.profiles[i] = *field.profile();
   }
@@ -85,6 +90,7 @@ SolverResult solve(const Scene<double>& scene, const Method& method, const Solve
   result.summary = run->summary();
   if (!result.summary.usable()) {
     result.samples.clear();
+    result.volumes.clear();
     result.integrals.clear();
     result.profiles.clear();
     result.timeline.reset();
@@ -111,7 +117,7 @@ Timeline<double> event_times(const Scene<double>& scene) {
 }
 
 PlaceSamples sample(const Scene<double>& scene, const Method& method, const std::vector<Place>& places,
-                    const Progress& progress) {
+                    const Progress& progress, bool with_volumes) {
   const auto begin = Clock::now();
   check_places(scene, places);
   PlaceSamples result;
@@ -123,6 +129,7 @@ PlaceSamples sample(const Scene<double>& scene, const Method& method, const std:
   const double last_time = places.empty() ? 0 : places[order.back()].t;
   const auto run = method.start(scene, {false, false, progress, last_time});
   result.samples.resize(places.size());
+  if (with_volumes) result.volumes.resize(places.size());
   std::vector<double> heights;
   for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
     const double t = places[order[from]].t;
@@ -130,10 +137,14 @@ PlaceSamples sample(const Scene<double>& scene, const Method& method, const std:
     for (; to < order.size() && places[order[to]].t == t; ++to) heights.push_back(places[order[to]].z);
     if (!is_usable(run->advance(t))) {
       result.samples.clear();
+      result.volumes.clear();
       break;
     }
     const std::vector<Sample> row = run->field().at(heights);
     for (std::size_t k = 0; k < row.size(); ++k) result.samples[order[from + k]] = row[k];
+    if (!with_volumes) continue;
+    const std::vector<double> volumes = run->field().volumes(heights);
+    for (std::size_t k = 0; k < volumes.size(); ++k) result.volumes[order[from + k]] = volumes[k];
   }
   result.summary = run->summary();
   result.summary.wall_s = seconds_since(begin);

@@ -16,6 +16,7 @@ struct SolverRequest {
   bool fronts = false;        ///< front segments wanted (solvers that have fronts)
   bool profiles = false;      ///< phi over the whole domain wanted (solvers that have profiles)
   ShareFunction integrand{};  ///< g, if int c g(phi / c) dz over the bed is wanted
+  bool volumes = false;       ///< Field::volumes at the heights wanted
 };
 
 struct SolverResult {
@@ -24,6 +25,7 @@ struct SolverResult {
   std::vector<FrontSegment<double>> fronts;
   std::vector<Profile<double>> profiles;  ///< profiles[i] belongs to times[i]; the samples are its values
   std::vector<double> integrals;          ///< integrals[i], of the integrand, belongs to times[i]
+  std::vector<double> volumes;            ///< Field::volumes, in the order of the samples
   Summary summary;                        ///< not usable(): all else is empty
 
   /// At times[i], heights[j] of the request it answers.
@@ -58,9 +60,11 @@ template <Solver S>
 /// memory linear in the places.
 struct PlaceSamples {
   std::vector<Sample> samples;
+  std::vector<double> volumes;  ///< Field::volumes there, if asked for
   Summary summary;
 };
 [[nodiscard]] PlaceSamples sample(const Scene<double>& scene, const Method& method,
-                                  const std::vector<Place>& places, const Progress& progress = {});
+                                  const std::vector<Place>& places, const Progress& progress = {},
+                                  bool with_volumes = false);
 
 }  // namespace shearfront

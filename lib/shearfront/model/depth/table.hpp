@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,8 @@ namespace shearfront {
 /// Tabulated shear rate: linear between the points (z[i], values[i]), monotone or not. A height given twice is a jump, with
 /// the value below it first.
 ///
-/// Domain: at least two points, z increasing, a height twice at most and not the first or last, z.front() <= bottom and z.back() >= top, values > 0.
+/// Domain: at least two points, z increasing, a height twice at most and not the first or last, z.front() <= bottom and z.back() >= top, values > 0:
+/// on a straight line to 0 the time int dz / a would have no bound, so that no grain comes to its end and nothing ever rests.
 template <Real Scalar>
 struct Table {
   static constexpr std::string_view kName = "table";
@@ -33,7 +35,18 @@ struct Table {
   void check(const std::string& prefix, const Scalar& bottom, const Scalar& top,
              Complaints& complaints) const {
     // Solid fraction and temperature are continuous.
-    check_points(prefix, z, values.size(), bottom, top, complaints, prefix == "shear_rate.");
+    const bool is_rate = prefix == "shear_rate.";
+    check_points(prefix, z, values.size(), bottom, top, complaints, is_rate);
+    for (std::size_t i = 0; is_rate && i < values.size(); ++i) {
+      if (values[i] != 0) continue;
+      const std::string key = prefix + "values[" + std::to_string(i) + "]";
+      for (Complaint& complaint : complaints)
+        if (complaint.key == key)
+          complaint.constraint +=
+              ": where a falls to 0 on a straight line no grain ever comes (int dz / a has no bound); "
+              "bagnold "
+              "falls to 0 as a root does";
+    }
   }
 
   [[nodiscard]] Scalar value(const Scalar& height) const {
