@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/scene_changes.hpp"
 
 namespace shearfront::tools {
 namespace {
@@ -41,12 +42,14 @@ int sample_posterior(const std::vector<std::string>& arguments) {
 Command add_sample(CLI::App& program) {
   struct Arguments {
     std::string file, output, draws, chains, tune, seed, sampler;
+    SceneChangesOption changes;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* app = program.add_subcommand(
       "sample",
       "Samples of the posterior of a fit: what data and [prior] say together (by the Python package)");
   app->add_option("FIT", arguments->file, "fit file")->type_name("")->required();
+  arguments->changes.add_to(*app);
   app->add_option("-o", arguments->output, "all draws as CSV: chain, draw, unknowns")->type_name("FILE");
   app->add_option("--draws", arguments->draws, "of each chain, default 1000")->type_name("N");
   app->add_option("--chains", arguments->chains, "default 4")->type_name("N");
@@ -56,7 +59,10 @@ Command add_sample(CLI::App& program) {
   app->add_option("--sampler", arguments->sampler, "default nutpie; emcee needs no gradient: for points")
       ->type_name("nutpie|emcee");
   return {app, "FIT", [arguments] {
+            (void)arguments->changes.changes();  // refuses what is none
             std::vector<std::string> words{arguments->file};
+            for (const std::string& change : arguments->changes.words())
+              words.insert(words.end(), {"--set", change});
             const auto add = [&](const char* option, const std::string& value) {
               if (!value.empty()) words.insert(words.end(), {option, value});
             };

@@ -259,13 +259,15 @@ def fit(
 with_options(fit, *(p for p in inspect.signature(problem).parameters.values() if p.kind is p.KEYWORD_ONLY))
 
 
-def read_fit(path: str | os.PathLike[str]) -> Problem:
+def read_fit(path: str | os.PathLike[str], numbers: Mapping[str, float] | None = None) -> Problem:
     """Reads a fit file with its scene and its observations.
 
     Parameters
     ----------
     path : path
         Of a fit file (TOML).
+    numbers : mapping, optional
+        Numbers to put in the place of those of its scene, by the names of their entries.
 
     Returns
     -------
@@ -289,7 +291,7 @@ def read_fit(path: str | os.PathLike[str]) -> Problem:
     >>> sf.read_fit(folder / "fit.toml")
     <Problem 'fit': 2 observations>
     """
-    return Problem(_core.read_fit(os.fspath(path)))
+    return Problem(_core.read_fit(os.fspath(path), [(name, repr(float(value))) for name, value in (numbers or {}).items()]))
 
 
 def compare_fits(fits: Mapping[str, Fit]) -> Any:

@@ -10,11 +10,28 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._errors import InputError, NoResult
+from ._errors import InputError, NoResult, one_complaint
 from ._fit import read_fit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+
+def _changes(words: list[str]) -> dict[str, float]:
+    """Numbers by the entries of the scene that take them."""
+    numbers: dict[str, float] = {}
+    for word in words:
+        key, _, text = word.partition("=")
+        try:
+            number = float(text)
+        except ValueError:
+            key = ""
+        if not key:
+            raise one_complaint("--set", word, "must be an entry and its number, such as shear_rate.values[1]=0.4")
+        if key in numbers:
+            raise one_complaint("--set", word, "must not change an entry twice")
+        numbers[key] = number
+    return numbers
 
 
 def _columns(samples: Any, names: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -78,6 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     parser = argparse.ArgumentParser("shearfront sample", description="Samples of the posterior of a fit", allow_abbrev=False)
     parser.add_argument("fit", metavar="FIT", help="fit file; [prior] has what was known before")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="another number for an entry of the scene; may be repeated")
     parser.add_argument("-o", metavar="FILE", default="", help="all draws as CSV: chain, draw, unknowns")
     parser.add_argument("--draws", type=int, default=1000, help="of each chain, default 1000")
     parser.add_argument("--chains", type=int, default=4, help="default 4")
@@ -93,7 +111,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{asked.o}: cannot be written: No such file or directory", file=sys.stderr)
         return 2
     try:
-        posterior = read_fit(asked.fit).posterior()
+        posterior = read_fit(asked.fit, _changes(asked.set)).posterior()
         samples = posterior.sample(asked.draws, asked.chains, asked.tune, seed=asked.seed, sampler=asked.sampler)
     except InputError as error:
         print(error, file=sys.stderr)

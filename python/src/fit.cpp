@@ -3,6 +3,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -87,7 +88,9 @@ void bind_fit(nb::module_& m) {
       .def("with_noise_of", &with_noise_of)
       .def("run", &run_fit);
   bind_fit_state(m, problem);
-  m.def("read_fit", [](const std::string& path) { return problem_of(fit::read_fit_file(path)); });
+  m.def("read_fit", [](const std::string& path, const Changes& changes) {
+    return problem_of(fit::read_fit_file(path, changes_of(changes)));
+  });
   m.def("is_fit_file", [](const std::string& path) { return fit::is_fit_file(path); });
   m.def("parse_fit", [](std::string text, const SharedScene& scene, const Observations& observations) {
     return problem_of(fit::parse_fit(std::move(text), "fit", *scene.scene, observations));

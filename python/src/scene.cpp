@@ -12,7 +12,6 @@
 
 #include "arrays.hpp"
 #include "outcome.hpp"
-#include "shearfront/io/scene_file.hpp"
 #include "shearfront/io/scene_text.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/numeric/number_text.hpp"
@@ -22,14 +21,6 @@
 
 namespace shearfront::python {
 namespace {
-
-using Changes = std::vector<std::pair<std::string, std::string>>;
-
-SceneChanges changes_of(const Changes& pairs) {
-  SceneChanges changes;
-  for (const auto& [key, value] : pairs) changes.push_back({key, value});
-  return changes;
-}
 
 nb::list entries_of(const SharedScene& shared) {
   const SceneSpec<double>& spec = shared.scene->spec();

@@ -8,6 +8,7 @@ import multiprocessing
 import pickle
 import socket
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -180,3 +181,22 @@ def free_port() -> int:
     with socket.socket() as free:
         free.bind(("localhost", 0))
         return int(free.getsockname()[1])
+
+
+def test_scene_of_a_fit_file_is_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from shearfront.sample import main
+
+    BED.save(tmp_path / "scene.toml")
+    seen().save(tmp_path / "seen.csv")
+    path = tmp_path / "fit.toml"
+    path.write_text("scene = 'scene.toml'\nobservations = 'seen.csv'\n[unknown]\nparameters = ['shear_rate.values[0]']\n")
+    entry = "shear_rate.values[1]"
+    assert sf.read_fit(path, {entry: 0.4}).run().scene.entries[entry] == 0.4
+    assert sf.read_fit(path).run().scene.entries[entry] == BED.entries[entry]
+    for wrong in ("shear_rate.values[1]", "=0.4", "shear_rate.values[1]=fast"):
+        assert main([str(path), "--set", wrong]) == 2
+        assert capsys.readouterr().err.startswith(f"--set = {wrong}; must be an entry and its number")
+    assert main([str(path), "--set", f"{entry}=0.4", "--set", f"{entry}=0.5"]) == 2
+    assert "twice" in capsys.readouterr().err
+    assert main([str(path), "--set", f"{entry}=-1"]) == 2
+    assert entry in capsys.readouterr().err
