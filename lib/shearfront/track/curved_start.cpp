@@ -269,10 +269,13 @@ void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& r
                  after = carried(heights[i + 1]);
     for (const double sign : {1.0, -1.0}) {
       if (!(sign * here >= sign * before && sign * here > sign * after)) continue;
+      // By the part of the way: the search stops at an absolute distance, whatever the height of the bed.
       constexpr int kMostBits = 50;
-      cuts.push_back(boost::math::tools::brent_find_minima([&](double z) { return -sign * carried(z); },
-                                                           heights[i - 1], heights[i + 1], kMostBits)
-                         .first);
+      const double begin = heights[i - 1], way = heights[i + 1] - begin;
+      const double part = boost::math::tools::brent_find_minima(
+                              [&](double x) { return -sign * carried(begin + way * x); }, 0.0, 1.0, kMostBits)
+                              .first;
+      cuts.push_back(begin + way * part);
     }
   }
   std::sort(cuts.begin(), cuts.end());
