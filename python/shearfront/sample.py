@@ -95,7 +95,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     parser = argparse.ArgumentParser("shearfront sample", description="Samples of the posterior of a fit", allow_abbrev=False)
     parser.add_argument("fit", metavar="FIT", help="fit file; [prior] has what was known before")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="another number for an entry of the scene; may be repeated")
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="another number for an entry of the scene; may be repeated",
+    )
     parser.add_argument("-o", metavar="FILE", default="", help="all draws as CSV: chain, draw, unknowns")
     parser.add_argument("--draws", type=int, default=1000, help="of each chain, default 1000")
     parser.add_argument("--chains", type=int, default=4, help="default 4")

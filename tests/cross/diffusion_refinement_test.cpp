@@ -115,7 +115,7 @@ TEST(DiffusionRefinement, ErrorFollowsTheToleranceForEveryD) {
 }
 
 /// Layers between walls, steps of phi, D over three decades.
-SceneSpec<double> random_bed(SceneMaker& maker) {
+SceneSpec<double> random_diffusive_bed(SceneMaker& maker) {
   SceneSpec<double> spec;
   Piecewise<double> rate;
   rate.values.push_back(maker.uniform(0.1, 3));
@@ -138,7 +138,7 @@ TEST(DiffusionRefinement, KeepsMassAndBoundsAtEveryStep) {
   std::size_t n_grids = 0;
   for (std::uint64_t number = 0; number < 24; ++number) {
     SceneMaker maker(seed_of(600 + number));
-    const Scene<double> scene(random_bed(maker));
+    const Scene<double> scene(random_diffusive_bed(maker));
     const bool is_fitted = number % 2 == 0;
     diffusion::Refinement refinement(scene, static_cast<std::size_t>(maker.integer(4, 100)),
                                      std::pow(10, maker.uniform(-3, -1)));
@@ -176,7 +176,7 @@ TEST(DiffusionRefinement, KeepsMassAndBoundsAtEveryStep) {
 TEST(DiffusionRefinement, AgreesWithEqualCells) {
   for (std::uint64_t number = 0; number < 12; ++number) {
     SceneMaker maker(seed_of(700 + number));
-    SceneSpec<double> spec = random_bed(maker);
+    SceneSpec<double> spec = random_diffusive_bed(maker);
     spec.diffusion->D = std::pow(10, maker.uniform(-2.5, -1));
     const Scene<double> scene(spec);
     CrankNicolsonSolver::Options options;
