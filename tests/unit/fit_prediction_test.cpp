@@ -10,6 +10,7 @@
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "support/fit_scenes.hpp"
+#include "support/own_folder.hpp"
 
 /// Draws have the means, deviations and correlations they are drawn from; bands of what is known in closed form are its quantiles.
 namespace shearfront::fit {
@@ -254,7 +255,7 @@ TEST(FitPrediction, AnUncertainSceneHasTheBandsOfItsDeviations) {
       "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [0.29]\nvalues = [3.15, 0.5]\nscale = "
       "2\n[initial]\nbreaks = [0.5]\n"
       "values = [0, 1]\n[uncertain]\n";
-  const std::string folder = testing::TempDir();
+  const std::string folder = own_folder().string();
   std::FILE* file = std::fopen((folder + "/prediction-covariance.csv").c_str(), "wb");
   std::fputs("shear_rate.scale,initial.breaks[0]\n0.04,0.0006\n0.0006,0.0001\n", file);
   std::fclose(file);

@@ -15,13 +15,14 @@
 #include "shearfront/fit/study/study_runs.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solver/solve.hpp"
+#include "support/own_folder.hpp"
 
 namespace shearfront::fit {
 namespace {
 
 StudySpec written(const std::string& text) {
   static int n = 0;
-  const std::string path = testing::TempDir() + "/study-" + std::to_string(++n) + ".toml";
+  const std::string path = (support::own_folder() / ("study-" + std::to_string(++n) + ".toml")).string();
   std::ofstream(path) << text;
   return read_study(path);
 }

@@ -7,6 +7,7 @@
 
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
+#include "support/own_folder.hpp"
 
 /// The same measurements as laboratories write them are read as the same numbers, and what was understood is said.
 namespace shearfront {
@@ -28,7 +29,7 @@ std::string as_text(std::string_view characters, bool is_little) {
 Observations read(const std::string& text, const ObservationFormat& format = {}) {
   const Scene<double> scene = parse_scene<double>(kScene, "scene.toml");
   static int n = 0;
-  const std::string path = testing::TempDir() + "/laboratory-" + std::to_string(++n) + ".csv";
+  const std::string path = (support::own_folder() / ("laboratory-" + std::to_string(++n) + ".csv")).string();
   std::FILE* file = std::fopen(path.c_str(), "wb");
   std::fwrite(text.data(), 1, text.size(), file);
   std::fclose(file);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "shearfront/io/output_file.hpp"
+#include "support/own_folder.hpp"
 
 namespace shearfront {
 namespace {
@@ -178,12 +179,11 @@ TEST(Observations, CommentsOfChunksAboveATableAreComments) {
 }
 
 TEST(Observations, FileIsReadAndWritten) {
-  const std::string path = (std::filesystem::temp_directory_path() / "shearfront-observations.csv").string();
+  const std::string path = (support::own_folder() / "observations.csv").string();
   OutputFile file(path);
   write_observations(file, parse("t,z,M\n0,1,0.5\n"));
   file.commit();
   EXPECT_EQ(read_observations(path, 0, 1).rows[0].value, 0.5);
-  std::filesystem::remove(path);
 }
 
 /// A million rows, in order and shuffled; the limit leaves room for slow machines and sanitizers.

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "shearfront/io/file_error.hpp"
+#include "support/own_folder.hpp"
 
 namespace shearfront {
 namespace {
@@ -27,7 +28,7 @@ class Results : public testing::Test {
  protected:
   Results() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("shearfront-") + test->name());
+    folder_ = support::own_folder() / test->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "shearfront/io/scene_file.hpp"
+#include "support/own_folder.hpp"
 
 /// Tables of a scene from other files are the same scene as with the numbers in it.
 namespace shearfront {
@@ -14,7 +15,7 @@ namespace {
 /// A folder of its own with these files.
 class Folder {
  public:
-  explicit Folder(const std::string& name) : path_(testing::TempDir() + "/scene-columns-" + name + "-") {}
+  explicit Folder(const std::string& name) : path_((support::own_folder() / (name + "-")).string()) {}
   Folder& with(const std::string& file, const std::string& text) {
     std::FILE* out = std::fopen((path_ + file).c_str(), "wb");
     std::fwrite(text.data(), 1, text.size(), out);
