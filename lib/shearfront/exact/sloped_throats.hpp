@@ -102,11 +102,13 @@ class SlopedThroats {
       if (is_above) {
         std::size_t k = throat.node;
         for (; k < cell_below && way.T <= t; ++k) cross(up, k, true, true, throat.node, throat.h, way);
+        if (!(way.T <= t)) continue;  // not in the cell of z
         way.add(up, k, true, up.bend[k], z - up.x[k], up.low[k], rate_below, throat.h,
                 is_new_piece(up, k, true, throat.node));
       } else if (z < z_i) {
         std::size_t k = throat.node - 1;
         for (; k > cell_above && way.T <= t; --k) cross(up, k, false, false, throat.node, throat.h, way);
+        if (!(way.T <= t)) continue;
         way.add(up, k, false, Scalar(-up.bend[k]), up.x[k + 1] - z, up.high[k], rate_above, throat.h,
                 is_new_piece(up, k, false, throat.node));
       }
