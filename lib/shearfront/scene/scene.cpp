@@ -13,7 +13,7 @@
 namespace shearfront {
 namespace {
 
-constexpr unsigned kMostHalvings = 12;
+constexpr unsigned kMostAmountHalvings = 12;
 
 template <Real S>
 S value(const DepthFunction<S>& function, const S& z) {
@@ -82,7 +82,7 @@ S smooth_amount(const Scene<S>& scene, const Model& model, const S& lo, const S&
     else
       sum += integral_of_smooth<S>(
           [&](const S& z) { return S(scene.solid_fraction_at(z) * u(z) * model.value(z)); }, from, to,
-          kMostHalvings, quadrature_tolerance<S>(from, to));
+          kMostAmountHalvings, quadrature_tolerance<S>(from, to));
     from = to;
   };
   for (const S& z : cuts)
@@ -301,9 +301,9 @@ S Scene<S>::solid(const S& lo, const S& hi) const {
       return S(value(*spec_.solid_fraction, z) *
                std::visit([&](const auto& u) { return S(u.value(z)); }, *spec_.velocity));
     };
-    sum += is_constant
-               ? S(mean_solid_fraction(from, to) * flow(from, to))
-               : integral_of_smooth<S>(passing, from, to, kMostHalvings, quadrature_tolerance<S>(from, to));
+    sum += is_constant ? S(mean_solid_fraction(from, to) * flow(from, to))
+                       : integral_of_smooth<S>(passing, from, to, kMostAmountHalvings,
+                                               quadrature_tolerance<S>(from, to));
     from = to;
   };
   std::vector<S> cuts = std::visit([](const auto& model) { return model.knots(); }, *spec_.solid_fraction);
