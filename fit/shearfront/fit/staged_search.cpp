@@ -151,16 +151,17 @@ NoiseData StagedSearch::noise_data() const {
 }
 
 void StagedSearch::search_other_valleys(const NoiseData& data) {
+  const std::vector<bool> held = coordinates_.at_bound(u_);  // not among the columns of the data's Jacobian
   search_from_here(*objective_, 0);
   if (!data.places || has_diffusion() || !uses_derivatives(spec_.search.algorithm)) return;
   const VectorXd from = u_;
   SearchResult best = result_;
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> jacobian(data.jacobian);
-  const std::vector<bool> held = coordinates_.at_bound(u_);
   const double sigma = data.residuals.norm() / std::sqrt(static_cast<double>(data.residuals.size()));
   boost::random::mt19937_64 engine(spec_.search.seed);
   boost::random::normal_distribution<double> normal;
-  for (int k = 0; k < kNoiseStarts && result_.status == Status::ok && !control_.must_stop(); ++k) {
+  if (result_.status != Status::ok) return;
+  for (int k = 0; k < kNoiseStarts && !control_.must_stop(); ++k) {
     VectorXd noise(data.residuals.size());
     for (double& x : noise) x = sigma * normal(engine);
     const VectorXd by = jacobian.solve(VectorXd(rows_.noise->coloured(noise)));
