@@ -179,6 +179,15 @@ void Derivatives<Scalar>::add_boundaries() {
 }
 
 template <Real Scalar>
+std::vector<Scalar> Derivatives<Scalar>::boundary(std::size_t k) const {
+  std::vector<Scalar> by(n_entries_, Scalar(0));
+  const Scalar stretch = form_.stretch(std::min(k, form_.layers().n_layers() - 1));
+  for (std::size_t i = boundaries_.begin[k]; i < boundaries_.begin[k + 1]; ++i)
+    by[boundaries_.terms[i].entry] += boundaries_.terms[i].factor / stretch;
+  return by;
+}
+
+template <Real Scalar>
 void Derivatives<Scalar>::add_pieces() {
   const Scene<Scalar>& scene = form_.scene();
   if (form_.has_pieces()) {

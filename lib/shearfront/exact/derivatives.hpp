@@ -62,6 +62,12 @@ class Derivatives {
   /// Along the path of (z, t), 0 < t < +infinity.
   void along(const exact::Path<Scalar>& path, const Scalar& z, const Scalar& t, At& out) const;
 
+  /// Of the height of boundary k of solution.form().layers().
+  [[nodiscard]] std::vector<Scalar> boundary(std::size_t k) const;
+  [[nodiscard]] std::size_t n_entries() const { return n_entries_; }
+  /// The entry by which time goes faster: d phi / d s = t / s d phi / dt.
+  [[nodiscard]] std::size_t scale_entry() const { return scale_; }
+
  private:
   using Pair = typename exact::PathGradient<Scalar>::Pair;
   /// d(something) / d(entry).

@@ -149,8 +149,12 @@ Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& pla
   const Scalar& z = place.z;
   const std::size_t cell = place.above;
   if (z == up_.x[cell] || z == up_.x[cell + 1]) {
-    Search(up_, place, t, upper, moving_only, best).run();
-    Search(down_, place.turned_over(up_), t, upper, moving_only, best).run();
+    // At the top of a view there is no cell above: nothing comes from there, and all of the last cell comes from below.
+    SlopedPlace<Scalar> upright = place, turned = place.turned_over(up_);
+    if (z == up_.x.back()) upright.above = up_.n_cells();
+    if (z == up_.x.front()) turned.above = up_.n_cells();
+    Search(up_, upright, t, upper, moving_only, best).run();
+    Search(down_, turned, t, upper, moving_only, best).run();
   } else {
     thread_local SlopedView<Scalar> up = up_, down = down_;
     up_.put_node(cell, z, place.rate_above, up);

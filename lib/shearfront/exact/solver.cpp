@@ -11,6 +11,7 @@
 #include "shearfront/exact/exact_share_integral.hpp"
 #include "shearfront/exact/exact_solution.hpp"
 #include "shearfront/exact/refusal.hpp"
+#include "shearfront/exact/timeline_derivatives.hpp"
 
 namespace shearfront {
 namespace {
@@ -124,6 +125,23 @@ class ExactRun final : public Run {
   Status status_ = Status::ok;
 };
 
+/// The number of pieces is kept, so that the solution is a smooth function of the numbers of the scene.
+ExactSolution<double> solution_near(const Scene<double>& scene, const ExactSolver::Options& options,
+                                    std::any& memory) {
+  ExactSolution<double>::Options settings = options_of(options);
+  if (const auto* pieces = std::any_cast<std::size_t>(&memory)) settings.layers = *pieces;
+  ExactSolution<double> solution(scene, settings);
+  if (!solution.is_exact()) memory = solution.resolution();
+  return solution;
+}
+
+std::vector<double> chosen_of(const std::vector<double>& all, const std::vector<std::size_t>& wanted) {
+  std::vector<double> chosen;
+  if (!all.empty())
+    for (const std::size_t k : wanted) chosen.push_back(all[k]);
+  return chosen;
+}
+
 }  // namespace
 
 std::string ExactSolver::refusal(const Scene<double>& scene, const Options&) { return exact::refusal(scene); }
@@ -141,11 +159,7 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
                                      const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                                      std::any& memory, const Progress& progress) {
   constexpr std::size_t kPlacesPerCall = 64;  // a few milliseconds in large beds
-  // The number of pieces is kept, so that the solution is a smooth function of the numbers of the scene.
-  ExactSolution<double>::Options settings = options_of(options);
-  if (const auto* pieces = std::any_cast<std::size_t>(&memory)) settings.layers = *pieces;
-  const ExactSolution<double> solution(scene, settings);
-  if (!solution.is_exact()) memory = solution.resolution();
+  const ExactSolution<double> solution = solution_near(scene, options, memory);
   std::optional<Derivatives<double>> derivatives;
   if (!wanted.empty()) derivatives.emplace(solution);
   Linearisation result;
@@ -186,6 +200,44 @@ Linearisation ExactSolver::linearise(const Scene<double>& scene, const Options& 
         result.derivatives[i * wanted.size() + k] = {at.phi[wanted[k]], at.M[wanted[k]]};
     }
   }
+  return result;
+}
+
+LinearIntegrals ExactSolver::linearise_integrals(const Scene<double>& scene, const Options& options,
+                                                 const std::vector<double>& times, const ShareFunction& g,
+                                                 const std::vector<std::size_t>& wanted, std::any& memory,
+                                                 const Progress& progress) {
+  const ExactSolution<double> solution = solution_near(scene, options, memory);
+  const Derivatives<double> derivatives(solution);
+  LinearIntegrals result;
+  result.summary.status = Status::ok;
+  result.mass_derivatives = chosen_of(derivatives.at(scene.top(), 0).M, wanted);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (progress && !progress(times[i], i)) {
+      result.summary.status = Status::interrupted;
+      result.summary.message = "interrupted after " + std::to_string(i) + " times";
+      return result;
+    }
+    result.integrals.push_back(share_integral(solution, times[i], g));
+    if (wanted.empty()) continue;
+    const auto by = chosen_of(share_integral_derivatives(solution, derivatives, times[i], g), wanted);
+    result.derivatives.insert(result.derivatives.end(), by.begin(), by.end());
+  }
+  return result;
+}
+
+LinearTimeline ExactSolver::linearise_timeline(const Scene<double>& scene, const Options& options,
+                                               const std::vector<std::size_t>& wanted, std::any& memory) {
+  const ExactSolution<double> solution = solution_near(scene, options, memory);
+  LinearTimeline result;
+  result.summary.status = Status::ok;
+  result.times = exact_timeline(solution);
+  const TimelineDerivatives all = timeline_derivatives(solution, result.times);
+  result.derivatives.t0 = chosen_of(all.t0, wanted);
+  result.derivatives.t1 = chosen_of(all.t1, wanted);
+  result.derivatives.t_star = chosen_of(all.t_star, wanted);
+  for (const auto& at : all.interfaces)
+    result.derivatives.interfaces.push_back({chosen_of(at.first, wanted), chosen_of(at.last, wanted)});
   return result;
 }
 

@@ -51,6 +51,14 @@ struct ExactSolver {
   static Linearisation linearise(const Scene<double>& scene, const Options& options,
                                  const std::vector<Place>& places, const std::vector<std::size_t>& entries,
                                  std::any& memory, const Progress& progress = {});
+  /// See exact/exact_share_integral.hpp.
+  static LinearIntegrals linearise_integrals(const Scene<double>& scene, const Options& options,
+                                             const std::vector<double>& times, const ShareFunction& g,
+                                             const std::vector<std::size_t>& entries, std::any& memory,
+                                             const Progress& progress = {});
+  /// See exact/timeline_derivatives.hpp.
+  static LinearTimeline linearise_timeline(const Scene<double>& scene, const Options& options,
+                                           const std::vector<std::size_t>& entries, std::any& memory);
 };
 static_assert(DifferentiableSolver<ExactSolver>);
 

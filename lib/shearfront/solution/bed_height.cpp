@@ -26,13 +26,20 @@ BedHeight::BedHeight(const Scene<double>& scene) {
     return std::visit([&](const auto& model) { return model.value(is_large ? 1 - share : share); }, law);
   };
   integrand_.value = [close](double x) { return 1 / close(x); };
+  integrand_.slope = [law, is_large, close](double x) {
+    const double share = std::clamp(x, 0.0, 1.0), here = close(x);
+    const double slope = std::visit([&](const auto& model) { return model.derivative(is_large ? 1 - share : share); }, law);
+    return (is_large ? slope : -slope) / (here * here);
+  };
   integrand_.kinks = std::visit([](const auto& model) { return model.kinks(); }, law);
   if (is_large) {
     for (double& x : integrand_.kinks) x = 1 - x;
     std::reverse(integrand_.kinks.begin(), integrand_.kinks.end());
   }
   const double mass = scene.mass(), solid = scene.solid(scene.bottom(), scene.top());
-  scale_ = (scene.top() - scene.bottom()) / (mass / close(1) + (solid - mass) / close(0));
+  const double height = scene.top() - scene.bottom();
+  scale_ = height / (mass / close(1) + (solid - mass) / close(0));
+  scale_by_mass_ = scale_ * scale_ / height * (1 / close(0) - 1 / close(1));
 }
 
 }  // namespace shearfront

@@ -29,10 +29,14 @@ class BedHeight {
   [[nodiscard]] const ShareFunction& integrand() const { return integrand_; }
   /// H for the integral G of integrand().
   [[nodiscard]] double height(double integral) const { return integral * scale_; }
+  /// dH by those of G and of the mass int phi dz.
+  [[nodiscard]] double height_by(double integral, double by_integral, double by_mass) const {
+    return by_integral * scale_ + integral * scale_by_mass_ * by_mass;
+  }
 
  private:
   ShareFunction integrand_;
-  double scale_;
+  double scale_, scale_by_mass_;
 };
 
 }  // namespace shearfront

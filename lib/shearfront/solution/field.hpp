@@ -15,6 +15,7 @@ namespace shearfront {
 struct ShareFunction {
   std::function<double(double)> value;  ///< g(x), continuous for x in [0, 1]
   std::vector<double> kinks;            ///< shares where its slope jumps, ascending
+  std::function<double(double)> slope{};  ///< g'(x); empty where it is not known
 
   [[nodiscard]] explicit operator bool() const { return bool(value); }
 };

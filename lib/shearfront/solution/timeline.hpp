@@ -31,6 +31,17 @@ struct Timeline {
   Scalar steady_height{0};                 ///< bottom + mass: phi = 1 below it and 0 above in the end
 };
 
+/// Derivatives of the times of a Timeline with respect to some numbers of the scene. Empty where there are none: for a time that
+/// never comes, or of which the solver cannot say how it changes.
+struct TimelineDerivatives {
+  using Numbers = std::vector<double>;
+  struct AtInterface {
+    Numbers first, last;
+  };
+  Numbers t0, t1, t_star;
+  std::vector<AtInterface> interfaces;
+};
+
 /// The numbers of a Timeline as decimal texts, with as many digits as wanted; a time that never comes is empty.
 struct TimelineText {
   struct InterfaceTimes {

@@ -36,6 +36,15 @@ class AnySolver {
   [[nodiscard]] virtual Linearisation linearise(const Scene<double>&, const std::vector<Place>&,
                                                 const std::vector<std::size_t>&, std::any&,
                                                 const Progress&) const = 0;
+  [[nodiscard]] virtual bool has_linear_integrals() const = 0;
+  [[nodiscard]] virtual LinearIntegrals linearise_integrals(const Scene<double>&, const std::vector<double>&,
+                                                            const ShareFunction&,
+                                                            const std::vector<std::size_t>&, std::any&,
+                                                            const Progress&) const = 0;
+  [[nodiscard]] virtual bool has_linear_timeline() const = 0;
+  [[nodiscard]] virtual LinearTimeline linearise_timeline(const Scene<double>&,
+                                                          const std::vector<std::size_t>&,
+                                                          std::any&) const = 0;
 };
 
 template <Solver S>
@@ -107,8 +116,34 @@ class Configured final : public AnySolver {
       return {};
     }
   }
+  [[nodiscard]] bool has_linear_integrals() const override { return kHasLinearIntegrals; }
+  [[nodiscard]] LinearIntegrals linearise_integrals(const Scene<double>& scene,
+                                                    const std::vector<double>& times, const ShareFunction& g,
+                                                    const std::vector<std::size_t>& entries, std::any& memory,
+                                                    const Progress& progress) const override {
+    if constexpr (kHasLinearIntegrals) {
+      return S::linearise_integrals(scene, options_, times, g, entries, memory, progress);
+    } else {
+      SHEARFRONT_EXPECTS(false, "a method with derivatives of integrals");
+      return {};
+    }
+  }
+  [[nodiscard]] bool has_linear_timeline() const override { return kHasLinearTimeline; }
+  [[nodiscard]] LinearTimeline linearise_timeline(const Scene<double>& scene,
+                                                  const std::vector<std::size_t>& entries,
+                                                  std::any& memory) const override {
+    if constexpr (kHasLinearTimeline) {
+      return S::linearise_timeline(scene, options_, entries, memory);
+    } else {
+      SHEARFRONT_EXPECTS(false, "a method with derivatives of event times");
+      return {};
+    }
+  }
 
  private:
+  static constexpr bool kHasLinearIntegrals = requires { &S::linearise_integrals; };
+  static constexpr bool kHasLinearTimeline = requires { &S::linearise_timeline; };
+
   template <class Change>
   [[nodiscard]] std::shared_ptr<const AnySolver> changed(Change&& change) const {
     Options options = options_;
@@ -185,6 +220,21 @@ class Method {
                                         const Progress& progress = {}) const {
     check_places(scene, places);
     return solver_->linearise(scene, places, entries, memory, progress);
+  }
+  /// Whether linearise_integrals() and linearise_timeline() do for the entries for which has_derivative().
+  [[nodiscard]] bool has_linear_integrals() const { return solver_->has_linear_integrals(); }
+  [[nodiscard]] bool has_linear_timeline() const { return solver_->has_linear_timeline(); }
+  /// See DifferentiableSolver. Preconditions: as linearise(); g.slope.
+  [[nodiscard]] LinearIntegrals linearise_integrals(const Scene<double>& scene,
+                                                    const std::vector<double>& times, const ShareFunction& g,
+                                                    const std::vector<std::size_t>& entries, std::any& memory,
+                                                    const Progress& progress = {}) const {
+    return solver_->linearise_integrals(scene, times, g, entries, memory, progress);
+  }
+  [[nodiscard]] LinearTimeline linearise_timeline(const Scene<double>& scene,
+                                                  const std::vector<std::size_t>& entries,
+                                                  std::any& memory) const {
+    return solver_->linearise_timeline(scene, entries, memory);
   }
 
   /// Names of all solvers with the property, in the order of the list.

@@ -92,6 +92,21 @@ struct Linearisation {
   Summary summary;
 };
 
+/// Integrals of a function of the share at some times, and their derivatives.
+struct LinearIntegrals {
+  std::vector<double> integrals;         ///< one per time
+  std::vector<double> derivatives;       ///< [time * number of entries + entry]
+  std::vector<double> mass_derivatives;  ///< of int phi dz
+  Summary summary;
+};
+
+/// Event times and their derivatives.
+struct LinearTimeline {
+  Timeline<double> times;
+  TimelineDerivatives derivatives;  ///< with respect to the entries asked for, in their order
+  Summary summary;
+};
+
 /// A solver. Its Options list their fields (solver/option.hpp).
 ///
 ///   order_M   optional, where guarantees() has a least_order_M: whether this scene is one of those, as the order of M
@@ -127,6 +142,8 @@ template <Solver S>
 ///                       `entries` (none: samples only). `memory` is what the solver likes to keep from one call to the
 ///                       next, with numbers near by; empty at first. `progress` as in Watch. Preconditions: both refusals
 ///                       are empty
+///   linearise_integrals, linearise_timeline  optional: the same of int c g(phi / c) dz at some times, 0 <= t <= infinity, where g
+///                       has a slope, and of the event times
 template <class S>
 concept DifferentiableSolver = Solver<S> &&
     requires(const Scene<double>& scene, const typename S::Options& options, const Entry& entry,

@@ -34,6 +34,10 @@ struct PackingPolynomial {
     const auto c = [](int k) { return Scalar(k) / Scalar(10000); };
     return pure + x * (c(1531) + x * (c(434) + x * (c(-9450) + x * (c(12388) + x * c(-4903)))));
   }
+  [[nodiscard]] Scalar derivative(const Scalar& x) const {
+    const auto c = [](int k) { return Scalar(k) / Scalar(10000); };
+    return c(1531) + x * (c(2 * 434) + x * (c(3 * -9450) + x * (c(4 * 12388) + x * c(5 * -4903))));
+  }
   [[nodiscard]] static std::vector<Scalar> kinks() { return {}; }
 
   static std::vector<PackingPolynomial> samples() { return {{}, {Scalar(0.55)}}; }

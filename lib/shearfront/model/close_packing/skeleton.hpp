@@ -28,6 +28,7 @@ struct SkeletonClosePacking {
   static void check(const std::string& /*prefix*/, Complaints& /*complaints*/) {}
 
   [[nodiscard]] Scalar value(const Scalar& /*x*/) const { return pure; }
+  [[nodiscard]] Scalar derivative(const Scalar& /*x*/) const { return Scalar(0); }
   [[nodiscard]] static std::vector<Scalar> kinks() { return {}; }
 
   static std::vector<SkeletonClosePacking> samples() { return {{}}; }

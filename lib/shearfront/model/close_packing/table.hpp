@@ -50,10 +50,13 @@ struct PackingTable {
   }
 
   [[nodiscard]] Scalar value(const Scalar& x) const {
-    const auto it = std::upper_bound(share.begin() + 1, share.end() - 1, x);
-    const auto i = static_cast<std::size_t>(it - share.begin()) - 1;
+    const std::size_t i = interval_of(x);
     const Scalar w = (x - share[i]) / (share[i + 1] - share[i]);
     return values[i] + w * (values[i + 1] - values[i]);
+  }
+  [[nodiscard]] Scalar derivative(const Scalar& x) const {
+    const std::size_t i = interval_of(x);
+    return (values[i + 1] - values[i]) / (share[i + 1] - share[i]);
   }
   [[nodiscard]] std::vector<Scalar> kinks() const { return {share.begin() + 1, share.end() - 1}; }
 
@@ -63,6 +66,12 @@ struct PackingTable {
     };
     return {{numbers({0, 1}), numbers({0.5, 0.625})},
             {numbers({0, 0.25, 0.5, 1}), numbers({0.625, 0.6875, 0.671875, 0.625})}};
+  }
+
+ private:
+  [[nodiscard]] std::size_t interval_of(const Scalar& x) const {
+    const auto it = std::upper_bound(share.begin() + 1, share.end() - 1, x);
+    return static_cast<std::size_t>(it - share.begin()) - 1;
   }
 };
 

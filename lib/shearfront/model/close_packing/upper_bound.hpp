@@ -33,6 +33,10 @@ struct PackingUpperBound {
     const Scalar large = Scalar(1) - x;
     return pure / std::max(large, Scalar(x + large * pure));
   }
+  [[nodiscard]] Scalar derivative(const Scalar& x) const {
+    const Scalar large = Scalar(1) - x, small = x + large * pure;
+    return large > small ? Scalar(pure / (large * large)) : Scalar(-pure * (Scalar(1) - pure) / (small * small));
+  }
   [[nodiscard]] std::vector<Scalar> kinks() const { return {(Scalar(1) - pure) / (Scalar(2) - pure)}; }
 
   static std::vector<PackingUpperBound> samples() { return {{}, {Scalar(0.55)}}; }

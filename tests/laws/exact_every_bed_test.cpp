@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every shear rate with every flux and several initial states: the ends of the bed against places next to them, derivatives of event
+// times and of the height of the bed against differences.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/exact/events.hpp"
+#include "shearfront/exact/exact_share_integral.hpp"
+#include "shearfront/exact/solver.hpp"
+#include "shearfront/exact/timeline_derivatives.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/scene/entries.hpp"
+#include "shearfront/solution/bed_height.hpp"
+#include "support/model_types.hpp"
+#include "support/random_scene.hpp"
+#include "support/scene_cast.hpp"
+
+namespace shearfront {
+namespace {
+
+constexpr std::size_t kFewPieces = 7;
+constexpr std::size_t kSomePieces = 64;
+constexpr double kBedTop = 0.96875;
+
+struct BedStart {
+  std::vector<double> breaks, states;  ///< shares of the range of a flux
+};
+const std::vector<BedStart> kBedStarts{{{0.53125}, {0, 1}},
+                                       {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}},
+                                       {{0.21875, 0.65625}, {0, 0.90625, 0.125}},
+                                       {{}, {0.40625}}};
+
+template <class Model>
+class ExactOnEveryBed : public testing::Test {
+ public:
+  /// Calls visit(spec) for every scene with the first sample of this shear rate and every flux that the solver solves.
+  template <class Visit>
+  static void for_each_scene(Visit&& visit) {
+    FluxList<double>::for_each([&]<class F>() {
+      const F flux = F::samples().front();
+      for (const BedStart& start : kBedStarts) {
+        SceneSpec<double> spec;
+        spec.fluxes = {flux};
+        spec.shear_rate = Model::samples().front();
+        spec.top = kBedTop;
+        spec.initial_breaks = start.breaks;
+        const auto range = flux.range();
+        for (const double x : start.states)
+          spec.initial_values.push_back(range.lowest + x * (range.highest - range.lowest));
+        if (!find_complaints(spec).empty()) continue;
+        if (!ExactSolver::refusal(Scene<double>(spec), {}).empty()) continue;
+        SCOPED_TRACE(std::string(Model::kName) + " with " + std::string(F::kName) + " and " +
+                     std::to_string(start.breaks.size()) + " jumps from " + std::to_string(start.states[0]));
+        visit(spec);
+      }
+    });
+  }
+};
+
+template <class List>
+struct EveryBedTypes;
+template <class... Model>
+struct EveryBedTypes<TypeList<Model...>> {
+  using Type = testing::Types<Model...>;
+};
+TYPED_TEST_SUITE(ExactOnEveryBed, EveryBedTypes<DepthFunctionList<double>>::Type, support::ModelName);
+
+/// At the top a bed of pieces had paths that turned beyond it (flux no parabola): phi 0.5 for 1, and a height of the bed off by 1e-5.
+TYPED_TEST(ExactOnEveryBed, AtItsEndsIsWhatIsNextToThem) {
+  int n_compared = 0;
+  this->for_each_scene([&](const SceneSpec<double>& spec) {
+    const Scene<double> scene(spec);
+    const ExactSolution<double> solution(scene, {kFewPieces});
+    for (const bool is_top : {false, true})
+      for (const double t : {1e-3, 0.01, 0.05, 0.15, 0.4, 1.0, 3.0}) {
+        const double end = is_top ? scene.top() : scene.bottom(), inwards = is_top ? -1e-9 : 1e-9;
+        const double near = solution.phi(end + inwards, t), nearer = solution.phi(end + inwards / 64, t);
+        if (std::abs(near - nearer) > 1e-3) continue;  // something is passing
+        EXPECT_NEAR(solution.phi(end, t), nearer, 1e-3) << (is_top ? "top" : "bottom") << " at t = " << t;
+        ++n_compared;
+      }
+  });
+  EXPECT_GT(n_compared, 100);
+}
+
+template <Real Scalar>
+std::vector<std::optional<Scalar>> times_of(const Timeline<Scalar>& timeline) {
+  std::vector<std::optional<Scalar>> all{timeline.t0, timeline.t1, timeline.t_star};
+  for (const auto& at : timeline.interfaces) {
+    all.push_back(at.first);
+    all.push_back(at.last);
+  }
+  return all;
+}
+std::vector<std::vector<double>> rows_of(const TimelineDerivatives& by) {
+  std::vector<std::vector<double>> all{by.t0, by.t1, by.t_star};
+  for (const auto& at : by.interfaces) {
+    all.push_back(at.first);
+    all.push_back(at.last);
+  }
+  return all;
+}
+
+/// Times of the scene with an entry moved by h.
+template <Real Scalar>
+std::vector<std::optional<Scalar>> moved_times(SceneSpec<Scalar> spec, std::size_t entry, const Scalar& h) {
+  *entry_places(spec)[entry] += h;
+  if (!find_complaints(spec).empty()) return {};
+  return times_of(exact_timeline(ExactSolution<Scalar>(Scene<Scalar>(spec), {kFewPieces})));
+}
+
+TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
+  int n_scenes = 0, n_compared = 0, n_wanted = 0;
+  this->for_each_scene([&](const SceneSpec<double>& spec) {
+    const Scene<double> scene(spec);
+    ++n_scenes;
+    const ExactSolution<double> solution(scene, {kFewPieces});
+    const Timeline<double> timeline = exact_timeline(solution);
+    const auto times = times_of(timeline);
+    const auto rows = rows_of(timeline_derivatives(solution, timeline));
+    ASSERT_EQ(rows.size(), times.size());
+    const bool is_costly = !scene.is_layered() && !spec.fluxes[0].is_parabola();
+    const Real110 step("1e-20");
+    const double wide = 1e-5;
+    const std::vector<Entry> all = entries(spec);
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      if (!ExactSolver::derivative_refusal(scene, {}, all[e]).empty()) continue;
+      std::vector<std::optional<double>> numeric;
+      if (is_costly) {
+        const auto low = moved_times(spec, e, -wide), high = moved_times(spec, e, wide);
+        for (std::size_t i = 0; i < std::min(low.size(), high.size()); ++i)
+          numeric.push_back(low[i] && high[i] ? std::optional((*high[i] - *low[i]) / (2 * wide))
+                                              : std::nullopt);
+      } else {
+        const SceneSpec<Real110> precise = scene_cast<Real110>(scene).spec();
+        const auto low = moved_times(precise, e, Real110(-step)), high = moved_times(precise, e, step);
+        for (std::size_t i = 0; i < std::min(low.size(), high.size()); ++i)
+          numeric.push_back(low[i] && high[i]
+                                ? std::optional(to_double(Real110((*high[i] - *low[i]) / (2 * step))))
+                                : std::nullopt);
+      }
+      if (numeric.size() != rows.size()) continue;  // not to both sides
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!times[i] || *times[i] == 0 || !std::isfinite(*times[i]) || !numeric[i]) continue;
+        ++n_wanted;
+        if (rows[i].empty()) continue;
+        // A pure state at a wall that is moved is none.
+        if (all[e].field == "initial.values" && i < 2) continue;
+        const double tolerance = is_costly ? 1e-6 : 1e-10;
+        EXPECT_NEAR(rows[i][e], *numeric[i], tolerance * (*times[i] + std::abs(*numeric[i])))
+            << "time " << i << " = " << *times[i] << " by " << all[e].name();
+        ++n_compared;
+      }
+    }
+  });
+  EXPECT_GT(n_scenes, 0);
+  EXPECT_GT(n_compared, n_scenes);
+  EXPECT_GE(n_compared, 0.8 * n_wanted);
+  std::printf("scenes %d compared %d of %d\n", n_scenes, n_compared, n_wanted);
+}
+
+TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) {
+  int n_scenes = 0, n_compared = 0;
+  support::SceneMaker make(support::seed_of(5502));
+  this->for_each_scene([&](const SceneSpec<double>& spec) {
+    const Scene<double> scene(spec);
+    if (!BedHeight::refusal(scene).empty()) return;
+    ++n_scenes;
+    if (!scene.is_layered() && !spec.fluxes[0].is_parabola() && spec.initial_breaks.size() == 2)
+      return;  // cost
+    const ExactSolution<double> solution(scene, {kSomePieces});
+    const Derivatives<double> derivatives(solution);
+    const BedHeight bed(scene);
+    for (const double t : {0.0, std::exp(make.uniform(-2.5, 0.5)), infinity<double>()}) {
+      const double integral = share_integral(solution, t, bed.integrand());
+      const std::vector<double> by = share_integral_derivatives(solution, derivatives, t, bed.integrand()),
+                                mass_by = derivatives.at(scene.top(), 0).M;
+      const std::vector<Entry> all = entries(spec);
+      for (std::size_t e = 0; e < all.size(); ++e) {
+        if (!ExactSolver::derivative_refusal(scene, {}, all[e]).empty()) continue;
+        const auto height = [&](double step) {
+          SceneSpec<double> moved = spec;
+          *entry_places(moved)[e] += step;
+          if (!find_complaints(moved).empty()) return std::nan("");
+          const Scene<double> other(moved);
+          const BedHeight own(other);
+          return own.height(share_integral(ExactSolution<double>(other, {kSomePieces}), t, own.integrand()));
+        };
+        const auto numeric = [&](double h) {
+          return (8 * (height(h) - height(-h)) - (height(2 * h) - height(-2 * h))) / (12 * h);
+        };
+        const double fine = numeric(5e-4), coarse = numeric(2e-3);
+        if (!std::isfinite(fine)) continue;
+        EXPECT_NEAR(bed.height_by(integral, by[e], mass_by[e]), fine, 1e-8 + 3 * std::abs(fine - coarse))
+            << "at t = " << t << " by " << all[e].name();
+        ++n_compared;
+      }
+    }
+  });
+  EXPECT_GT(n_scenes, 0);
+  EXPECT_GT(n_compared, n_scenes);
+  std::printf("scenes %d compared %d\n", n_scenes, n_compared);
+}
+
+}  // namespace
+}  // namespace shearfront
