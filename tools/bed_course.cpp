@@ -41,17 +41,6 @@ SolverRequest request_of_bed(SolvedQuantity quantity, const BedHeight& bed,
 
 }  // namespace
 
-std::vector<double> bed_numbers(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
-                                const std::vector<double>& times) {
-  const BedHeight bed(scene);
-  const SolverResult result = solve(scene, method, request_of_bed(quantity, bed, times));
-  std::vector<double> numbers;
-  if (!result.summary.usable()) return numbers;
-  for (const double integral : result.integrals)
-    for (const double x : row_of(quantity, scene, bed, integral)) numbers.push_back(x);
-  return numbers;
-}
-
 BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
                      const std::vector<double>& times, const Progress& progress) {
   const BedHeight bed(scene);

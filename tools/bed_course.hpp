@@ -29,10 +29,6 @@ struct BedCourse {
 [[nodiscard]] BedCourse bed_course(SolvedQuantity quantity, const Scene<double>& scene, const Method& method,
                                    const std::vector<double>& times, const Progress& progress = {});
 
-/// The rows of the same, one after the other, without the lowest bed; nothing if the summary is not usable().
-[[nodiscard]] std::vector<double> bed_numbers(SolvedQuantity quantity, const Scene<double>& scene,
-                                              const Method& method, const std::vector<double>& times);
-
 /// When what was computed had come to rest, as far as the method says.
 [[nodiscard]] std::optional<double> steady_time_of(const SolverResult& result);
 

@@ -199,12 +199,10 @@ int solve_bed(const SolveArguments& arguments, const Task& task) {
   note_remark(course.summary);
   const TimeTable without_bands = course.table;  // what is drawn
   if (const fit::DrawnScenes* draws = arguments.scene.draws()) {
-    const fit::PredictedNumbers predicted = fit::predict_numbers(
-        task.scene, *draws,
-        [&](const Scene<double>& scene) {
-          return bed_numbers(quantity_of(arguments), scene, task.method, task.times);
-        },
-        task.method.guarantees().exact);
+    const bool is_mixing = quantity_of(arguments) == SolvedQuantity::mixing;
+    const fit::PredictedNumbers predicted = fit::predict_bed(
+        task.scene, *draws, task.method,
+        is_mixing ? fit::mixing_function() : fit::bed_height_function(task.scene), task.times);
     note_draws(*draws, predicted.n_failed);
     note_bands(*draws, predicted.n_by_draws, predicted.numbers.size());
     add_bands(course.table, predicted.numbers);

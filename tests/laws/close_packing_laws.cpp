@@ -59,6 +59,7 @@ TYPED_TEST(ClosePackingLaws, IsContinuousAndBendsOnlyAtItsKinks) {
       EXPECT_NEAR(below, above, 4 * h) << x;
       if (!is_near) {
         EXPECT_NEAR(below - 2 * at + above, 0, 1e-6) << x;
+        EXPECT_NEAR(law.derivative(x), (above - below) / (2 * h), 1e-6) << x;
         checked.count();
       }
     }

@@ -91,11 +91,9 @@ std::size_t add_heights_of_bed(PredictionRows& rows, const PredictionPlan& plan,
     note("no height of the bed: " + why);
     return 0;
   }
-  const auto heights = [&](const Scene<double>& scene) {
-    return bed_numbers(SolvedQuantity::bed_height, scene, method, plan.times);
-  };
   const fit::PredictedNumbers predicted = with_drawn_scenes(draws, [&](const fit::Progress& progress) {
-    return fit::predict_numbers(estimated, draws, heights, method.guarantees().exact, progress);
+    return fit::predict_bed(estimated, draws, method, fit::bed_height_function(estimated), plan.times,
+                            progress);
   });
   for (std::size_t i = 0; i < predicted.numbers.size(); ++i)
     rows.add("H", plan.times[i], {}, predicted.numbers[i], rows.units().z);

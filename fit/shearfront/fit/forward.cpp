@@ -37,7 +37,7 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
     for (const Place& place : places_) times_.push_back(place.t);
     std::sort(times_.begin(), times_.end());
     times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
-    return;
+    if (!method_.has_linear_integrals()) return;
   }
   const std::vector<Entry> all = shearfront::entries(scene.spec());
   const auto has_derivative = [&](const Entry& entry) { return method_.has_derivative(scene, entry); };
@@ -53,7 +53,7 @@ Prediction Forward::predict(const VectorXd& values, bool with_derivatives,
   const auto scene = parameters_->scene_at(values, prediction.failure);
   if (!scene) return prediction;
   if (observable_ == Observable::bed_height)
-    predict_heights(*scene, progress, prediction);
+    predict_heights(*scene, with_derivatives && has_derivatives_, progress, prediction);
   else
     predict_samples(*scene, with_derivatives && has_derivatives_, progress, prediction);
   return prediction;
@@ -92,22 +92,37 @@ void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
     }
 }
 
-void Forward::predict_heights(const Scene<double>& scene, const shearfront::Progress& progress,
-                              Prediction& prediction) const {
+void Forward::predict_heights(const Scene<double>& scene, bool with_derivatives,
+                              const shearfront::Progress& progress, Prediction& prediction) const {
   const BedHeight bed(scene);
-  SolverRequest request;
-  request.times = times_;
-  request.integrand = bed.integrand();
-  const SolverResult result = solve(scene, method_, request, progress);
-  if (!result.summary.usable()) {
-    prediction.failure = result.summary.message;
-    return;
+  std::vector<double> integrals;
+  LinearIntegrals linear;
+  if (with_derivatives) {
+    if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
+    linear = method_.linearise_integrals(scene, times_, bed.integrand(), entries_, memory_, progress);
+    if (!linear.summary.usable()) prediction.failure = linear.summary.message;
+    integrals = linear.integrals;
+  } else {
+    SolverRequest request;
+    request.times = times_;
+    request.integrand = bed.integrand();
+    const SolverResult result = solve(scene, method_, request, progress);
+    if (!result.summary.usable()) prediction.failure = result.summary.message;
+    prediction.remark = result.summary.remark;
+    integrals = result.integrals;
   }
-  prediction.remark = result.summary.remark;
+  if (!prediction.is_valid()) return;
+  const std::size_t n = entries_.size();
   prediction.values.resize(static_cast<Index>(places_.size()));
+  if (with_derivatives)
+    prediction.derivatives.resize(static_cast<Index>(places_.size()), static_cast<Index>(n));
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto at = std::lower_bound(times_.begin(), times_.end(), places_[i].t) - times_.begin();
-    prediction.values[static_cast<Index>(i)] = bed.height(result.integrals[static_cast<std::size_t>(at)]);
+    const auto at = static_cast<std::size_t>(std::lower_bound(times_.begin(), times_.end(), places_[i].t) -
+                                             times_.begin());
+    prediction.values[static_cast<Index>(i)] = bed.height(integrals[at]);
+    for (std::size_t k = 0; with_derivatives && k < n; ++k)
+      prediction.derivatives(static_cast<Index>(i), static_cast<Index>(k)) =
+          bed.height_by(integrals[at], linear.derivatives[at * n + k], linear.mass_derivatives[k]);
   }
 }
 

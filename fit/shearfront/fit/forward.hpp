@@ -47,8 +47,8 @@ class Forward {
   void take(const std::vector<Sample>& samples, Prediction& prediction) const;
   void predict_samples(const Scene<double>& scene, bool with_derivatives,
                        const shearfront::Progress& progress, Prediction& prediction) const;
-  void predict_heights(const Scene<double>& scene, const shearfront::Progress& progress,
-                       Prediction& prediction) const;
+  void predict_heights(const Scene<double>& scene, bool with_derivatives,
+                       const shearfront::Progress& progress, Prediction& prediction) const;
 
   const Parameters* parameters_;
   Method method_;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "shearfront/fit/quantile.hpp"
+#include "shearfront/solution/bed_height.hpp"
+#include "shearfront/solution/mixing.hpp"
 
 namespace shearfront::fit {
 namespace {
@@ -24,6 +26,13 @@ std::optional<Interval> quantiles_of(std::vector<double> numbers) {
 struct OnAxis {
   double slope, far_low, far_high;
 };
+
+/// The slope on an axis of a number with these derivatives.
+double slope_on(const DrawnScenes::Axis& axis, const double* derivatives) {
+  double slope = 0;
+  for (std::size_t k = 0; k < axis.slopes.size(); ++k) slope += derivatives[k] * axis.slopes[k];
+  return slope;
+}
 
 /// The deviation of a number by its slopes; nothing where a straight line does not do.
 std::optional<double> linear_deviation(double value, const std::vector<OnAxis>& on,
@@ -45,12 +54,26 @@ std::optional<double> linear_deviation(double value, const std::vector<OnAxis>& 
 
 bool has_axes(const DrawnScenes& draws) {
   return !draws.axes.empty() &&
-         std::all_of(draws.axes.begin(), draws.axes.end(), [](const DrawnScenes::Axis& axis) {
-           return axis.near_low && axis.near_high && axis.far_low && axis.far_high;
-         });
+         std::all_of(draws.axes.begin(), draws.axes.end(),
+                     [](const DrawnScenes::Axis& axis) { return axis.far_low && axis.far_high; });
 }
 
-/// Solves every drawn scene; take(result) for those that have a result. Returns how many have none.
+/// Whether there are axes, and the method has derivatives by all unknowns.
+bool has_derivatives(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method) {
+  if (!has_axes(draws)) return false;
+  const std::vector<Entry> all = entries(estimated.spec());
+  return std::all_of(draws.entries.begin(), draws.entries.end(),
+                     [&](std::size_t i) { return method.has_derivative(estimated, all[i]); });
+}
+
+void set_linear_band(PredictedNumber& number, const std::vector<OnAxis>& on, const DrawnScenes& draws) {
+  number.std_error = linear_deviation(number.value, on, draws);
+  if (!number.std_error) return;
+  const double half = draws.quantile * *number.std_error;
+  number.band = {number.value - half, number.value + half};
+}
+
+/// Solves every drawn scene; take(scene, result) for those that have one. Returns how many have none.
 template <class Take>
 std::size_t solve_all(const DrawnScenes& draws, const Method& method, const SolverRequest& request,
                       const Progress& progress, Take&& take) {
@@ -58,7 +81,7 @@ std::size_t solve_all(const DrawnScenes& draws, const Method& method, const Solv
   for (std::size_t i = 0; i < draws.scenes.size(); ++i) {
     const SolverResult result = solve(draws.scenes[i], method, request);
     if (result.summary.usable())
-      take(result);
+      take(draws.scenes[i], result);
     else
       ++n_failed;
     if (progress && !progress(i + 1, 0)) break;
@@ -76,25 +99,22 @@ Numbers numbers_of(const std::vector<Sample>& samples) {
   return numbers;
 }
 
-/// Sets the bands that derivatives give; false if there are none.
-bool set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
+/// Sets the bands that derivatives give.
+void set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
                       const SolverRequest& request, std::vector<PredictedNumber>& predicted) {
-  if (!has_axes(draws)) return false;
-  const std::vector<Entry> all = entries(estimated.spec());
-  for (const std::size_t i : draws.entries)
-    if (!method.has_derivative(estimated, all[i])) return false;
+  if (!has_derivatives(estimated, draws, method)) return;
   std::vector<Place> places;
   for (const double t : request.times)
     for (const double z : request.heights) places.push_back({t, z});
   std::any memory;
   const Linearisation linear = method.linearise(estimated, places, draws.entries, memory);
-  if (!linear.summary.usable()) return false;
+  if (!linear.summary.usable()) return;
   const std::size_t n_entries = draws.entries.size(), n = places.size();
   std::vector<std::vector<OnAxis>> on(2 * n);
   for (const DrawnScenes::Axis& axis : draws.axes) {
     const SolverResult low = solve(*axis.far_low, method, request),
                        high = solve(*axis.far_high, method, request);
-    if (!low.summary.usable() || !high.summary.usable()) return false;
+    if (!low.summary.usable() || !high.summary.usable()) return;
     const Numbers at_low = numbers_of(low.samples), at_high = numbers_of(high.samples);
     for (std::size_t i = 0; i < n; ++i) {
       OnAxis phi{0, at_low[i], at_high[i]}, M{0, at_low[n + i], at_high[n + i]};
@@ -106,14 +126,7 @@ bool set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, 
       on[n + i].push_back(M);
     }
   }
-  for (std::size_t i = 0; i < 2 * n; ++i) {
-    PredictedNumber& number = predicted[i];
-    number.std_error = linear_deviation(number.value, on[i], draws);
-    if (!number.std_error) continue;
-    const double half = draws.quantile * *number.std_error;
-    number.band = {number.value - half, number.value + half};
-  }
-  return true;
+  for (std::size_t i = 0; i < 2 * n; ++i) set_linear_band(predicted[i], on[i], draws);
 }
 
 /// t_0, t_1, t*, then first and last of every interface; kNever for those that do not come.
@@ -127,32 +140,44 @@ Numbers numbers_of(const Timeline<double>& timeline) {
   return numbers;
 }
 
-/// Numbers of the timelines on an axis; empty if one has another number of interfaces, or there is none.
-std::vector<Numbers> on_axis(const DrawnScenes::Axis& axis, const Method& method, std::size_t n) {
-  SolverRequest request;
-  request.timeline = true;
-  std::vector<Numbers> all;
-  for (const auto* scene : {&axis.near_low, &axis.near_high, &axis.far_low, &axis.far_high}) {
-    const SolverResult result = solve(**scene, method, request);
-    if (!result.summary.usable() || !result.timeline) return {};
-    all.push_back(numbers_of(*result.timeline));
-    if (all.back().size() != n) return {};
+/// In the same order.
+std::vector<const std::vector<double>*> rows_of(const TimelineDerivatives& by) {
+  std::vector<const std::vector<double>*> rows{&by.t0, &by.t1, &by.t_star};
+  for (const auto& at : by.interfaces) {
+    rows.push_back(&at.first);
+    rows.push_back(&at.last);
   }
-  return all;
+  return rows;
 }
 
-void set_linear_bands(const DrawnScenes& draws, const Method& method,
+/// Of n numbers; none if the scene has another number of interfaces, or no timeline.
+Numbers times_at(const Scene<double>& scene, const Method& method, std::size_t n) {
+  SolverRequest request;
+  request.timeline = true;
+  const SolverResult result = solve(scene, method, request);
+  if (!result.summary.usable() || !result.timeline) return {};
+  Numbers numbers = numbers_of(*result.timeline);
+  return numbers.size() == n ? numbers : Numbers{};
+}
+
+void set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
                       std::vector<PredictedNumber>& predicted) {
-  if (!has_axes(draws) || !method.guarantees().exact) return;
+  if (!method.has_linear_timeline() || !has_derivatives(estimated, draws, method)) return;
+  std::any memory;
+  const LinearTimeline linear = method.linearise_timeline(estimated, draws.entries, memory);
+  const auto rows = rows_of(linear.derivatives);
+  if (rows.size() != predicted.size()) return;
   std::vector<std::vector<OnAxis>> on(predicted.size());
   std::vector<bool> is_fixed(predicted.size(), true);  // the same on all axes: 0, or never
   for (const DrawnScenes::Axis& axis : draws.axes) {
-    const std::vector<Numbers> at = on_axis(axis, method, predicted.size());
-    if (at.empty()) return;
+    const Numbers low = times_at(*axis.far_low, method, predicted.size()),
+                  high = times_at(*axis.far_high, method, predicted.size());
+    if (low.empty() || high.empty()) return;
     for (std::size_t i = 0; i < predicted.size(); ++i) {
-      for (const Numbers& numbers : at) is_fixed[i] = is_fixed[i] && numbers[i] == predicted[i].value;
-      on[i].push_back({(std::log(at[1][i]) - std::log(at[0][i])) / (2 * DrawnScenes::kNear),
-                       std::log(at[2][i]), std::log(at[3][i])});
+      const double value = predicted[i].value;
+      is_fixed[i] = is_fixed[i] && low[i] == value && high[i] == value;
+      const double slope = rows[i]->empty() ? kNever : slope_on(axis, rows[i]->data()) / value;
+      on[i].push_back({slope, std::log(low[i]), std::log(high[i])});
     }
   }
   for (std::size_t i = 0; i < predicted.size(); ++i) {
@@ -168,6 +193,53 @@ void set_linear_bands(const DrawnScenes& draws, const Method& method,
       number.band = {number.value / factor, number.value * factor};
     }
   }
+}
+
+SolverRequest request_of(const BedFunction& bed, const std::vector<double>& times) {
+  SolverRequest request;
+  request.times = times;
+  request.integrand = bed.integrand;
+  return request;
+}
+
+Numbers numbers_of(const BedFunction& bed, const Scene<double>& scene, const std::vector<double>& integrals) {
+  Numbers numbers;
+  for (const double integral : integrals)
+    for (const BedFunction::Number& number : bed.numbers(scene, integral)) numbers.push_back(number.value);
+  return numbers;
+}
+
+void set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
+                      const BedFunction& bed, const std::vector<double>& times,
+                      std::vector<PredictedNumber>& predicted) {
+  if (!bed.integrand.slope || !method.has_linear_integrals() || !has_derivatives(estimated, draws, method))
+    return;
+  std::any memory;
+  const LinearIntegrals linear =
+      method.linearise_integrals(estimated, times, bed.integrand, draws.entries, memory);
+  if (!linear.summary.usable()) return;
+  std::vector<std::vector<OnAxis>> on(predicted.size());
+  for (const DrawnScenes::Axis& axis : draws.axes) {
+    Numbers ends[2];
+    for (const bool is_high : {false, true}) {
+      const Scene<double>& scene = is_high ? *axis.far_high : *axis.far_low;
+      const SolverResult result = solve(scene, method, request_of(bed, times));
+      if (!result.summary.usable()) return;
+      ends[is_high] = numbers_of(bed, scene, result.integrals);
+      if (ends[is_high].size() != predicted.size()) return;
+    }
+    const double mass = slope_on(axis, linear.mass_derivatives.data());
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double integral = slope_on(axis, &linear.derivatives[i * draws.entries.size()]);
+      for (const BedFunction::Number& number : bed.numbers(estimated, linear.integrals[i])) {
+        on[n].push_back(
+            {number.by_integral * integral + number.by_mass * mass, ends[false][n], ends[true][n]});
+        ++n;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < predicted.size(); ++i) set_linear_band(predicted[i], on[i], draws);
 }
 
 /// The numbers without a band by derivatives get that of the draws. Returns how many they are.
@@ -204,11 +276,12 @@ PredictedSamples predict_samples(const Scene<double>& estimated, const DrawnScen
   std::vector<PredictedNumber> predicted;
   for (const double x : numbers_of(at_estimate.samples)) predicted.push_back({x, {}, {}});
   PredictedSamples result;
-  (void)set_linear_bands(estimated, draws, method, request, predicted);
+  set_linear_bands(estimated, draws, method, request, predicted);
   if (!all_have_bands(predicted)) {
     std::vector<Numbers> drawn;
-    result.n_failed = solve_all(draws, method, request, progress,
-                                [&](const SolverResult& one) { drawn.push_back(numbers_of(one.samples)); });
+    result.n_failed = solve_all(
+        draws, method, request, progress,
+        [&](const Scene<double>&, const SolverResult& one) { drawn.push_back(numbers_of(one.samples)); });
     result.n_by_draws = set_drawn_bands(drawn, predicted);
   }
   const auto middle = predicted.begin() + static_cast<std::ptrdiff_t>(predicted.size() / 2);
@@ -229,11 +302,12 @@ PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes
   result.at_estimate = *at_estimate.timeline;
   std::vector<PredictedNumber> predicted;
   for (const double t : numbers_of(result.at_estimate)) predicted.push_back({t, {}, {}});
-  set_linear_bands(draws, method, predicted);
+  set_linear_bands(estimated, draws, method, predicted);
   if (!all_have_bands(predicted)) {
     std::vector<Numbers> drawn;
-    result.n_failed = solve_all(draws, method, request, progress,
-                                [&](const SolverResult& one) { drawn.push_back(numbers_of(*one.timeline)); });
+    result.n_failed = solve_all(
+        draws, method, request, progress,
+        [&](const Scene<double>&, const SolverResult& one) { drawn.push_back(numbers_of(*one.timeline)); });
     result.n_by_draws = set_drawn_bands(drawn, predicted);
   }
   result.t0 = predicted[0];
@@ -244,36 +318,43 @@ PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes
   return result;
 }
 
-PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
-                                 const SceneNumbers& numbers, bool are_exact, const Progress& progress) {
+BedFunction bed_height_function(const Scene<double>& scene) {
+  return {BedHeight(scene).integrand(), [](const Scene<double>& of, double integral) {
+            const BedHeight bed(of);
+            return std::vector<BedFunction::Number>{
+                {bed.height(integral), bed.height_by(integral, 1, 0), bed.height_by(integral, 0, 1)}};
+          }};
+}
+
+BedFunction mixing_function() {
+  return {entropy_function(), [](const Scene<double>& of, double integral) {
+            const double mass = of.mass(), solid = of.solid(of.bottom(), of.top());
+            const Mixing at = mixing(integral, mass, solid);
+            const double by_mixed = at.mixed > 0 ? -at.parameter / at.mixed : 0;
+            return std::vector<BedFunction::Number>{{at.entropy, 1, 0},
+                                                    {at.parameter, at.mixed > 0 ? 1 / at.mixed : 0,
+                                                     by_mixed * entropy_function().slope(mass / solid)}};
+          }};
+}
+
+PredictedNumbers predict_bed(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
+                             const BedFunction& bed, const std::vector<double>& times,
+                             const Progress& progress) {
+  const SolverRequest request = request_of(bed, times);
+  const SolverResult at_estimate = solve(estimated, method, request);
+  if (!at_estimate.summary.usable())
+    throw InputError(std::string(method.name()), "",
+                     "has no solution at the estimate: " + at_estimate.summary.message);
   PredictedNumbers result;
-  for (const double x : numbers(estimated)) result.numbers.push_back({x, {}, {}});
-  const std::size_t n = result.numbers.size();
-  std::vector<std::vector<OnAxis>> on(n);
-  bool has_slopes = are_exact && has_axes(draws);
-  for (std::size_t k = 0; has_slopes && k < draws.axes.size(); ++k) {
-    const DrawnScenes::Axis& axis = draws.axes[k];
-    std::vector<Numbers> at;
-    for (const auto* scene : {&axis.near_low, &axis.near_high, &axis.far_low, &axis.far_high})
-      at.push_back(numbers(**scene));
-    has_slopes = std::all_of(at.begin(), at.end(), [&](const Numbers& x) { return x.size() == n; });
-    for (std::size_t i = 0; has_slopes && i < n; ++i)
-      on[i].push_back({(at[1][i] - at[0][i]) / (2 * DrawnScenes::kNear), at[2][i], at[3][i]});
-  }
-  for (std::size_t i = 0; has_slopes && i < n; ++i) {
-    PredictedNumber& number = result.numbers[i];
-    number.std_error = linear_deviation(number.value, on[i], draws);
-    if (!number.std_error) continue;
-    const double half = draws.quantile * *number.std_error;
-    number.band = {number.value - half, number.value + half};
-  }
+  for (const double x : numbers_of(bed, estimated, at_estimate.integrals))
+    result.numbers.push_back({x, {}, {}});
+  set_linear_bands(estimated, draws, method, bed, times, result.numbers);
   if (all_have_bands(result.numbers)) return result;
   std::vector<Numbers> drawn;
-  for (const Scene<double>& scene : draws.scenes) {
-    drawn.push_back(numbers(scene));
-    if (drawn.back().empty()) ++result.n_failed;
-    if (progress && !progress(drawn.size(), 0)) break;
-  }
+  result.n_failed =
+      solve_all(draws, method, request, progress, [&](const Scene<double>& scene, const SolverResult& one) {
+        drawn.push_back(numbers_of(bed, scene, one.integrals));
+      });
   result.n_by_draws = set_drawn_bands(drawn, result.numbers);
   return result;
 }

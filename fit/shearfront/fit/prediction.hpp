@@ -30,18 +30,17 @@ struct DrawnScenes {
   bool are_replicates = false;  ///< those of a bootstrap
 
   /// One of the independent directions in which the unknowns vary, by a number xi of unit deviation. The scenes at -x and
-  /// x on it: near the estimate, and so far that a number that is linear in all xi stays between them and their like with
-  /// 95 %: at quantile sqrt(number of axes).
+  /// x on it, so far from the estimate that a number that is linear in all xi stays between them and their like with 95 %: at
+  /// quantile sqrt(number of axes).
   struct Axis {
-    std::vector<double> slopes;                                           ///< of the unknowns in xi
-    std::optional<Scene<double>> near_low, near_high, far_low, far_high;  ///< empty: no valid scene
+    std::vector<double> slopes;                      ///< of the unknowns in xi
+    std::optional<Scene<double>> far_low, far_high;  ///< empty: no valid scene
   };
   std::vector<Axis> axes;
   std::vector<std::size_t> entries;  ///< of the unknowns among those of the scene
   double quantile = 0;               ///< of 97.5 %
 
   [[nodiscard]] double reach() const { return quantile * std::sqrt(static_cast<double>(axes.size())); }
-  static constexpr double kNear = 1e-3;
 };
 
 /// `n` scenes; the same for the same seed. Precondition: the estimate is usable. Cost: n scenes.
@@ -80,8 +79,8 @@ struct PredictedSamples {
                                                const std::vector<double>& heights,
                                                const Progress& progress = {});
 
-/// The event times, as in Timeline. Derivatives are differences of exact times along the axes, kNear to either side: right
-/// to nine digits. A method that is not exact has none. Cost: four timelines for each axis, and one for each draw.
+/// The event times, as in Timeline. Derivatives are those of Method::linearise_timeline. Cost: two timelines for each axis, and one
+/// for each draw where draws are needed.
 struct PredictedEvents {
   Timeline<double> at_estimate;
   struct AtInterface {
@@ -94,15 +93,27 @@ struct PredictedEvents {
 [[nodiscard]] PredictedEvents predict_events(const Scene<double>& estimated, const DrawnScenes& draws,
                                              const Method& method, const Progress& progress = {});
 
-/// Any numbers of a scene, such as the height of its bed at some times: as many of every scene, none where there is no
-/// solution. Derivatives are differences along the axes, if the numbers are exact to rounding. Cost: as predict_events().
-using SceneNumbers = std::function<std::vector<double>(const Scene<double>&)>;
+/// Numbers that are made of an integral over the bed and the amount of its grains, as the height of the bed is.
+struct BedFunction {
+  struct Number {
+    double value, by_integral, by_mass;
+  };
+  ShareFunction integrand;  ///< with its slope
+  std::function<std::vector<Number>(const Scene<double>&, double integral)> numbers;
+};
+/// The height of the bed. Precondition: BedHeight::refusal(scene) is empty.
+[[nodiscard]] BedFunction bed_height_function(const Scene<double>& scene);
+/// Entropy and parameter of mixing (solution/mixing.hpp).
+[[nodiscard]] BedFunction mixing_function();
+
+/// Those numbers at every time, one time after the other. Derivatives are those of Method::linearise_integrals. Errors: as solve(). Cost: as
+/// predict_events().
 struct PredictedNumbers {
   std::vector<PredictedNumber> numbers;
   std::size_t n_failed = 0, n_by_draws = 0;
 };
-[[nodiscard]] PredictedNumbers predict_numbers(const Scene<double>& estimated, const DrawnScenes& draws,
-                                               const SceneNumbers& numbers, bool are_exact,
-                                               const Progress& progress = {});
+[[nodiscard]] PredictedNumbers predict_bed(const Scene<double>& estimated, const DrawnScenes& draws,
+                                           const Method& method, const BedFunction& bed,
+                                           const std::vector<double>& times, const Progress& progress = {});
 
 }  // namespace shearfront::fit

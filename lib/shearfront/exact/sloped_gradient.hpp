@@ -55,9 +55,8 @@ class SlopedGradient {
     if (h_ == 0 && is_state) return pure();
     if (path_.foot == z_ && !path_.turned && !(is_state && kKnowsPieces)) return at_its_place(is_state);
     passes();
-    if (path_.x == 0 && !is_state && !path_.turned)
-      rest_on_the_way();
-    else if (is_state && start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_))
+    if (path_.x == 0 && !is_state && !path_.turned) return rest_on_the_way();
+    if (is_state && start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_))
       phi_of_state_inside();
     else if (is_state)
       phi_of_state();
@@ -222,18 +221,44 @@ class SlopedGradient {
     numbers_.number(end_, false).phi -= by_bend / pieces_.low[end_];
   }
 
-  /// H is the least capacity on the way, where a path through a flux with a kink spends the time that is left.
-  void rest_on_the_way() {
+  /// H is the least capacity on the way, where a path through a flux with a kink spends the time that is left: at an end of a
+  /// piece, at its start, or at z.
+  PathGradient<Scalar> rest_on_the_way() {
     numbers_.clear_phi();
     numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
-    const std::size_t lowest = std::min(start_, end_), highest = std::max(start_, end_);
-    for (std::size_t k = lowest; k <= highest; ++k)
-      for (const bool is_high : {false, true}) {
-        if ((is_high ? pieces_.high[k] : pieces_.low[k]) != path_.r_reference) continue;
-        numbers_.number(k, is_high).M += (t_ - time_) / Scalar(4);
-        numbers_.number(k, is_high).phi += phi_by_h();
-        return;
-      }
+    const Scalar M = (t_ - time_) / Scalar(4), phi = phi_by_h(), &lowest = std::min(path_.foot, z_),
+                 &highest = std::max(path_.foot, z_);
+    const auto excess = [&](const Scalar& r) {
+      return r < path_.r_reference ? Scalar(path_.r_reference - r) : Scalar(r - path_.r_reference);
+    };
+    Scalar least = excess(at(end_, z_));
+    std::size_t piece = end_;
+    const Scalar* place = &z_;
+    const auto take = [&](std::size_t k, const Scalar& z, const Scalar& r) {
+      if (z < lowest || z > highest || !(excess(r) < least)) return;
+      least = excess(r);
+      piece = k;
+      place = &z;
+    };
+    take(start_, path_.foot, at(start_, path_.foot));
+    for (std::size_t k = std::min(start_, end_); k <= std::max(start_, end_); ++k) {
+      take(k, pieces_.boundaries[k], pieces_.low[k]);
+      take(k, pieces_.boundaries[k + 1], pieces_.high[k]);
+    }
+    if (place == &z_ || place == &path_.foot) {
+      numbers_.add_at(piece, *place, M, phi);
+      numbers_.move_boundaries();
+    } else {  // there the capacity moves with the boundary
+      numbers_.move_boundaries();
+      numbers_.add_at_end(piece, place == &pieces_.boundaries[piece + 1], M, phi);
+    }
+    if (place == &path_.foot) {  // the start takes its capacity along
+      const Scalar slope = slope_at(pieces_.form[piece], pieces_.bend[piece], at(piece, *place));
+      out_.start.p -= M * slope;
+      out_.start.missing += M * slope;
+      out_.phi_start = phi * slope;
+    }
+    return std::move(out_);
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.

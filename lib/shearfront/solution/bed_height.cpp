@@ -28,7 +28,8 @@ BedHeight::BedHeight(const Scene<double>& scene) {
   integrand_.value = [close](double x) { return 1 / close(x); };
   integrand_.slope = [law, is_large, close](double x) {
     const double share = std::clamp(x, 0.0, 1.0), here = close(x);
-    const double slope = std::visit([&](const auto& model) { return model.derivative(is_large ? 1 - share : share); }, law);
+    const double slope =
+        std::visit([&](const auto& model) { return model.derivative(is_large ? 1 - share : share); }, law);
     return (is_large ? slope : -slope) / (here * here);
   };
   integrand_.kinks = std::visit([](const auto& model) { return model.kinks(); }, law);

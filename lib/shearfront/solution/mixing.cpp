@@ -13,7 +13,10 @@ double entropy_of_share(double x) {
   return -x * std::log(x) - (1 - x) * std::log1p(-x);
 }
 
-ShareFunction entropy_function() { return {entropy_of_share, {}}; }
+ShareFunction entropy_function() {
+  // Of a pure state nothing varies: there the slope, infinite, does not count.
+  return {entropy_of_share, {}, [](double x) { return x > 0 && x < 1 ? std::log1p(-x) - std::log(x) : 0.0; }};
+}
 
 Mixing mixing(double entropy, double amount, double solid) {
   Mixing mixing;

@@ -35,7 +35,8 @@ struct PackingUpperBound {
   }
   [[nodiscard]] Scalar derivative(const Scalar& x) const {
     const Scalar large = Scalar(1) - x, small = x + large * pure;
-    return large > small ? Scalar(pure / (large * large)) : Scalar(-pure * (Scalar(1) - pure) / (small * small));
+    return large > small ? Scalar(pure / (large * large))
+                         : Scalar(-pure * (Scalar(1) - pure) / (small * small));
   }
   [[nodiscard]] std::vector<Scalar> kinks() const { return {(Scalar(1) - pure) / (Scalar(2) - pure)}; }
 
