@@ -20,13 +20,13 @@ namespace shearfront {
 namespace {
 
 /// Fixed steps; some minutes, and a gigabyte if they are kept.
-constexpr std::uint64_t kMostSteps = 100'000'000;
+constexpr std::uint64_t kMostDiffusionSteps = 100'000'000;
 
 diffusion::Options engine_options(const CrankNicolsonSolver::Options& options, const Progress& progress) {
   diffusion::Options own;
   own.dt = options.time_step;
   own.tolerance = options.tolerance;
-  own.max_steps = kMostSteps;
+  own.max_steps = kMostDiffusionSteps;
   // Cells that follow fronts resolve them, and are wide where nothing bends.
   own.scheme = options.monotone             ? diffusion::Scheme::fitted
                : options.cell_tolerance > 0 ? diffusion::Scheme::central
@@ -81,7 +81,7 @@ class CrankNicolsonRun final : public Run {
       refused_ = "fixed steps do not reach the steady state: leave time_step out";
       return status_ = Status::unsupported;
     }
-    if (time_step_ > 0) refused_ = diffusion::too_many_steps(last_time_, time_step_, kMostSteps);
+    if (time_step_ > 0) refused_ = diffusion::too_many_steps(last_time_, time_step_, kMostDiffusionSteps);
     if (!refused_.empty()) return status_ = Status::budget_reached;
     status_ = march(*engine_, t);
     if (is_exhausted()) status_ = Status::budget_reached;
@@ -223,7 +223,7 @@ Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const O
   }
   if (!rows.empty() && options.time_step > 0) {
     Linearisation refused;
-    refused.summary.message = diffusion::too_many_steps(rows.rbegin()->first, options.time_step, kMostSteps);
+    refused.summary.message = diffusion::too_many_steps(rows.rbegin()->first, options.time_step, kMostDiffusionSteps);
     refused.summary.status = Status::budget_reached;
     if (!refused.summary.message.empty()) return refused;
   }
