@@ -181,14 +181,16 @@ TYPED_TEST(ExactDerivatives, AFitCanAskForEveryEntry) {
   this->for_each_scene([&](const SceneSpec<double>& spec) {
     fit::ForwardSpec exact;
     exact.method = Method::of<ExactSolver>({.layers = kLayers});
+    bool is_first = true;
     for (const Entry& entry : entries(spec)) {
       if (entry.field.starts_with("domain.")) continue;
       fit::UnknownSpec unknown;
       unknown.parameters = {entry.name()};
       const fit::Parameters parameters(Scene<double>(spec), unknown);
       for (const auto observable : {fit::Observable::phi, fit::Observable::M, fit::Observable::bed_height}) {
+        // The integrals of one unknown are those of all.
         if (observable == fit::Observable::bed_height &&
-            !BedHeight::refusal(parameters.start_scene()).empty())
+            (!is_first || !BedHeight::refusal(parameters.start_scene()).empty()))
           continue;
         const fit::Forward forward(parameters, exact, observable, {{0.2, 0.3}, {0.2, 0.7}, {1, 0.5}});
         const auto at = forward.predict(parameters.start(), forward.has_derivatives());
@@ -199,6 +201,7 @@ TYPED_TEST(ExactDerivatives, AFitCanAskForEveryEntry) {
         }
         ++checked;
       }
+      is_first = false;
     }
   });
   EXPECT_GT(checked, 0);

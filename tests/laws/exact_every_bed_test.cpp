@@ -39,9 +39,10 @@ const std::vector<BedStart> kBedStarts{{{0.53125}, {0, 1}},
 template <class Model>
 class ExactOnEveryBed : public testing::Test {
  public:
-  /// Calls visit(spec) for every scene with the first sample of this shear rate and every flux that the solver solves.
+  /// Calls visit(spec) for every scene with the first sample of this shear rate and every flux that the solver solves; of beds for
+  /// which pieces stand only for some, unless all are wanted.
   template <class Visit>
-  static void for_each_scene(Visit&& visit) {
+  static void for_each_scene(bool are_all_wanted, Visit&& visit) {
     FluxList<double>::for_each([&]<class F>() {
       const F flux = F::samples().front();
       for (const BedStart& start : kBedStarts) {
@@ -55,6 +56,9 @@ class ExactOnEveryBed : public testing::Test {
           spec.initial_values.push_back(range.lowest + x * (range.highest - range.lowest));
         if (!find_complaints(spec).empty()) continue;
         if (!ExactSolver::refusal(Scene<double>(spec), {}).empty()) continue;
+        const bool is_quick = (spec.fluxes[0].is_parabola() && &start == &kBedStarts.front()) ||
+                              ExactSolution<double>(Scene<double>(spec), {kFewPieces}).is_exact();
+        if (!are_all_wanted && !is_quick) continue;
         SCOPED_TRACE(std::string(Model::kName) + " with " + std::string(F::kName) + " and " +
                      std::to_string(start.breaks.size()) + " jumps from " + std::to_string(start.states[0]));
         visit(spec);
@@ -74,7 +78,7 @@ TYPED_TEST_SUITE(ExactOnEveryBed, EveryBedTypes<DepthFunctionList<double>>::Type
 /// At the top a bed of pieces had paths that turned beyond it (flux no parabola): phi 0.5 for 1, and a height of the bed off by 1e-5.
 TYPED_TEST(ExactOnEveryBed, AtItsEndsIsWhatIsNextToThem) {
   int n_compared = 0;
-  this->for_each_scene([&](const SceneSpec<double>& spec) {
+  this->for_each_scene(true, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     const ExactSolution<double> solution(scene, {kFewPieces});
     for (const bool is_top : {false, true})
@@ -115,9 +119,10 @@ std::vector<std::optional<Scalar>> moved_times(SceneSpec<Scalar> spec, std::size
   return times_of(exact_timeline(ExactSolution<Scalar>(Scene<Scalar>(spec), {kFewPieces})));
 }
 
-TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
+template <class Fixture>
+void compare_event_times(bool are_all_wanted) {
   int n_scenes = 0, n_compared = 0, n_wanted = 0;
-  this->for_each_scene([&](const SceneSpec<double>& spec) {
+  Fixture::for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     ++n_scenes;
     const ExactSolution<double> solution(scene, {kFewPieces});
@@ -125,12 +130,15 @@ TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
     const auto times = times_of(timeline);
     const auto rows = rows_of(timeline_derivatives(solution, timeline));
     ASSERT_EQ(rows.size(), times.size());
-    const bool is_costly = !scene.is_layered() && !spec.fluxes[0].is_parabola();
     const Real110 step("1e-20");
     const double wide = 1e-5;
     const std::vector<Entry> all = entries(spec);
     for (std::size_t e = 0; e < all.size(); ++e) {
       if (!ExactSolver::derivative_refusal(scene, {}, all[e]).empty()) continue;
+      // In many digits only what has closed forms, and, where they take time, not all of it.
+      const bool is_sample = are_all_wanted || (n_scenes == 1 && e % 3 == 0);
+      const bool is_costly =
+          !scene.is_layered() && !(spec.fluxes[0].is_parabola() && solution.form().has_pieces() && is_sample);
       std::vector<std::optional<double>> numeric;
       if (is_costly) {
         const auto low = moved_times(spec, e, -wide), high = moved_times(spec, e, wide);
@@ -164,10 +172,15 @@ TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
   EXPECT_GE(n_compared, 0.8 * n_wanted);
 }
 
-TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) {
+TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
+  compare_event_times<TestFixture>(false);
+}
+
+template <class Fixture>
+void compare_heights(bool are_all_wanted) {
   int n_scenes = 0, n_compared = 0;
   support::SceneMaker make(support::seed_of(5502));
-  this->for_each_scene([&](const SceneSpec<double>& spec) {
+  Fixture::for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     if (!BedHeight::refusal(scene).empty()) return;
     ++n_scenes;
@@ -196,7 +209,9 @@ TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) {
         };
         const double fine = numeric(5e-4), coarse = numeric(2e-3);
         if (!std::isfinite(fine)) continue;
-        EXPECT_NEAR(bed.height_by(integral, by[e], mass_by[e]), fine, 1e-8 + 3 * std::abs(fine - coarse))
+        // Three points to a piece are near enough to what pieces cost.
+        const double slack = solution.is_exact() ? 1e-8 : 1e-6 + 5e-3 * std::abs(fine);
+        EXPECT_NEAR(bed.height_by(integral, by[e], mass_by[e]), fine, slack + 3 * std::abs(fine - coarse))
             << "at t = " << t << " by " << all[e].name();
         ++n_compared;
       }
@@ -205,6 +220,20 @@ TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) {
   EXPECT_GT(n_scenes, 0);
   EXPECT_GT(n_compared, n_scenes);
 }
+
+TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights<TestFixture>(false); }
+
+template <class Model>
+class SlowExactOnEveryBed : public ExactOnEveryBed<Model> {
+ public:
+  using ExactOnEveryBed<Model>::for_each_scene;
+};
+TYPED_TEST_SUITE(SlowExactOnEveryBed, EveryBedTypes<DepthFunctionList<double>>::Type, support::ModelName);
+
+TYPED_TEST(SlowExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
+  compare_event_times<TestFixture>(true);
+}
+TYPED_TEST(SlowExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights<TestFixture>(true); }
 
 /// Paths of a flux with a kink that come too early spend the time that is left where the capacity is least: at a knot, at their
 /// start, or at their end.
