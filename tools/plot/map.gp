@@ -25,12 +25,12 @@ if (!exists("phi_high")) phi_high = 1
 if (!exists("contours")) contours = ''
 if (!exists("has_labels")) has_labels = 1
 if (!exists("has_shocks")) has_shocks = 1
-# Words with commas between them.
-join(names) = words(names) < 2 ? names : word(names, 1) . ', ' . join(names[strlen(word(names, 1))+2:*])
+# Words with commas between them. Not called join: gnuplot 6 has one of that name.
+with_commas(names) = words(names) < 2 ? names : word(names, 1) . ', ' . with_commas(names[strlen(word(names, 1))+2:*])
 
 # Contours first, into a block of their own: they are drawn on top of the colours.
 set contour base
-eval "set cntrparam levels discrete " . (contours eq '' ? '1e300' : join(contours))
+eval "set cntrparam levels discrete " . (contours eq '' ? '1e300' : with_commas(contours))
 unset surface
 set datafile missing 'NaN'
 set table $contours
