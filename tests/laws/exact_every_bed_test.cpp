@@ -284,5 +284,63 @@ TEST(KinkedFluxes, DerivativesOfPathsThatRestAreDifferences) {
   EXPECT_GT(n_compared, 50);
 }
 
+/// Beside a contact of a straight branch paths of several families tie, and one jump was added for each.
+TEST(KinkedFluxes, DerivativesOfHeightsOfRandomBedsAreDifferences) {
+  support::SceneMaker make(support::seed_of(5504));
+  std::vector<Flux<double>> fluxes;
+  for (const auto& flux : Triangular<double>::samples()) fluxes.emplace_back(flux);
+  for (const auto& flux : FluxTable<double>::samples()) fluxes.emplace_back(flux);
+  for (const auto& flux : LwrCubic<double>::samples()) fluxes.emplace_back(flux);
+  int n_compared = 0;
+  for (int k = 0; k < 300; ++k) {
+    SceneSpec<double> spec;
+    spec.fluxes = {fluxes[static_cast<std::size_t>(k) % fluxes.size()]};
+    if (k % 3 == 0)
+      spec.shear_rate = Piecewise<double>{{}, {make.uniform(0.3, 2)}};
+    else
+      spec.shear_rate =
+          Piecewise<double>{{make.uniform(0.3, 0.7)}, {make.uniform(0.3, 2), make.uniform(0.3, 2)}};
+    const auto range = spec.fluxes[0].range();
+    const auto state = [&] {
+      return range.lowest + make.uniform(0.02, 0.98) * (range.highest - range.lowest);
+    };
+    spec.initial_breaks = {make.uniform(0.2, 0.8)};
+    spec.initial_values = {state(), state()};
+    const Scene<double> scene(spec);
+    if (!ExactSolver::refusal(scene, {}).empty() || !BedHeight::refusal(scene).empty()) continue;
+    const ExactSolution<double> solution(scene);
+    const Derivatives<double> derivatives(solution);
+    const BedHeight bed(scene);
+    const std::vector<Entry> all = entries(spec);
+    for (int q = 0; q < 3; ++q) {
+      const double t = std::exp(make.uniform(-3, 0.7));
+      const double integral = share_integral(solution, t, bed.integrand());
+      const std::vector<double> by = share_integral_derivatives(solution, derivatives, t, bed.integrand()),
+                                mass_by = derivatives.at(scene.top(), 0).M;
+      for (std::size_t e = 0; e < all.size(); ++e) {
+        if (!derivative_refusal(scene, all[e]).empty()) continue;
+        const auto numeric = [&](double h) {
+          double heights[2];
+          for (const int side : {0, 1}) {
+            SceneSpec<double> moved = spec;
+            *entry_places(moved)[e] += side == 0 ? -h : h;
+            if (!find_complaints(moved).empty()) return std::nan("");
+            const Scene<double> other(moved);
+            const BedHeight own(other);
+            heights[side] = own.height(share_integral(ExactSolution<double>(other), t, own.integrand()));
+          }
+          return (heights[1] - heights[0]) / (2 * h);
+        };
+        const double fine = numeric(1e-5), coarse = numeric(4e-5);
+        if (!(std::abs(fine - coarse) < 1e-3)) continue;  // a kink
+        EXPECT_NEAR(bed.height_by(integral, by[e], mass_by[e]), fine, 1e-6 + 3 * std::abs(fine - coarse))
+            << spec.fluxes[0].name() << " at t = " << t << " by " << all[e].name();
+        ++n_compared;
+      }
+    }
+  }
+  EXPECT_GT(n_compared, 1000);
+}
+
 }  // namespace
 }  // namespace shearfront

@@ -55,6 +55,15 @@ TYPED_TEST(InitialLaws, IntegralsAddUp) {
     EXPECT_NEAR(model.integral(0.0, 0.3) + model.integral(0.3, 1.0), model.integral(0.0, 1.0), 1e-15);
 }
 
+/// A table gave a range that ran backwards.
+TYPED_TEST(InitialLaws, HasNoKnotWhereThereIsNoHeight) {
+  for (const auto& model : TypeParam::samples()) {
+    std::vector<double> heights{0, 0.4, 1};
+    for (const double z : model.knots(0, 1)) heights.push_back(z);
+    for (const double z : heights) EXPECT_TRUE(model.knots(z, z).empty()) << z;
+  }
+}
+
 TYPED_TEST(InitialLaws, IsMonotoneBetweenItsKnotsAndSoIsItsSlope) {
   for (const auto& model : TypeParam::samples()) {
     std::vector<double> ends{0};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "shearfront/exact/events.hpp"
 #include "shearfront/fit/prediction.hpp"
 #include "shearfront/fit/scene_uncertainty.hpp"
 #include "shearfront/io/scene_file.hpp"
@@ -218,6 +219,32 @@ TEST(FitPrediction, BandsOfTimesAreThoseOfTheScale) {
   EXPECT_FALSE(drawn.t_star.std_error);
   EXPECT_EQ(drawn.n_by_draws, 5U);
   EXPECT_EQ(drawn.n_failed, 0U);
+}
+
+// By numbers that have no exact derivatives, as those of a flux, times and heights are differenced.
+TEST(FitPrediction, UnknownsWithoutExactDerivativesAreDifferenced) {
+  SceneSpec<double> spec = small_above_large({0.29}, {3.15, 0.5});
+  Cubic<double> flux;
+  flux.gamma = 0.2;
+  spec.fluxes = {flux};
+  const Scene<double> scene(spec);
+  const Parameters parameters(scene, {{"flux.gamma"}, {}, {}, {}, Shape::none});
+  ASSERT_FALSE(Method().has_derivative(scene, entries(spec)[parameters.entries()[0]]));
+  const DrawnScenes draws = draw_scenes(parameters, estimate_of(parameters, {1e-4}, 0), 20, 5);
+  const PredictedEvents events = predict_events(scene, draws, Method());
+  EXPECT_EQ(events.n_by_draws, 0U);
+  const double h = 1e-4;
+  const auto t_star_at = [&](double gamma) {
+    Cubic<double> other;
+    other.gamma = gamma;
+    SceneSpec<double> moved = spec;
+    moved.fluxes = {other};
+    return *exact_timeline(Scene<double>(moved)).t_star;
+  };
+  const double by_gamma = (t_star_at(0.2 + h) - t_star_at(0.2 - h)) / (2 * h);
+  EXPECT_NEAR(events.t_star.std_error.value_or(0), std::abs(by_gamma) * 1e-4,
+              1e-5 * std::abs(by_gamma) * 1e-4);
+  EXPECT_EQ(predict_bed(scene, draws, Method(), bed_height_function(scene), {0.3}).n_by_draws, 0U);
 }
 
 // One layer, k t* = 1 + 2 sqrt(z0 (1 - z0)): with z0 and k known up to errors of correlation r, the logarithm of t* has the

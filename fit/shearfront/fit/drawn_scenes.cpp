@@ -83,6 +83,8 @@ class ErrorMap {
                                           spread_->root(static_cast<Eigen::Index>(i), k);
     std::string failure;
     const auto at = [&](double xi) { return scene(xi * spread_->root.col(k), failure); };
+    axis.near_low = at(-DrawnScenes::kNear);
+    axis.near_high = at(DrawnScenes::kNear);
     axis.far_low = at(-reach);
     axis.far_high = at(reach);
     return axis;

@@ -101,6 +101,7 @@ void Forward::predict_heights(const Scene<double>& scene, bool with_derivatives,
     if (prediction.failure = method_.refusal(scene); !prediction.is_valid()) return;
     linear = method_.linearise_integrals(scene, times_, bed.integrand(), entries_, memory_, progress);
     if (!linear.summary.usable()) prediction.failure = linear.summary.message;
+    prediction.remark = linear.summary.remark;
     integrals = linear.integrals;
   } else {
     SolverRequest request;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <any>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "shearfront/fit/quantile.hpp"
@@ -56,6 +57,11 @@ bool has_axes(const DrawnScenes& draws) {
   return !draws.axes.empty() &&
          std::all_of(draws.axes.begin(), draws.axes.end(),
                      [](const DrawnScenes::Axis& axis) { return axis.far_low && axis.far_high; });
+}
+
+/// By its numbers next to the estimate.
+double difference_on_axis(double near_low, double near_high) {
+  return (near_high - near_low) / (2 * DrawnScenes::kNear);
 }
 
 /// Whether there are axes, and the method has derivatives by all unknowns.
@@ -150,6 +156,12 @@ std::vector<const std::vector<double>*> rows_of(const TimelineDerivatives& by) {
   return rows;
 }
 
+Numbers predicted_values(const std::vector<PredictedNumber>& predicted) {
+  Numbers values;
+  for (const PredictedNumber& number : predicted) values.push_back(number.value);
+  return values;
+}
+
 /// Of n numbers; none if the scene has another number of interfaces, or no timeline.
 Numbers times_at(const Scene<double>& scene, const Method& method, std::size_t n) {
   SolverRequest request;
@@ -160,23 +172,39 @@ Numbers times_at(const Scene<double>& scene, const Method& method, std::size_t n
   return numbers.size() == n ? numbers : Numbers{};
 }
 
+/// Where the solver cannot say how a time changes, differences do.
 void set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
                       std::vector<PredictedNumber>& predicted) {
-  if (!method.has_linear_timeline() || !has_derivatives(estimated, draws, method)) return;
-  std::any memory;
-  const LinearTimeline linear = method.linearise_timeline(estimated, draws.entries, memory);
-  const auto rows = rows_of(linear.derivatives);
-  if (rows.size() != predicted.size()) return;
+  if (!has_axes(draws) || !method.guarantees().exact) return;
+  LinearTimeline linear;
+  if (method.has_linear_timeline() && has_derivatives(estimated, draws, method)) {
+    std::any memory;
+    linear = method.linearise_timeline(estimated, draws.entries, memory);
+  }
+  auto rows = rows_of(linear.derivatives);
+  const std::vector<double> none;
+  rows.resize(predicted.size(), &none);
+  bool is_differenced = false;
+  for (std::size_t i = 0; i < predicted.size(); ++i)
+    is_differenced = is_differenced || (rows[i]->empty() && predicted[i].value != kNever);
   std::vector<std::vector<OnAxis>> on(predicted.size());
   std::vector<bool> is_fixed(predicted.size(), true);  // the same on all axes: 0, or never
   for (const DrawnScenes::Axis& axis : draws.axes) {
-    const Numbers low = times_at(*axis.far_low, method, predicted.size()),
-                  high = times_at(*axis.far_high, method, predicted.size());
-    if (low.empty() || high.empty()) return;
-    for (std::size_t i = 0; i < predicted.size(); ++i) {
+    const std::size_t n = predicted.size();
+    const Numbers low = times_at(*axis.far_low, method, n), high = times_at(*axis.far_high, method, n);
+    Numbers near_low = predicted_values(predicted), near_high = near_low;
+    if (is_differenced) {
+      near_low = times_at(*axis.near_low, method, n);
+      near_high = times_at(*axis.near_high, method, n);
+    }
+    if (low.empty() || high.empty() || near_low.empty() || near_high.empty()) return;
+    for (std::size_t i = 0; i < n; ++i) {
       const double value = predicted[i].value;
-      is_fixed[i] = is_fixed[i] && low[i] == value && high[i] == value;
-      const double slope = rows[i]->empty() ? kNever : slope_on(axis, rows[i]->data()) / value;
+      for (const Numbers* at : std::initializer_list<const Numbers*>{&low, &high, &near_low, &near_high})
+        is_fixed[i] = is_fixed[i] && (*at)[i] == value;
+      const double slope = rows[i]->empty()
+                               ? difference_on_axis(std::log(near_low[i]), std::log(near_high[i]))
+                               : slope_on(axis, rows[i]->data()) / value;
       on[i].push_back({slope, std::log(low[i]), std::log(high[i])});
     }
   }
@@ -209,35 +237,50 @@ Numbers numbers_of(const BedFunction& bed, const Scene<double>& scene, const std
   return numbers;
 }
 
+Numbers numbers_at(const Scene<double>& scene, const Method& method, const BedFunction& bed,
+                   const std::vector<double>& times) {
+  const SolverResult result = solve(scene, method, request_of(bed, times));
+  return result.summary.usable() ? numbers_of(bed, scene, result.integrals) : Numbers{};
+}
+
+/// The slopes on an axis of the same.
+Numbers slopes_on(const DrawnScenes::Axis& axis, const Scene<double>& estimated, const BedFunction& bed,
+                  const LinearIntegrals& linear) {
+  Numbers slopes;
+  const double mass = slope_on(axis, linear.mass_derivatives.data());
+  for (std::size_t i = 0; i < linear.integrals.size(); ++i) {
+    const double integral = slope_on(axis, &linear.derivatives[i * axis.slopes.size()]);
+    for (const BedFunction::Number& number : bed.numbers(estimated, linear.integrals[i]))
+      slopes.push_back(number.by_integral * integral + number.by_mass * mass);
+  }
+  return slopes;
+}
+
 void set_linear_bands(const Scene<double>& estimated, const DrawnScenes& draws, const Method& method,
                       const BedFunction& bed, const std::vector<double>& times,
                       std::vector<PredictedNumber>& predicted) {
-  if (!bed.integrand.slope || !method.has_linear_integrals() || !has_derivatives(estimated, draws, method))
-    return;
-  std::any memory;
-  const LinearIntegrals linear =
-      method.linearise_integrals(estimated, times, bed.integrand, draws.entries, memory);
-  if (!linear.summary.usable()) return;
+  if (!has_axes(draws) || !method.guarantees().exact) return;
+  std::optional<LinearIntegrals> linear;
+  if (bed.integrand.slope && method.has_linear_integrals() && has_derivatives(estimated, draws, method)) {
+    std::any memory;
+    linear = method.linearise_integrals(estimated, times, bed.integrand, draws.entries, memory);
+  }
   std::vector<std::vector<OnAxis>> on(predicted.size());
   for (const DrawnScenes::Axis& axis : draws.axes) {
-    Numbers ends[2];
-    for (const bool is_high : {false, true}) {
-      const Scene<double>& scene = is_high ? *axis.far_high : *axis.far_low;
-      const SolverResult result = solve(scene, method, request_of(bed, times));
-      if (!result.summary.usable()) return;
-      ends[is_high] = numbers_of(bed, scene, result.integrals);
-      if (ends[is_high].size() != predicted.size()) return;
+    const Numbers low = numbers_at(*axis.far_low, method, bed, times),
+                  high = numbers_at(*axis.far_high, method, bed, times);
+    Numbers slopes;
+    if (linear) {
+      slopes = slopes_on(axis, estimated, bed, *linear);
+    } else {
+      const Numbers near_low = numbers_at(*axis.near_low, method, bed, times),
+                    near_high = numbers_at(*axis.near_high, method, bed, times);
+      for (std::size_t i = 0; i < std::min(near_low.size(), near_high.size()); ++i)
+        slopes.push_back(difference_on_axis(near_low[i], near_high[i]));
     }
-    const double mass = slope_on(axis, linear.mass_derivatives.data());
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double integral = slope_on(axis, &linear.derivatives[i * draws.entries.size()]);
-      for (const BedFunction::Number& number : bed.numbers(estimated, linear.integrals[i])) {
-        on[n].push_back(
-            {number.by_integral * integral + number.by_mass * mass, ends[false][n], ends[true][n]});
-        ++n;
-      }
-    }
+    for (const Numbers* all : std::initializer_list<const Numbers*>{&low, &high, &slopes})
+      if (all->size() != predicted.size()) return;
+    for (std::size_t i = 0; i < predicted.size(); ++i) on[i].push_back({slopes[i], low[i], high[i]});
   }
   for (std::size_t i = 0; i < predicted.size(); ++i) set_linear_band(predicted[i], on[i], draws);
 }

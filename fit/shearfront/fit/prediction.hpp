@@ -30,12 +30,13 @@ struct DrawnScenes {
   bool are_replicates = false;  ///< those of a bootstrap
 
   /// One of the independent directions in which the unknowns vary, by a number xi of unit deviation. The scenes at -x and
-  /// x on it, so far from the estimate that a number that is linear in all xi stays between them and their like with 95 %: at
-  /// quantile sqrt(number of axes).
+  /// x on it: near the estimate, at kNear, and so far that a number that is linear in all xi stays between them and their like with
+  /// 95 %: at quantile sqrt(number of axes).
   struct Axis {
-    std::vector<double> slopes;                      ///< of the unknowns in xi
-    std::optional<Scene<double>> far_low, far_high;  ///< empty: no valid scene
+    std::vector<double> slopes;                                           ///< of the unknowns in xi
+    std::optional<Scene<double>> near_low, near_high, far_low, far_high;  ///< empty: no valid scene
   };
+  static constexpr double kNear = 1e-3;
   std::vector<Axis> axes;
   std::vector<std::size_t> entries;  ///< of the unknowns among those of the scene
   double quantile = 0;               ///< of 97.5 %
@@ -79,8 +80,9 @@ struct PredictedSamples {
                                                const std::vector<double>& heights,
                                                const Progress& progress = {});
 
-/// The event times, as in Timeline. Derivatives are those of Method::linearise_timeline. Cost: two timelines for each axis, and one
-/// for each draw where draws are needed.
+/// The event times, as in Timeline. Derivatives are those of Method::linearise_timeline; where it has none, for some unknown or some
+/// event, differences of exact times along the axes, right to nine digits. A method that is not exact has neither. Cost: two timelines
+/// for each axis, four where they are differenced, and one for each draw where draws are needed.
 struct PredictedEvents {
   Timeline<double> at_estimate;
   struct AtInterface {
@@ -106,8 +108,8 @@ struct BedFunction {
 /// Entropy and parameter of mixing (solution/mixing.hpp).
 [[nodiscard]] BedFunction mixing_function();
 
-/// Those numbers at every time, one time after the other. Derivatives are those of Method::linearise_integrals. Errors: as solve(). Cost: as
-/// predict_events().
+/// Those numbers at every time, one time after the other. Derivatives are those of Method::linearise_integrals, or differences, as for
+/// event times. Errors: as solve(). Cost: as predict_events().
 struct PredictedNumbers {
   std::vector<PredictedNumber> numbers;
   std::size_t n_failed = 0, n_by_draws = 0;

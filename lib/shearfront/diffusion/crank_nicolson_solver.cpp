@@ -223,7 +223,8 @@ Linearisation CrankNicolsonSolver::linearise(const Scene<double>& scene, const O
   }
   if (!rows.empty() && options.time_step > 0) {
     Linearisation refused;
-    refused.summary.message = diffusion::too_many_steps(rows.rbegin()->first, options.time_step, kMostDiffusionSteps);
+    refused.summary.message =
+        diffusion::too_many_steps(rows.rbegin()->first, options.time_step, kMostDiffusionSteps);
     refused.summary.status = Status::budget_reached;
     if (!refused.summary.message.empty()) return refused;
   }

@@ -7,6 +7,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <valarray>
 #include <vector>
@@ -185,6 +186,7 @@ class ShareIntegralDerivatives final : public ShareStretches {
 
   EntryNumbers run() {
     visit();
+    add_cut();
     return sum_;
   }
   EntryNumbers at_rest(const Profile<double>& profile) {
@@ -238,16 +240,28 @@ class ShareIntegralDerivatives final : public ShareStretches {
     sum_ += (array_of(above.at.M) - array_of(below.at.M)) * ((above.amount - below.amount) / jump);
   }
 
-  /// At a little distance: where a contact begins, rounding must not decide on which side of a jump of the initial data.
+  /// At a little distance: where a contact begins, rounding must not decide on which side of a jump of the initial data. And one jump
+  /// for all cuts that are no farther apart: beside a contact of a straight branch paths of several families tie.
   void at_cut(const PathNode<double>& a, const PathNode<double>& b) override {
     const auto [bottom, top] = layer();
-    add_moving(at(std::max(a.z - distance(), bottom)), at(std::min(b.z + distance(), top)));
+    const double low = std::max(a.z - distance(), bottom), high = std::min(b.z + distance(), top);
+    if (cut_ && !(low > cut_->second + distance())) {
+      cut_->second = high;
+      return;
+    }
+    add_cut();
+    cut_ = {low, high};
+  }
+  void add_cut() {
+    if (cut_) add_moving(at(cut_->first), at(cut_->second));
+    cut_.reset();
   }
   [[nodiscard]] double distance() const {
     const double bottom = exact().medium().bottom(), top = exact().medium().top();
     return 1e-12 * std::max({top - bottom, top, -bottom});
   }
   void at_boundary(std::size_t k, const PathNode<double>& below, const PathNode<double>& above) override {
+    add_cut();
     const std::vector<double> moved = derivatives_.boundary(k);
     if (std::all_of(moved.begin(), moved.end(), [](double x) { return x == 0; })) return;
     const double amount_below = integrand()(below.phi) * form_.stretch(k - 1);
@@ -280,10 +294,10 @@ class ShareIntegralDerivatives final : public ShareStretches {
   };
   /// Over (0, 1): the worst part is halved until the sum is good enough, or has become dear.
   template <class Value>
-  static EntryNumbers integral_of(const Value& value, double tolerance) {
+  EntryNumbers integral_of(const Value& value, double tolerance) const {
     constexpr std::size_t kMostParts = 48;
     std::vector<Part> parts{part_of(value, 0, 1)};
-    const double size = std::abs(parts.front().value).max();
+    const double size = std::max(std::abs(parts.front().value).max(), std::abs(sum_).max());
     while (parts.size() < kMostParts) {
       double sum = 0;
       for (const Part& part : parts) sum += part.error;
@@ -320,6 +334,7 @@ class ShareIntegralDerivatives final : public ShareStretches {
   const ShareFunction& g_;
   double t_;
   EntryNumbers sum_;
+  std::optional<std::pair<double, double>> cut_;  ///< the last one, not added yet
 };
 
 }  // namespace

@@ -21,10 +21,11 @@ namespace shearfront {
 ///
 ///     int g'(phi / c) dphi dz + sum over shocks of [c g] [dM] / [phi] + sum over boundaries of the bed of -[c g] dz,
 ///
-/// dphi and dM from Derivatives, [.] the value above minus that below; edges of fans add nothing. Pieces as above, by the same
-/// quadrature after ends have been smoothed: relative error about 1e-10 of the largest derivative, 1e-6 where a fan of a flux with joints
-/// comes through several layers; where pieces stand for the bed some 1e-3, less the more they are. Preconditions: g.slope;
-/// `derivatives` are those of `exact`. Cost: once or twice that of share_integral().
+/// dphi and dM from Derivatives, [.] the value above minus that below; edges of fans add nothing, and cuts within rounding of one another
+/// are one. Pieces as above, by the same quadrature after ends have been smoothed: error about 1e-10 of the largest derivative, 1e-6 where
+/// a fan of a flux with joints comes through several layers; where pieces stand for the bed some 1e-3, less the more they are. At t = 0
+/// one-sided where a jump of the data lies on a jump of c, as Derivatives are. Preconditions: g.slope; `derivatives` are those of `exact`. Cost: once
+/// or twice that of share_integral().
 [[nodiscard]] std::vector<double> share_integral_derivatives(const ExactSolution<double>& exact,
                                                              const Derivatives<double>& derivatives, double t,
                                                              const ShareFunction& g);

@@ -14,7 +14,7 @@ double entropy_of_share(double x) {
 }
 
 ShareFunction entropy_function() {
-  // Of a pure state nothing varies: there the slope, infinite, does not count.
+  // A pure state is taken to stay pure: its slope, which is infinite, does not count.
   return {entropy_of_share, {}, [](double x) { return x > 0 && x < 1 ? std::log1p(-x) - std::log(x) : 0.0; }};
 }
 

@@ -73,7 +73,10 @@ struct TableInitial {
     }
   }
   [[nodiscard]] std::vector<Scalar> knots(const Scalar& lo, const Scalar& hi) const {
-    return {std::upper_bound(z.begin(), z.end(), lo), std::lower_bound(z.begin(), z.end(), hi)};
+    const auto first = std::upper_bound(z.begin(), z.end(), lo),
+               end = std::lower_bound(z.begin(), z.end(), hi);
+    if (!(first < end)) return {};  // none in between, as where lo = hi is one
+    return {first, end};
   }
 
   static std::vector<TableInitial> samples() {
