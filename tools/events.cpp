@@ -221,8 +221,8 @@ void refuse_unknown_digits(const EventsArguments& arguments, const Scene<double>
            "a search");
   if (!solution.is_exact())
     refuse("--digits", arguments.digits,
-           fmt::format("must be left out for a bed that {} {} stand for: its times are approximate",
-                       solution.n_layers(), solution.form().has_pieces() ? "pieces" : "layers"));
+           fmt::format("must be left out for a bed that {} pieces stand for: its times are approximate",
+                       solution.n_layers()));
 }
 
 int events(EventsArguments& arguments) {

@@ -30,6 +30,32 @@ TEST(SmoothStartDerivatives, AreThoseOfDifferencesOverEveryShearRate) {
   EXPECT_GT(check.from_start, 100);
 }
 
+/// Tables with a flat piece and a throat, and exponential beds, with every flux.
+TEST(SmoothStartDerivatives, AreThoseOfDifferencesInSlopedPiecesOfAnyFlux) {
+  StartDifference<double> check{1e-6, 3e-6, 16};
+  SceneMaker make(support::seed_of(5304));
+  FluxList<double>::for_each([&]<class F>() {
+    for (const F& flux : F::samples())
+      for (const bool is_table : {true, false}) {
+        SceneSpec<double> spec;
+        spec.fluxes = {flux};
+        if (is_table)
+          spec.shear_rate = Table<double>{{0, 0.3, 0.55, 0.8, 1}, {1.6, 0.7, 0.7, 1.3, 0.9}};
+        else
+          spec.shear_rate = Exponential<double>{1, 0.7};
+        const auto range = Flux<double>(flux).range();
+        const double room = 0.05 * (range.highest - range.lowest);
+        spec.initial_state = support::random_start(make, range.lowest + room, range.highest - room);
+        if (!find_complaints(spec).empty() || !exact::refusal(Scene<double>(spec)).empty()) continue;
+        SCOPED_TRACE(F::kName);
+        for (int i = 0; i < 4; ++i)
+          check.compare(Scene<double>(spec), make.uniform(0.1, 0.9), std::exp(make.uniform(-4, -1)));
+      }
+  });
+  EXPECT_GT(check.compared, 200);
+  EXPECT_GT(check.from_start, 100);
+}
+
 /// Layers with other fluxes and solid fractions.
 TEST(SmoothStartDerivatives, AreThoseOfDifferencesInLayersOfAnyFlux) {
   StartDifference<double> check{1e-6, 3e-6, 16};

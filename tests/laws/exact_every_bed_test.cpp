@@ -20,6 +20,7 @@
 #include "support/model_types.hpp"
 #include "support/random_scene.hpp"
 #include "support/scene_cast.hpp"
+#include "support/smooth_starts.hpp"
 
 namespace shearfront {
 namespace {
@@ -91,6 +92,61 @@ TYPED_TEST(ExactOnEveryBed, AtItsEndsIsWhatIsNextToThem) {
       }
   });
   EXPECT_GT(n_compared, 100);
+}
+
+/// M(z', t) - M(z, t) is int phi between: at jumps of the start, knots, ends of pieces and walls as everywhere else.
+struct Continuity {
+  int n_compared = 0;
+
+  void check(const SceneSpec<double>& spec, std::size_t n_pieces) {
+    const Scene<double> scene(spec);
+    const ExactSolution<double> solution(scene, {n_pieces});
+    std::vector<double> heights = solution.form().layers().boundaries();
+    for (const auto& more : {scene.initial_breaks(), scene.initial_knots()})
+      heights.insert(heights.end(), more.begin(), more.end());
+    const auto range = spec.fluxes[0].range();
+    const double most = std::max(std::abs(range.lowest), std::abs(range.highest)), step = 1e-9;
+    for (const double z : heights)
+      for (const double t : {1e-3, 0.05, 0.15, 0.4, 1.0})
+        for (const double other : {z - step, z + step}) {
+          if (other < scene.bottom() || other > scene.top()) continue;
+          EXPECT_NEAR(solution.M(z, t), solution.M(other, t), 1.001 * most * step + 1e-13) << z << ' ' << t;
+          ++n_compared;
+        }
+  }
+};
+
+TYPED_TEST(ExactOnEveryBed, MIsContinuousAtKnotsAndJumps) {
+  Continuity continuity;
+  this->for_each_scene(true, [&](const SceneSpec<double>& spec) { continuity.check(spec, kFewPieces); });
+  EXPECT_GT(continuity.n_compared, 500);
+}
+
+/// At a jump of the start between flat pieces a flux that is no parabola had no path: M = 1/2 there for 0.07.
+TEST(ExactOnFlatPieces, MIsContinuousAtKnotsAndJumps) {
+  Continuity continuity;
+  support::SceneMaker make(support::seed_of(77000));
+  FluxList<double>::for_each([&]<class F>() {
+    for (const F& flux : F::samples())
+      for (const bool is_smooth : {false, true}) {
+        SceneSpec<double> spec;
+        spec.fluxes = {flux};
+        spec.shear_rate = Table<double>{{0, 0.125, 0.375, 0.5, 0.75, 0.875, 1}, {2, 1, 1, 1, 1, 1.5, 1.5}};
+        const auto range = flux.range();
+        if (is_smooth) {
+          spec.initial_state = support::random_start(make, range.lowest, range.highest);
+        } else {
+          spec.initial_breaks = {0.25, 0.375, 0.625, 0.9375};
+          for (int n = 0; n < 5; ++n)
+            spec.initial_values.push_back(make.uniform(range.lowest, range.highest));
+        }
+        if (!find_complaints(spec).empty() || !ExactSolver::refusal(Scene<double>(spec), {}).empty())
+          continue;
+        SCOPED_TRACE(std::string(F::kName) + (is_smooth ? " smooth" : ""));
+        continuity.check(spec, 32);
+      }
+  });
+  EXPECT_GT(continuity.n_compared, 1000);
 }
 
 template <Real Scalar>

@@ -51,6 +51,26 @@ TEST(SmoothStart, ALineStaysALine) {
   }
 }
 
+/// Where a start passes the peak of a triangular flux in a flat piece, the states beside it part with the speeds of both sides, and
+/// leave the peak between them: phi(z, t) = phi(z -+ t, 0) outside of |z - 1/2| < t.
+TEST(SmoothStart, ThePeakOfAKinkSpreadsInAFlatPiece) {
+  SceneSpec<double> spec = bed_with(Table<double>{{0, 0.2, 0.8, 1}, {2, 1, 1, 2}}, table({0, 1}, {0.9, 0.1}));
+  spec.fluxes = {Triangular<double>{}};
+  const ExactSolution<double> exact{Scene<double>(spec)};
+  const auto start = [](double z) { return 0.9 - 0.8 * z; };
+  int n = 0;
+  for (const double t : {1e-6, 0.05, 0.1, 0.2})
+    for (const double away : {-0.25, -0.1, -0.03, -1e-7, 0.0, 1e-7, 0.03, 0.1, 0.25}) {
+      const bool is_between = std::abs(away) < t;
+      const double y = is_between ? 0.5 : away > 0 ? 0.5 + away - t : 0.5 + away + t;
+      EXPECT_NEAR(exact.phi(0.5 + away, t), start(y), 1e-13) << away << ' ' << t;
+      const double M = is_between ? 0.35 - t / 2 + away / 2 : exact.M(0.5 + away, t);
+      EXPECT_NEAR(exact.M(0.5 + away, t), M, 1e-14) << away << ' ' << t;
+      ++n;
+    }
+  EXPECT_EQ(n, 36);
+}
+
 /// Two waves of one bed: the closed form is the root of y + (2 phi(y) - 1) t = z, M by Lax and Hopf's minimum on a grid.
 TEST(SmoothStart, AWaveIsTheRootOfItsCharacteristic) {
   const SineInitial<double> wave{0.5, 0.3, 0.8, 0.1};

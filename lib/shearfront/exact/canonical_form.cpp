@@ -78,7 +78,7 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_concave_(scene_->fluxes().front().curvature() == Curvature::concave),
       is_parabolic_(std::all_of(scene_->fluxes().begin(), scene_->fluxes().end(),
                                 [](const Flux<Scalar>& flux) { return flux.is_parabola(); })),
-      has_pieces_(!scene_->is_layered() && (is_parabolic_ || !scene_->has_smooth_start())),
+      has_pieces_(!scene_->is_layered()),
       is_exponential_(is_exponential_scene(*scene_)),
       is_root_(is_parabolic_ && is_root_scene(*scene_)),
       is_exact_(scene_->is_layered() ||

@@ -27,8 +27,7 @@ namespace shearfront::exact {
 /// Guarantees: interfaces and initial jumps at the same height stay so; height_of(image_of(z)) = z to
 /// rounding; states stay in their range, phi = c(z) (lo + w u) with c(z) itself where c is smooth. Where a(z) or log a(z) is linear between its knots, and c and T are
 /// constant in pieces, the image is linear or exponential in pieces as well: has_pieces(). Any other smooth scene is represented by pieces through
-/// its rate s a c sqrt(T), each linear or exponential, whichever is nearer in its middle. A smooth start in a smooth bed with a flux
-/// that is no parabola has a staircase of layers (harmonic means) instead. Precondition: refusal(scene) is empty.
+/// its rate s a c sqrt(T), each linear or exponential, whichever is nearer in its middle. Precondition: refusal(scene) is empty.
 template <Real Scalar>
 class CanonicalForm {
  public:

@@ -81,6 +81,15 @@ struct Cells {
     if (!is_curved(i)) return Scalar(0);
     return shape->slope(layer[i], z, Scalar(x[i] + (x[i + 1] - x[i]) / Scalar(2)));
   }
+  /// Where phi(z, 0), which rises in cell i, is p.
+  [[nodiscard]] Scalar height_of_state(std::size_t i, const Scalar& p) const {
+    Scalar lo = x[i], hi = x[i + 1];
+    for (;;) {
+      const Scalar z = lo + (hi - lo) / Scalar(2);
+      if (!(z > lo && z < hi)) return lo;
+      (state(i, z) < p ? lo : hi) = z;
+    }
+  }
   /// int phi(., 0) from the lower end of cell i to a height of it.
   [[nodiscard]] Scalar inside(std::size_t i, const Scalar& z) const {
     return is_curved(i) ? shape->amount(layer[i], x[i], z) : Scalar(phi[i] * (z - x[i]));

@@ -196,10 +196,6 @@ void Derivatives<Scalar>::add_pieces() {
   }
   const LayerStack<Scalar>& layers = form_.layers();
   const bool has_temperature = scene.spec().temperature.has_value();
-  if (!is_layered(scene.spec().temperature)) {  // all entries are refused
-    for (std::size_t k = 0; k < layers.n_layers(); ++k) pieces_.close();
-    return;
-  }
   std::visit(
       [&](const auto& a) {
         for (std::size_t k = 0; k < layers.n_layers(); ++k) {

@@ -28,9 +28,8 @@ ExactSolution<Scalar>::ExactSolution(const Scene<Scalar>& scene, Options options
   resolution_ = options.layers > 0 ? options.layers : kFirstPieces;
   fine_ = represent(shared, resolution_);
   if (!form().is_final()) {
-    if (options.layers == 0 && !form().has_pieces()) fine_ = represent(shared, resolution_ = kDefaultLayers);
     coarse_ = represent(shared, (resolution_ + 1) / 2);
-    if (options.layers == 0 && form().has_pieces()) represent_within(shared, options.tolerance);
+    if (options.layers == 0) represent_within(shared, options.tolerance);
   }
   steady_height_ = form().height_of(medium().steady_height());
 }
@@ -179,10 +178,8 @@ auto ExactSolution<Scalar>::with_errors(Value value, const Path& coarse_path, co
   const Scalar y = coarse_.form->image_of(z);
   const Value coarse = in_scene(coarse_, image_value(*coarse_.medium, coarse_path, y), z);
   const auto change = [](const Scalar& a, const Scalar& b) { return a > b ? Scalar(a - b) : Scalar(b - a); };
-  // Second order leaves a third of the change. Order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of it on average; stairs that
-  // fit a turning point by chance make the change smaller than that.
-  const int safety = form().has_pieces() ? 1 : 3;
-  value.M_error = Scalar(safety) * change(coarse.M, value.M);
+  // Second order leaves a third of the change, order 3/2 leaves 1 / (2^(3/2) - 1) = 0.55 of it on average.
+  value.M_error = change(coarse.M, value.M);
   value.phi_error = change(coarse.phi, value.phi);
   return value;
 }

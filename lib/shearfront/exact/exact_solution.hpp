@@ -21,9 +21,7 @@ namespace shearfront {
 /// negative for concave fluxes.
 ///
 /// Smooth starts (Scene::has_smooth_start): guarantee (1) in layered scenes; elsewhere paths from them are looked for in parts of the bed,
-/// which are halved, and whose error is estimated, as (3) says. With a flux that is no parabola a smooth bed of theirs is a staircase of
-/// Options::layers layers (harmonic means), of order 3/2 (2 where no path turns), whatever the tolerance; M_error is three times the
-/// change from half as many.
+/// which are halved, and whose error is estimated, as (3) says.
 ///
 /// Domain: any scene with an empty refusal() (exact/refusal.hpp); bottom <= z <= top, 0 <= t <= +infinity.
 /// t = 0 gives the initial data, t = +infinity the steady state. At a discontinuity phi is the value above
@@ -47,11 +45,10 @@ template <Real Scalar>
 class ExactSolution {
  public:
   struct Options {
-    /// So many pieces where the scene has to be approximated; 0: as many as the tolerance takes, in a staircase kDefaultLayers.
+    /// So many pieces where the scene has to be approximated; 0: as many as the tolerance takes.
     std::size_t layers = 0;
     double tolerance = 1e-6;  ///< error of M aimed at, in heights of the bed
   };
-  static constexpr std::size_t kDefaultLayers = 128;  ///< of a staircase
   static constexpr std::size_t kFirstPieces = 32, kMostPieces = 4096;
   static constexpr std::size_t kMostParts = 512;  ///< of a bed that is exact but for its smooth start
 
@@ -99,7 +96,7 @@ class ExactSolution {
   /// The Options::layers that give the same pieces, whatever the tolerance.
   [[nodiscard]] std::size_t resolution() const { return resolution_; }
   /// Whether pieces were refined until probed_error() was at most the tolerance: not where their number
-  /// was given or has come to kMostPieces, nor in a staircase.
+  /// was given or has come to kMostPieces.
   [[nodiscard]] bool meets_tolerance() const { return meets_tolerance_; }
   /// Largest M_error at the probe points, in heights of the bed; 0 where there is no tolerance to meet.
   [[nodiscard]] const Scalar& probed_error() const { return probed_error_; }

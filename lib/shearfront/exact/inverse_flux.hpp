@@ -65,6 +65,8 @@ class InverseFlux {
   [[nodiscard]] Rise rise_beside(const Scalar& distance, bool up) const;
   /// The slope of the chord of G between two states at these distances from the pure one of a side.
   [[nodiscard]] Scalar chord_beside(const Scalar& distance1, const Scalar& distance2, bool up) const;
+  /// Whether it has a slope at its peak, on any side.
+  [[nodiscard]] bool has_kink() const { return kink_[0] > 0 || kink_[1] > 0; }
   /// Whether it is analytic on both sides of its peak, or between joints.
   [[nodiscard]] bool is_smooth() const { return is_smooth_; }
   /// Distances from the pure state of a side at which it is not, ascending.

@@ -194,12 +194,27 @@ class LawCalculus {
       by.T2 += weight * d * by_r * hat2;
       by.T_h += weight * d * by_h;
     };
-    const Scalar half(0.5);
-    for (std::size_t n = 0; n < Rule::abscissa().size(); ++n) {
-      const Scalar &x = Rule::abscissa()[n], &w = Rule::weights()[n];
-      add(Scalar(half - half * x), Scalar(half * w));
-      add(Scalar(half + half * x), Scalar(half * w));
+    // Between joints of the flux, where its second derivative may jump.
+    Scalar from(0);
+    const auto over = [&](const Scalar& to) {
+      const Scalar middle = (from + to) / Scalar(2), half = (to - from) / Scalar(2);
+      for (std::size_t n = 0; n < Rule::abscissa().size(); ++n) {
+        const Scalar x = half * Rule::abscissa()[n], weight = half * Rule::weights()[n];
+        add(Scalar(middle - x), weight);
+        add(Scalar(middle + x), weight);
+      }
+      from = to;
+    };
+    const bool grows = s2.from_pure > s1.from_pure;
+    const auto& joints = fluxes_.flux(k).joints(is_up);
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+      const Scalar& m = joints[grows ? n : joints.size() - 1 - n];
+      if (!(m > std::min(s1.from_pure, s2.from_pure) && m < std::max(s1.from_pure, s2.from_pure))) continue;
+      const Scalar r = h_ / (m * fluxes_.flux(k).rise_beside(m, is_up).chord);
+      const Scalar w = distance_of(form, bend, r1, Scalar(r - r1)) / d;
+      if (w > from && w < one) over(w);
     }
+    over(one);
   }
 
   const PieceFluxes<Scalar>& fluxes_;

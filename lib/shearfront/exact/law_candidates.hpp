@@ -18,7 +18,7 @@ namespace shearfront::exact {
 template <Real Scalar>
 class LawCandidates : protected SlopedStarts<Scalar> {
  public:
-  static constexpr bool kKnowsPieces = false, kTakesCurved = false;
+  static constexpr bool kKnowsPieces = false;
 
   using SlopedStarts<Scalar>::SlopedStarts;
 
@@ -27,7 +27,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
  protected:
   using Base = SlopedStarts<Scalar>;
   using Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer, Base::size_of_bend,
-      Base::slack_, Base::start_at, Base::t_, Base::view_, Base::w_of, Base::z_;
+      Base::search_curved_cell, Base::slack_, Base::start_at, Base::t_, Base::view_, Base::w_of, Base::z_;
+  using typename Base::CellState;
   using typename Base::Leaves;
   using typename Base::Range;
   using typename Base::Route;
@@ -92,6 +93,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   }
   /// Most time from a start in cell k to its upper end.
   [[nodiscard]] Scalar most_from_state(std::size_t k, const Range& h) const {
+    if (view_.is_curved(k)) return infinity<Scalar>();
     const State from = initial_state(k);
     const LawSide<Scalar> side = view_.side(k, true);
     if (view_.bend[k] == 0)
@@ -127,9 +129,10 @@ class LawCandidates : protected SlopedStarts<Scalar> {
         .at(std::clamp(e, Scalar(0), Scalar(1)), std::min(Scalar(1), Scalar(h / r)));
   }
   [[nodiscard]] State initial_state(std::size_t k) const {
-    const Scalar half = view_.q0[k] / Scalar(2);
-    const LawSide<Scalar> side = view_.side(k, true);
-    return {std::max(Scalar(0), half), std::min(view_.missing[k], side.reach())};
+    return initial_state(k, view_.q0[k], view_.missing[k]);
+  }
+  [[nodiscard]] State initial_state(std::size_t k, const Scalar& q0, const Scalar& missing) const {
+    return {std::max(Scalar(0), Scalar(q0 / Scalar(2))), std::min(missing, view_.side(k, true).reach())};
   }
 
   /// Adds all runs and the turn of a route to a sample that has h and qm2.
@@ -244,28 +247,34 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     s.qm2 = range.qa2 + range.kappa * start.lost;
     s.qm = sqrt(s.qm2);
     add_law_route(route, s);
-    const bool up = range.leaves == Leaves::upwards;
-    const Scalar& exit = up ? view_.high[k] : view_.low[k];
-    const State from = initial_state(k);
-    if (up) {
-      const LawRun<Scalar> run(view_.side(k, true), view_.form[k], view_.bend[k], start.d, s.rate, from, exit,
-                               state_at(k, true, exit, route.least, s.qm2, s.h), s.h);
+    add_way(route, k, range.leaves == Leaves::upwards, start.d, initial_state(k), view_.e0[k], view_.G0[k],
+            s);
+    return s;
+  }
+  /// The way in the cell of its start, `d` from where it leaves it.
+  void add_way(const Route& route, std::size_t k, bool leaves_up, const Scalar& d, const State& from,
+               const Scalar& lack, const Scalar& G, Sample& s) const {
+    const Scalar& exit = leaves_up ? view_.high[k] : view_.low[k];
+    const auto at_exit = [&](const State& at_start) {
+      return exit == s.rate ? at_start : state_at(k, leaves_up, exit, route.least, s.qm2, s.h);
+    };
+    if (leaves_up) {
+      const LawRun<Scalar> run(view_.side(k, true), view_.form[k], view_.bend[k], d, s.rate, from, exit,
+                               at_exit(from), s.h);
       s.T += run.T;
       s.X += run.X;
       (view_.bend[k] < 0 ? s.T_rising : s.T_falling) += run.T;
-      return s;
+      return;
     }
     // It turns, comes back to its start and goes on to the end below: all of that falls.
-    const Scalar e0 = view_.e0[k], G0 = view_.G0[k];
-    const State back = view_.side(k, false).at(e0, G0);
+    const State back = view_.side(k, false).at(lack, G);
     const LawTurn<Scalar> turn(view_.side(k, true), view_.side(k, false), view_.form[k], size_of_bend(k),
                                s.rate, from, back, s.h);
-    const LawRun<Scalar> run(view_.side(k, false), view_.form[k], Scalar(-view_.bend[k]), start.d, s.rate,
-                             back, exit, state_at(k, false, exit, route.least, s.qm2, s.h), s.h);
+    const LawRun<Scalar> run(view_.side(k, false), view_.form[k], Scalar(-view_.bend[k]), d, s.rate, back,
+                             exit, at_exit(back), s.h);
     s.T += turn.T + run.T;
     s.T_falling += turn.T + run.T;
     s.X += turn.X + run.X;
-    return s;
   }
   void search_state(const Route& route, const StateRange& range, int sign, const Scalar& top, bool turned,
                     std::size_t turn) {
@@ -279,6 +288,14 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
     roots(sign, a, b, at, found, 0, never_dear);
+  }
+  void search_curved(const Route& route, std::size_t k, bool leaves_up, const Scalar& h_low,
+                     const Scalar& top, bool turned, std::size_t turn) {
+    search_curved_cell(route, k, leaves_up, h_low, top, turned, turn, [&](const CellState& from, Sample& s) {
+      add_law_route(route, s);
+      const Scalar d = leaves_up ? view_.x[k + 1] - s.y : s.y - view_.x[k];
+      add_way(route, k, leaves_up, d, initial_state(k, from.q0, from.missing), from.lack, from.G, s);
+    });
   }
   /// Where r is constant in cell k: h is given and the time linear in the start.
   void flat_state(Route& route, std::size_t k, const Scalar& top, bool turned, std::size_t turn,

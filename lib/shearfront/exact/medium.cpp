@@ -56,6 +56,38 @@ std::vector<Scalar> finer_cuts(const CanonicalForm<Scalar>& form) {
   return cuts;
 }
 
+/// Where a smooth start rises through the peak of a flux with a kink in a flat piece: a fan of speeds leaves there.
+template <Real Scalar>
+std::vector<Scalar> still_heights(const Cells<Scalar>& cells, const SlopedPieces<Scalar>& pieces,
+                                  const PieceFluxes<Scalar>& fluxes) {
+  std::vector<Scalar> heights;
+  for (std::size_t i = 0; i < cells.n_cells(); ++i) {
+    const std::size_t k = cells.layer[i];
+    const Scalar& peak = fluxes.flux(k).peak();
+    if (pieces.bend[k] == 0 && fluxes.flux(k).has_kink() && cells.phi[i] < peak && cells.phi_high[i] > peak)
+      heights.push_back(cells.height_of_state(i, peak));
+  }
+  return heights;
+}
+
+template <Real Scalar>
+Cells<Scalar> constant_cells(const CanonicalForm<Scalar>& form) {
+  return {form.initial_breaks(), form.initial_values(), form.boundaries()};
+}
+/// In parts; `fluxes`: null for parabolas.
+template <Real Scalar>
+Cells<Scalar> smooth_cells(const CanonicalForm<Scalar>& form, const SlopedPieces<Scalar>& pieces,
+                           const PieceFluxes<Scalar>* fluxes) {
+  std::vector<Scalar> cuts = finer_cuts(form);
+  Cells<Scalar> cells(form.start(), cuts, form.boundaries());
+  if (!fluxes) return cells;
+  const std::vector<Scalar> still = still_heights(cells, pieces, *fluxes);
+  if (still.empty()) return cells;
+  const auto middle = cuts.insert(cuts.end(), still.begin(), still.end());
+  std::inplace_merge(cuts.begin(), middle, cuts.end());
+  return {form.start(), cuts, form.boundaries()};
+}
+
 /// In the unit of time in which its fastest rate is about 1: closed forms multiply rates and take their roots, and results must not depend
 /// on the unit of the user's times.
 template <Real Scalar>
@@ -67,18 +99,17 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
   for (auto* rates : {&low, &high})
     for (Scalar& r : *rates) r /= unit;
   if (form.rate_forms().front() == RateForm::root) {
-    Cells<Scalar> cells(form.initial_breaks(), form.initial_values(), form.boundaries());
-    auto root = std::make_unique<const RootMedium<Scalar>>(low[0], high[0], std::move(cells), form.mass());
+    auto root =
+        std::make_unique<const RootMedium<Scalar>>(low[0], high[0], constant_cells(form), form.mass());
     if (unit == Scalar(1)) return root;
     return std::make_shared<const ScaledMedium<Scalar>>(std::move(root), unit);
   }
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
-  Cells<Scalar> cells = form.start()
-                            ? Cells<Scalar>(form.start(), finer_cuts(form), form.boundaries())
-                            : Cells<Scalar>(form.initial_breaks(), form.initial_values(), form.boundaries());
+  const auto fluxes =
+      form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form));
   auto medium = std::make_unique<const SlopedMedium<Scalar>>(
-      std::move(pieces), std::move(cells), form.mass(),
-      form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form)));
+      pieces, form.start() ? smooth_cells(form, pieces, fluxes.get()) : constant_cells(form), form.mass(),
+      fluxes);
   if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
 }
@@ -87,14 +118,13 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
 
 template <Real Scalar>
 std::shared_ptr<const Medium<Scalar>> make_medium(const CanonicalForm<Scalar>& form) {
-  const auto& y = form.boundaries();
   if (form.has_pieces()) return medium_of_pieces(form);
   const auto layered = [&]<class Law>(Law law) -> std::shared_ptr<const Medium<Scalar>> {
-    Cells<Scalar> cells = form.start() ? Cells<Scalar>(form.start(), form.start()->knots(), y)
-                                       : Cells<Scalar>(form.initial_breaks(), form.initial_values(), y);
+    Cells<Scalar> cells = form.start() ? Cells<Scalar>(form.start(), form.start()->knots(), form.boundaries())
+                                       : constant_cells(form);
     return std::make_shared<const LayeredMedium<Scalar, Law>>(std::move(law), std::move(cells), form.mass());
   };
-  if (form.is_parabolic()) return layered(ParabolaLaw<Scalar>(y, form.rates()));
+  if (form.is_parabolic()) return layered(ParabolaLaw<Scalar>(form.boundaries(), form.rates()));
   return layered(unimodal_law(form));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -77,24 +78,24 @@ struct SlopedView {
   std::vector<RelativeBends<Scalar>> bends;
   std::vector<Scalar> p,
       missing;  ///< initial state of each cell, and what it lacks to 1; of a curved one at its lower end
-  std::vector<Scalar> p_high;                       ///< at its upper end
-  std::vector<Scalar> q0;                           ///< 2 p - 1, or twice the distance from the peak
-  std::vector<Scalar> G0, e0;                       ///< 4 H over r, and what it lacks to 1
-  std::vector<Scalar> pure_time;                    ///< of a pure state upwards through each cell
-  std::vector<Scalar> pure_back;                    ///< and downwards
+  std::vector<Scalar> p_high;     ///< at its upper end
+  std::vector<Scalar> crest;      ///< where in each curved cell h is largest; none without a smooth start
+  std::vector<Scalar> q0;         ///< 2 p - 1, or twice the distance from the peak
+  std::vector<Scalar> G0, e0;     ///< 4 H over r, and what it lacks to 1
+  std::vector<Scalar> pure_time;  ///< of a pure state upwards through each cell
+  std::vector<Scalar> pure_back;  ///< and downwards
   std::vector<RunEnds<Scalar>> upwards, downwards;  ///< through each cell
   std::vector<bool> emits;                          ///< a fan can leave the node upwards
   std::size_t first_start = 0;  ///< no cell below it has a state that moves upwards, nor its upper node a fan
   std::size_t end_of_starts = 0,
               end_of_falls = 0;  ///< nor this cell and above, but pure ones; no r falls there
   SlopedTurnTimes<Scalar> turn_times;
-  std::shared_ptr<const StartShape<Scalar>> shape;    ///< of a smooth start, of parabolas only
+  std::shared_ptr<const StartShape<Scalar>> shape;    ///< of a smooth start
   std::shared_ptr<const PieceFluxes<Scalar>> fluxes;  ///< none: all are parabolas
 
   SlopedView(const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells, bool mirrored,
              std::shared_ptr<const PieceFluxes<Scalar>> of_pieces = nullptr)
       : is_mirror(mirrored), M(cells.M), shape(cells.shape), fluxes(std::move(of_pieces)) {
-    SHEARFRONT_EXPECTS(!shape || !fluxes, "a smooth start only with parabolas");
     const Scalar one(1);
     for (const Scalar& z : cells.x) x.push_back(mirrored ? Scalar(-z) : z);
     for (std::size_t i = 0; i < cells.n_cells(); ++i) {
@@ -122,6 +123,7 @@ struct SlopedView {
     }
     for (std::size_t i = 0; i < n_cells(); ++i) bends.emplace_back(form[i], bend[i], low[i], high[i]);
     set_fluxes();
+    set_crests();
     emits.assign(x.size(), false);
     for (std::size_t i = 0; i < n_cells(); ++i) {
       pure_time.push_back(pure_way(i, x[i + 1] - x[i], low[i], high[i], true));
@@ -138,7 +140,7 @@ struct SlopedView {
 
   /// Whether the state of a cell moves upwards with H > 0, somewhere in the cell.
   [[nodiscard]] bool has_moving_state(std::size_t cell) const {
-    if (is_curved(cell)) return std::max(p[cell], p_high[cell]) > Scalar(0.5);
+    if (is_curved(cell)) return std::max(p[cell], p_high[cell]) > peak(cell);
     return p[cell] > 0 && missing[cell] > 0 && (q0[cell] > 0 || (q0[cell] == 0 && bend[cell] > 0));
   }
 
@@ -155,6 +157,18 @@ struct SlopedView {
     insert(view.high, cell, r);
     for (auto* all : {&view.bend, &view.p, &view.p_high, &view.missing, &view.q0, &view.G0, &view.e0})
       twice(*all);
+    if (is_curved(cell)) {
+      const State state = state_at(cell, z);
+      view.p_high[cell] = view.p[cell + 1] = state.p;
+      view.missing[cell + 1] = state.missing;
+      view.q0[cell + 1] = state.q0;
+      view.G0[cell + 1] = state.G;
+      view.e0[cell + 1] = state.lack;
+    }
+    if (shape) {
+      view.crest[cell] = std::min(crest[cell], z);
+      insert(view.crest, cell + 1, std::max(crest[cell], z));
+    }
     insert(view.piece, cell, piece[cell]);
     insert(view.form, cell, form[cell]);
     insert(view.bends, cell, bends[cell]);
@@ -169,6 +183,41 @@ struct SlopedView {
     insert(view.upwards, cell + 1, RunEnds<Scalar>(form[cell], above, r, high[cell]));
     insert(view.downwards, cell + 1, RunEnds<Scalar>(form[cell], above, high[cell], r));
     view.set_extent();
+  }
+
+  /// A state as the view sees it: what it lacks to 1, twice its distance from the peak, 4 H over r, and what that lacks to 1.
+  struct State {
+    Scalar p, missing, q0, G, lack;
+  };
+  [[nodiscard]] State state_of(std::size_t cell, const Scalar& p_of, const Scalar& missing_of) const {
+    const Scalar half(0.5), one(1);
+    State state{p_of, missing_of, p_of - missing_of, Scalar(0), one};
+    if (!fluxes) {
+      state.G = Scalar(4) * p_of * missing_of;
+      state.lack = state.q0 * state.q0;
+      return state;
+    }
+    const InverseFlux<Scalar>& flux = fluxes->flux(piece[cell]);
+    const Scalar u = is_mirror ? missing_of : p_of;
+    const bool is_up = u > flux.peak();
+    const Scalar over = u - flux.peak(), d = is_up ? over : Scalar(-over);
+    state.q0 = Scalar(2) * (is_mirror ? Scalar(-over) : over);
+    if (u == 0 || u == 1) return state;
+    state.lack = flux.lack(d, is_up);
+    state.G =
+        state.lack > half ? flux.flux_beside(is_up ? Scalar(one - u) : u, is_up) : Scalar(one - state.lack);
+    return state;
+  }
+  /// The state of a curved cell at a height.
+  [[nodiscard]] State state_at(std::size_t cell, const Scalar& y) const {
+    const Scalar phi = shape->state(piece[cell], is_mirror ? Scalar(-y) : y), other = Scalar(1) - phi;
+    return is_mirror ? state_of(cell, other, phi) : state_of(cell, phi, other);
+  }
+  /// Where the flux of a cell is largest.
+  [[nodiscard]] Scalar peak(std::size_t cell) const {
+    if (!fluxes) return Scalar(0.5);
+    const Scalar& of = fluxes->flux(piece[cell]).peak();
+    return is_mirror ? Scalar(Scalar(1) - of) : of;
   }
 
   /// At least int p dz of paths that rise by `rise` from a throat, or fall.
@@ -245,27 +294,41 @@ struct SlopedView {
   }
   /// What a curved cell can send upwards through its upper end.
   [[nodiscard]] Scalar most_at_top(std::size_t cell) const {
-    const Scalar one(1), &u = p_high[cell];
-    return u + u > one ? Scalar(Scalar(4) * u * (one - u) * high[cell]) : high[cell];
+    const Scalar& u = p_high[cell];
+    return u > peak(cell) ? Scalar(state_of(cell, u, Scalar(Scalar(1) - u)).G * high[cell]) : high[cell];
   }
   void set_fluxes() {
     for (std::size_t i = 0; i < n_cells(); ++i) {
-      const Scalar half(0.5), one(1);
-      if (!fluxes) {
-        G0.push_back(Scalar(4) * p[i] * missing[i]);
-        e0.push_back(q0[i] * q0[i]);
+      const State state = state_of(i, p[i], missing[i]);
+      if (fluxes) q0[i] = state.q0;
+      G0.push_back(state.G);
+      e0.push_back(fluxes ? state.lack : Scalar(q0[i] * q0[i]));
+    }
+  }
+
+  /// Parts of a smooth start are so short that h has one maximum there, if any.
+  void set_crests() {
+    if (!shape) return;
+    for (std::size_t i = 0; i < n_cells(); ++i) {
+      if (!is_curved(i)) {
+        crest.push_back(x[i]);
         continue;
       }
-      const InverseFlux<Scalar>& flux = fluxes->flux(piece[i]);
-      const Scalar u = is_mirror ? missing[i] : p[i];
-      const bool is_up = u > flux.peak();
-      const Scalar over = u - flux.peak(), d = is_up ? over : Scalar(-over);
-      q0[i] = Scalar(2) * (is_mirror ? Scalar(-over) : over);
-      e0.push_back(u == 0 || u == 1 ? one : flux.lack(d, is_up));
-      G0.push_back(u == 0 || u == 1 ? Scalar(0)
-                   : e0[i] > half   ? flux.flux_beside(is_up ? Scalar(one - u) : u, is_up)
-                                    : Scalar(one - e0[i]));
+      const auto height = [&](const Scalar& part) { return Scalar(x[i] + (x[i + 1] - x[i]) * part); };
+      const auto less = [&](const Scalar& part) {
+        const Scalar y = height(part);
+        return Scalar(-state_at(i, y).G * rate(i, y));
+      };
+      constexpr int kBits = 26;
+      crest.push_back(height(boost::math::tools::brent_find_minima(less, Scalar(0), Scalar(1), kBits).first));
     }
+  }
+
+  /// In a flat piece a state at the peak of a flux with a kink moves at any speed between those of both sides.
+  [[nodiscard]] bool is_still(std::size_t node) const {
+    if (!shape || !fluxes || (bend[node - 1] != 0 && bend[node] != 0)) return false;
+    const Scalar slack = Scalar(1) / Scalar(1 << 20), off = p[node] - peak(node);
+    return fluxes->flux(piece[node]).has_kink() && off <= slack && -off <= slack;
   }
 
   /// Moving the start must not pay: state below <= p on its lower side, p on its upper side <= state above; upwards p >=
@@ -273,7 +336,7 @@ struct SlopedView {
   [[nodiscard]] bool may_emit(std::size_t node) const {
     const Scalar slack = Scalar(1) / Scalar(1 << 20), one(1);
     const std::size_t b = node - 1, a = node;
-    if (!(p_high[b] < p[a]) && !is_jump(node)) return false;
+    if (!(p_high[b] < p[a]) && !is_jump(node)) return is_still(node);
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
     const Scalar most = std::min(low[a], is_curved(b) ? most_at_top(b) : q0[b] > 0 ? h(b, high[b]) : high[b]);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "shearfront/exact/sloped_curved.hpp"
 #include "shearfront/exact/sloped_starts.hpp"
 
 namespace shearfront::exact {
@@ -15,8 +14,6 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
  public:
   /// Paths inside one piece have closed forms.
   static constexpr bool kKnowsPieces = true;
-  /// Cells of a smooth start.
-  static constexpr bool kTakesCurved = true;
 
   using SlopedStarts<Scalar>::SlopedStarts;
 
@@ -27,8 +24,9 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
  protected:
   using Base = SlopedStarts<Scalar>;
   using Base::above_, Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer,
-      Base::size_of_bend, Base::slack_, Base::slope_of_start, Base::start_at, Base::t_, Base::view_,
-      Base::w_of, Base::z_;
+      Base::search_curved_cell, Base::size_of_bend, Base::slack_, Base::slope_of_start, Base::start_at,
+      Base::t_, Base::view_, Base::w_of, Base::z_;
+  using typename Base::CellState;
   using typename Base::Leaves;
   using typename Base::Range;
   using typename Base::Route;
@@ -253,38 +251,22 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
   }
 
-  // Cells of a smooth start.
-  [[nodiscard]] Range h_of_curved(std::size_t k) const {
-    const Scalar &least = std::min(view_.low[k], view_.high[k]),
-                 &most = std::max(view_.low[k], view_.high[k]);
-    const Scalar &p = std::min(view_.p[k], view_.p_high[k]), &q = std::max(view_.p[k], view_.p_high[k]);
-    const Scalar one(1), four_g = Scalar(4) * p * (one - p), other = Scalar(4) * q * (one - q);
-    const bool has_peak = p + p < one && q + q > one;
-    return {std::min(four_g, other) * least, (has_peak ? one : std::max(four_g, other)) * most};
-  }
-  /// From the height of a curved cell whose path comes along the route at the time t.
-  void search_curved(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
-                     bool turned, std::size_t turn) {
-    Scalar lo = view_.x[k], hi = view_.x[k + 1];
-    const auto h = [&](const Scalar& y) {
-      const CurvedState<Scalar> state(view_, k, y);
-      return Scalar(Scalar(4) * state.p * state.missing * view_.rate(k, y));
-    };
-    if (!keep_where<Scalar>([&](const Scalar& y) { return CurvedState<Scalar>(view_, k, y).q0; }, lo, hi) ||
-        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(route.least - h(y)); }, lo, hi) ||
-        !keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
-      return;
-    const auto late = [&](const Scalar& y) -> std::optional<Scalar> {
-      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
-      return start ? std::optional(Scalar(start->s.T - t_)) : std::nullopt;
-    };
-    sign_changes<Scalar>(late, lo, hi, [&](const Scalar& y) {
-      const auto start = curved_start(view_, route, k, y, leaves_up, h_low);
-      if (!start || !is_finite(start->s.T) || (moving_only_ && start->s.h == 0)) return;
-      const SlopedSample<Scalar>& s = start->s;
-      const Scalar value =
-          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s.X + s.h / Scalar(4) * (t_ - s.T);
-      offer(value, s.h, PathKind::constant, !turned, turned, k, y, turn, route.least, s.qm);
+  void search_curved(const Route& route, std::size_t k, bool leaves_up, const Scalar& h_low,
+                     const Scalar& top, bool turned, std::size_t turn) {
+    search_curved_cell(route, k, leaves_up, h_low, top, turned, turn, [&](const CellState& from, Sample& s) {
+      add_route(view_, route, s);
+      const Scalar& exit = leaves_up ? view_.high[k] : view_.low[k];
+      const Scalar d = leaves_up ? view_.x[k + 1] - s.y : s.y - view_.x[k];
+      const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
+      if (d > 0) {
+        const Crossing<Scalar> c(view_.form[k], d, s.rate, from.q0, exit, q, s.h);
+        s.T += c.T;
+        s.X += c.X;
+      }
+      if (leaves_up) return;
+      const Turn<Scalar> turned_here(view_.form[k], size_of_bend(k), s.rate, from.q0, s.h);
+      s.T += turned_here.T;
+      s.X += turned_here.X;
     });
   }
 };

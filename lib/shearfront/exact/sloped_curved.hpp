@@ -5,10 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "shearfront/exact/arc.hpp"
-#include "shearfront/exact/sloped_bed.hpp"
-#include "shearfront/exact/sloped_crossing.hpp"
-#include "shearfront/exact/sloped_route.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
 /// Paths from the states of a curved cell (a part of a smooth start) in sloped pieces: the start y is found where the path from
@@ -101,19 +97,6 @@ void sign_changes(const F& f, const Scalar& lo, const Scalar& hi, const Found& f
   }
 }
 
-/// The state of a curved cell at one height, as the view sees it.
-template <Real Scalar>
-struct CurvedState {
-  Scalar p, missing, q0;
-
-  CurvedState(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& y) {
-    const Scalar phi = view.shape->state(view.piece[cell], view.is_mirror ? Scalar(-y) : y);
-    p = view.is_mirror ? Scalar(Scalar(1) - phi) : phi;
-    missing = view.is_mirror ? phi : Scalar(Scalar(1) - phi);
-    q0 = p - missing;
-  }
-};
-
 /// The part of (lo, hi) where g >= 0, for a g that changes its sign there once or not at all.
 template <Real Scalar, class G>
 [[nodiscard]] bool keep_where(const G& g, Scalar& lo, Scalar& hi) {
@@ -128,52 +111,6 @@ template <Real Scalar, class G>
   }
   end = inside;
   return lo < hi;
-}
-
-/// A path from a height of a curved cell along a route, at the H of its state there.
-template <Real Scalar>
-struct CurvedStart {
-  Scalar y{0};
-  SlopedSample<Scalar> s;
-};
-
-/// The path that leaves its cell at the top, or, having turned in it, at the bottom. Empty where the state moves the other way,
-/// or its h does not fit: no more than the least rate of the route, no less than `h_low`.
-template <Real Scalar>
-[[nodiscard]] std::optional<CurvedStart<Scalar>> curved_start(const SlopedView<Scalar>& view,
-                                                              const SlopedRoute<Scalar>& route, std::size_t k,
-                                                              const Scalar& y, bool leaves_up,
-                                                              const Scalar& h_low) {
-  using std::sqrt;
-  const CurvedState<Scalar> state(view, k, y);
-  const Scalar r = view.rate(k, y), h = Scalar(4) * state.p * state.missing * r;
-  if (state.q0 < 0 || h > route.least || h < h_low) return std::nullopt;
-  CurvedStart<Scalar> start;
-  start.y = y;
-  SlopedSample<Scalar>& s = start.s;
-  s.h = h;
-  if (h == 0 && (!leaves_up || route.turn_bend > 0)) {  // a pure state does not turn
-    s.T = infinity<Scalar>();
-    return start;
-  }
-  s.qm2 = (route.least - h) / route.least;
-  s.qm = sqrt(s.qm2);
-  add_route(view, route, s);
-  const Scalar& exit = leaves_up ? view.high[k] : view.low[k];
-  const Scalar d = leaves_up ? view.x[k + 1] - y : y - view.x[k];
-  const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
-  if (d > 0) {
-    const Crossing<Scalar> c(view.form[k], d, r, state.q0, exit, q, h);
-    s.T += c.T;
-    s.X += c.X;
-  }
-  if (!leaves_up) {
-    const Scalar bend = view.bend[k] < 0 ? Scalar(-view.bend[k]) : view.bend[k];
-    const Turn<Scalar> turn(view.form[k], bend, r, state.q0, h);
-    s.T += turn.T;
-    s.X += turn.X;
-  }
-  return start;
 }
 
 }  // namespace shearfront::exact

@@ -56,7 +56,8 @@ class SlopedGradient {
     if (path_.foot == z_ && !path_.turned && !(is_state && kKnowsPieces)) return at_its_place(is_state);
     passes();
     if (path_.x == 0 && !is_state && !path_.turned) return rest_on_the_way();
-    if (is_state && start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_))
+    const bool is_inside = start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_);
+    if (is_state && is_inside && !cells_.is_curved(path_.source))
       phi_of_state_inside();
     else if (is_state)
       phi_of_state();
@@ -195,7 +196,7 @@ class SlopedGradient {
     numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
   }
 
-  /// A state that has not left its piece: of a linear one with the slope b int dp / G rises by b t / 4, of an exponential one with
+  /// A constant state that has not left its piece: of a linear one with the slope b int dp / G rises by b t / 4, of an exponential one with
   /// r' / r = k, p by k r(z) G(p) t / 4.
   void phi_of_state_inside() {
     numbers_.clear_phi();

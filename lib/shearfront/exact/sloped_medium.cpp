@@ -73,7 +73,7 @@ void SlopedMedium<Scalar>::settle(const SlopedPlace<Scalar>& place, const Scalar
   const bool is_inside =
       best.kind == PathKind::constant && best.source == above && (!best.turned || best.interface == above);
   if (is_inside && up_.is_curved(above)) {
-    const CurvedState<Scalar> state(up_, above, best.foot);
+    const auto state = up_.state_at(above, best.foot);
     best.p = arc_from_state(up_.form[above], up_.bend[above], t, state.p, state.missing, r).p;
   } else if (is_inside) {
     best.p = arc_from_state(up_.form[above], up_.bend[above], t, up_.p[above], up_.missing[above], r).p;
@@ -170,7 +170,7 @@ Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& pla
   throats_.search(up_, place, t, upper, best);
   // In a flat piece a state at the peak stands still.
   for (const std::size_t k : {place.below, place.above}) {
-    if (up_.bend[k] != 0 || up_.q0[k] != 0) continue;
+    if (up_.bend[k] != 0 || up_.q0[k] != 0 || up_.is_curved(k)) continue;
     Path<Scalar> still;
     still.H = up_.low[k] / Scalar(4);
     still.value = up_.amount(k, z) + still.H * t;
@@ -178,6 +178,20 @@ Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& pla
     still.source = k;
     still.foot = z;
     still.r_reference = up_.low[k];
+    still.x = Scalar(0);
+    if (still.better_than(best)) best = still;
+  }
+  // So does one that a fan has at its own place between flat pieces: no more than the capacity comes through there.
+  const std::size_t node = place.above;
+  if (place.below != node && up_.bend[node] == 0 && up_.bend[node - 1] == 0 && !up_.is_jump(node)) {
+    Path<Scalar> still;
+    still.H = up_.low[node] / Scalar(4);
+    still.value = up_.M[node] + still.H * t;
+    still.kind = PathKind::fan;
+    still.upward = true;
+    still.source = node;
+    still.foot = z;
+    still.r_reference = up_.low[node];
     still.x = Scalar(0);
     if (still.better_than(best)) best = still;
   }

@@ -74,14 +74,6 @@ class SlopedSearch : private Candidates {
   using typename Base::Range;
   using typename Base::Route;
 
-  [[nodiscard]] bool is_curved(std::size_t cell) const {
-    return Candidates::kTakesCurved && view_.is_curved(cell);
-  }
-  void curved_state(Route& route, std::size_t k, bool leaves_up, const Scalar& h_low, const Scalar& top,
-                    bool turned, std::size_t turn) {
-    if constexpr (Candidates::kTakesCurved)
-      Candidates::search_curved(route, k, leaves_up, h_low, top, turned, turn);
-  }
   [[nodiscard]] bool is_of_piece(std::size_t cell, std::size_t other) const {
     return view_.piece[cell] == view_.piece[other];
   }
@@ -96,7 +88,7 @@ class SlopedSearch : private Candidates {
     while (first > 0 && is_of_piece(first - 1, cell)) --first;
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
-      const bool is_pure = !is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
+      const bool is_pure = !view_.is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
       if (view_.is_mirror || (moving_only_ && is_pure)) return;
       // A pure state of the cell of z comes from its end at the latest.
       if (is_pure && k == cell) {
@@ -128,7 +120,7 @@ class SlopedSearch : private Candidates {
   }
   /// From cell k; `first` and `last` are the outermost cells of the piece.
   void state_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
-    if (is_curved(k)) return curved_inside(cell, k, first, last);
+    if (view_.is_curved(k)) return curved_inside(cell, k, first, last);
     // In terms of the cell: where r is steep, heights that differ by rounding have other H.
     const Scalar width = view_.x[k + 1] - view_.x[k];
     const Scalar rounding = std::min(slack_, Scalar(width / Scalar(1 << 20)));
@@ -143,7 +135,7 @@ class SlopedSearch : private Candidates {
   /// From the height of a curved cell whose state comes to z.
   void curved_inside(std::size_t cell, std::size_t k, std::size_t first, std::size_t last) {
     const auto arc_from = [&](const Scalar& y) {
-      const CurvedState<Scalar> state(view_, k, y);
+      const auto state = view_.state_at(k, y);
       return arc_from_state(view_.form[cell], view_.bend[cell], t_, state.p, state.missing,
                             rate_beside(cell));
     };
@@ -258,8 +250,7 @@ class SlopedSearch : private Candidates {
 
   /// h of the state of cell k.
   [[nodiscard]] Range h_of_cell(std::size_t k) const {
-    if constexpr (Candidates::kTakesCurved)
-      if (is_curved(k)) return this->h_of_curved(k);
+    if (view_.is_curved(k)) return this->h_of_curved(k);
     return {view_.h(k, std::min(view_.low[k], view_.high[k])),
             view_.h(k, std::max(view_.low[k], view_.high[k]))};
   }
@@ -313,7 +304,7 @@ class SlopedSearch : private Candidates {
 
   /// `time`: of pure states along the route.
   void state(Route& route, std::size_t k, const Scalar& time) {
-    if (!is_curved(k) && view_.missing[k] == 0) return this->pure_state(k, time);
+    if (!view_.is_curved(k) && view_.missing[k] == 0) return this->pure_state(k, time);
     if (!view_.has_moving_state(k)) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(0) : Scalar(z_ - view_.x[k + 1])) > limit()) return;
     const Range h = h_of_cell(k);
@@ -321,8 +312,8 @@ class SlopedSearch : private Candidates {
     if (!this->may_come_from_state(route, k, {h.least, std::min(h.most, route.least)})) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.high[k]);
-    if (is_curved(k))
-      curved_state(route, k, true, Scalar(0), z_, false, 0);
+    if (view_.is_curved(k))
+      this->search_curved(route, k, true, Scalar(0), z_, false, 0);
     else if (view_.bend[k] == 0)
       flat_state(route, k, z_, false, 0, Scalar(0));
     else
@@ -338,8 +329,8 @@ class SlopedSearch : private Candidates {
     if (h.most < lo || h.least > hi) return;
     const Scalar kept = route.least;
     route.least = std::min(hi, view_.high[k]);
-    if (is_curved(k))
-      curved_state(route, k, true, lo, top, true, j);
+    if (view_.is_curved(k))
+      this->search_curved(route, k, true, lo, top, true, j);
     else if (view_.bend[k] == 0)
       flat_state(route, k, top, true, j, lo);
     else
@@ -354,8 +345,8 @@ class SlopedSearch : private Candidates {
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
-    if (is_curved(k))
-      curved_state(route, k, false, view_.high[k], z_, true, k);
+    if (view_.is_curved(k))
+      this->search_curved(route, k, false, view_.high[k], z_, true, k);
     else
       search_state(route, range_of(route, k, Leaves::downwards, view_.high[k]), -1, z_, true, k);
     route.least = kept;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "shearfront/exact/path.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_curved.hpp"
 #include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
@@ -211,6 +213,63 @@ class SlopedStarts {
     const Scalar slope = (s.qm > 0 ? s.rate : range.begin.rate) * range.log_span;
     return Scalar(2) * slope *
            (s.qm > 0 ? Scalar(s.v / s.qm) : Scalar(Scalar(1) / sqrt(Scalar(range.kappa * slope))));
+  }
+
+  // Cells of a smooth start.
+  using CellState = typename SlopedView<Scalar>::State;
+  [[nodiscard]] Range h_of_curved(std::size_t k) const {
+    const Scalar &least = std::min(view_.low[k], view_.high[k]),
+                 &most = std::max(view_.low[k], view_.high[k]);
+    const CellState a = view_.state_of(k, view_.p[k], view_.missing[k]),
+                    b = view_.state_of(k, view_.p_high[k], Scalar(Scalar(1) - view_.p_high[k]));
+    const bool has_peak = (a.q0 < 0) != (b.q0 < 0);
+    return {std::min(a.G, b.G) * least, (has_peak ? Scalar(1) : std::max(a.G, b.G)) * most};
+  }
+  /// From the heights of curved cell k whose paths come along the route at the time t and have an h of at least `h_low`. `add_way`
+  /// adds to a sample, given the state at its start, the route and the way in the cell: to its top, or turning and to its bottom.
+  template <class AddWay>
+  void search_curved_cell(const Route& route, std::size_t k, bool leaves_up, const Scalar& h_low,
+                          const Scalar& top, bool turned, std::size_t turn, const AddWay& add_way) {
+    const auto at = [&](const Scalar& y) { return view_.state_at(k, y); };
+    const auto h = [&](const Scalar& y) { return Scalar(at(y).G * view_.rate(k, y)); };
+    // Empty where the state moves the other way, or its h does not fit.
+    const auto from = [&](const Scalar& y) -> std::optional<Sample> {
+      using std::sqrt;
+      const CellState state = at(y);
+      Sample s;
+      s.y = y;
+      s.rate = view_.rate(k, y);
+      s.h = state.G * s.rate;
+      if (state.q0 < 0 || s.h > route.least || s.h < h_low) return std::nullopt;
+      if (s.h == 0 && (!leaves_up || route.turn_bend > 0)) {  // a pure state does not turn
+        s.T = infinity<Scalar>();
+        return s;
+      }
+      s.qm2 = std::max(Scalar(0), Scalar(((route.least - s.rate) + s.rate * state.lack) / route.least));
+      s.qm = sqrt(s.qm2);
+      add_way(state, s);
+      return s;
+    };
+    const auto late = [&](const Scalar& y) -> std::optional<Scalar> {
+      const auto s = from(y);
+      return s ? std::optional(Scalar(s->T - t_)) : std::nullopt;
+    };
+    const auto found = [&](const Scalar& y) {
+      const auto s = from(y);
+      if (!s || !is_finite(s->T) || (moving_only_ && s->h == 0)) return;
+      const Scalar value =
+          view_.amount(k, y) + gained(y, leaves_up ? top : y) + s->X + s->h / Scalar(4) * (t_ - s->T);
+      offer(value, s->h, PathKind::constant, !turned, turned, k, y, turn, route.least, s->qm);
+    };
+    // On both sides of its crest h is monotone.
+    const auto search = [&](Scalar lo, Scalar hi) {
+      if (lo < hi && keep_where<Scalar>([&](const Scalar& y) { return at(y).q0; }, lo, hi) &&
+          keep_where<Scalar>([&](const Scalar& y) { return Scalar(route.least - h(y)); }, lo, hi) &&
+          keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
+        sign_changes<Scalar>(late, lo, hi, found);
+    };
+    search(view_.x[k], view_.crest[k]);
+    search(view_.crest[k], view_.x[k + 1]);
   }
 
   [[nodiscard]] Scalar size_of_bend(std::size_t k) const {

@@ -170,18 +170,16 @@ class SlopedThroats {
       if (view.is_curved(k)) {
         // The start whose state has the h of the throat.
         Scalar lo = view.x[k], hi = view.x[k + 1];
-        const auto over = [&](const Scalar& y) { return CurvedState<Scalar>(view, k, y).q0; };
+        const auto over = [&](const Scalar& y) { return view.state_at(k, y).q0; };
         const auto more = [&](const Scalar& y) -> std::optional<Scalar> {
-          const CurvedState<Scalar> state(view, k, y);
-          return Scalar(Scalar(4) * state.p * state.missing * view.rate(k, y) - h);
+          return Scalar(view.state_at(k, y).G * view.rate(k, y) - h);
         };
         if (keep_where<Scalar>(over, lo, hi))
           if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
-            const Scalar q0 = CurvedState<Scalar>(view, k, *y).q0;
+            const Scalar lack = view.state_at(k, *y).lack;
             SlopedWay<Scalar> to = way;
             to.add_run(view, k, true, Scalar(-view.bend[k]), Scalar(view.x[k + 1] - *y), view.high[k],
-                       Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y), Scalar(q0 * q0),
-                       h);
+                       Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y), lack, h);
             add(*y, to, true);
           }
       }

@@ -99,16 +99,13 @@ class ExactRun final : public Run {
   /// What stands for the scene, and how far what was asked for so far may be off.
   [[nodiscard]] std::string approximation() const {
     const std::string n = std::to_string(solution_.n_layers());
-    std::string text = "exact for " + n + " layers as a staircase";
-    if (solution_.form().has_pieces()) {
-      text = solution_.form().is_exact()
-                 ? "exact for paths from a smooth start, looked for in " +
-                       std::to_string(solution_.form().n_start_parts()) + " parts of it"
-                 : "exact for " + n + " pieces";
-      if (!solution_.meets_tolerance())
-        text += is_given_ ? ", as many as asked for"
-                          : ", no more, although the tolerance of " + number_text(tolerance_) + " takes more";
-    }
+    std::string text = solution_.form().is_exact()
+                           ? "exact for paths from a smooth start, looked for in " +
+                                 std::to_string(solution_.form().n_start_parts()) + " parts of it"
+                           : "exact for " + n + " pieces";
+    if (!solution_.meets_tolerance())
+      text += is_given_ ? ", as many as asked for"
+                        : ", no more, although the tolerance of " + number_text(tolerance_) + " takes more";
     const auto rounded = [](double x) { return number_text(x, 2); };
     if (field_.has_values)
       text += "; estimated error of M " + rounded(field_.worst_M) + ", of phi " + rounded(field_.worst_phi);

@@ -29,8 +29,7 @@ struct ExactSolver {
       visit(
           OptionInfo{
               "layers",
-              "so many pieces for a smooth bed instead of the tolerance; layers (128) from a smooth start "
-              "with a flux that is no parabola",
+              "so many pieces for a smooth bed, and parts of a smooth start in it, instead of the tolerance",
               {1, 1e6},
               {},
               "as the tolerance asks"},

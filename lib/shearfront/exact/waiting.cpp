@@ -24,17 +24,6 @@ std::vector<std::size_t> next_slower(const std::vector<Scalar>& rate, bool upwar
   return next;
 }
 
-/// Where phi(z, 0), which rises in the cell, is p.
-template <Real Scalar>
-Scalar height_of_state(const Cells<Scalar>& cells, std::size_t cell, const Scalar& p) {
-  Scalar lo = cells.x[cell], hi = cells.x[cell + 1];
-  for (;;) {
-    const Scalar z = lo + (hi - lo) / Scalar(2);
-    if (!(z > lo && z < hi)) return lo;
-    (cells.state(cell, z) < p ? lo : hi) = z;
-  }
-}
-
 /// Whether an optimal path with 4 H = h can start at the point: phi_below <= p <= phi_above for the momenta p
 /// on its two sides; a relative slack of 2^-20 keeps rounding from dropping a borderline source.
 template <Real Scalar, class Law>
@@ -112,7 +101,7 @@ void Waiting<Scalar, Law>::build(const Law& law, const Cells<Scalar>& cells, con
         if (!cells.is_curved(cell) || !(cells.phi[cell] < cells.phi_high[cell])) return;
         const Scalar p = law.momentum(k, !above, q, Scalar(basin.h / Scalar(4)));
         if (!(cells.phi[cell] < p && p < cells.phi_high[cell])) return;
-        const Scalar y = height_of_state(cells, cell, p);
+        const Scalar y = cells.height_of_state(cell, p);
         const Scalar d = above ? y - law.boundary(k) : law.boundary(k + 1) - y;
         prune(basin.entries,
               {in.time + d * slowness,
