@@ -148,6 +148,10 @@ class KindLaws {
     largest_ = std::max(std::abs(lowest_), std::abs(highest_));
     for (int j = 0; j <= 16; ++j)
       heights_.push_back(j == 16 ? scene_.top() : scene_.bottom() + height_ * (j / 16.0));
+    for (const auto& own : {scene_.initial_breaks(), scene_.knots(), scene_.initial_knots()})
+      heights_.insert(heights_.end(), own.begin(), own.end());
+    std::sort(heights_.begin(), heights_.end());
+    heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
   }
 
   void check() {

@@ -84,7 +84,7 @@ CanonicalForm<Scalar>::CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene,
       is_exact_(scene_->is_layered() ||
                 (has_pieces_ && (is_exponential_ || is_root_ || is_linear_scene(*scene_)))),
       layers_(is_exact_ ? pieces_between_knots(*scene_) : staircase(*scene_, layers, true)),
-      n_start_parts_(std::max<std::size_t>(1, layers)) {
+      n_start_parts_(is_exact_ ? std::max<std::size_t>(1, layers) : kFewParts) {
   if (is_identity_) {
     for (std::size_t k = 0; k < layers_.n_layers(); ++k) rates_.push_back(layers_.rate(k));
     set_end_rates();

@@ -32,6 +32,8 @@ template <Real Scalar>
 class CanonicalForm {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kFewParts =
+      32;  ///< of a smooth start, where pieces of a smooth bed cut it as well
 
   /// `layers`: about how many pieces or layers, where it does not represent the scene exactly.
   CanonicalForm(std::shared_ptr<const Scene<Scalar>> scene, std::size_t layers);

@@ -93,7 +93,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   }
   /// Most time from a start in cell k to its upper end.
   [[nodiscard]] Scalar most_from_state(std::size_t k, const Range& h) const {
-    if (view_.is_curved(k)) return infinity<Scalar>();
+    if (view_.is_curved(k)) return most_through(k, h);
     const State from = initial_state(k);
     const LawSide<Scalar> side = view_.side(k, true);
     if (view_.bend[k] == 0)
@@ -105,6 +105,28 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     }
     return h.least > 0 ? Scalar(Scalar(4) * (change + Scalar(kSlack)) / (view_.bends[k].least * h.least))
                        : infinity<Scalar>();
+  }
+  /// The same of any state there.
+  [[nodiscard]] Scalar most_through(std::size_t k, const Range& h) const {
+    const Scalar four(4), slack(kSlack), &least = std::min(view_.low[k], view_.high[k]);
+    const LawSide<Scalar> side = view_.side(k, true);
+    const Scalar d = std::max(Scalar(0), Scalar(from_peak(k, true, h.most, least) - slack)),
+                 slow = d > 0 ? Scalar(least * side.slope({d, side.reach() - d})) : Scalar(0);
+    const Scalar by_speed =
+        slow > 0 ? Scalar(four * (view_.x[k + 1] - view_.x[k]) / slow) : infinity<Scalar>();
+    return std::min(by_speed, most_to_peak(k, true, h));
+  }
+  /// Most time between the peak and any state of a side in cell k.
+  [[nodiscard]] Scalar most_to_peak(std::size_t k, bool is_up, const Range& h) const {
+    const Scalar& least_bend = view_.bends[k].least;
+    if (!(h.least > 0 && least_bend > 0)) return infinity<Scalar>();
+    const Scalar d = from_peak(k, is_up, h.least, std::max(view_.low[k], view_.high[k]));
+    return Scalar(4) * (d + Scalar(kSlack)) / (least_bend * h.least);
+  }
+  [[nodiscard]] bool may_turn_at_once(const Route& route, std::size_t k, const Range& h) const {
+    Times all = times(route, h);
+    if (is_finite(all.most)) all.most += most_to_peak(k, true, h) + most_to_peak(k, false, h);
+    return all.may_be(t_);
   }
   [[nodiscard]] bool may_turn(const Route& way, std::size_t, std::size_t j, const Range& h) const {
     return turn_times(way, j, h).may_be(t_);

@@ -320,7 +320,9 @@ struct SlopedView {
         return Scalar(-state_at(i, y).G * rate(i, y));
       };
       constexpr int kBits = 26;
-      crest.push_back(height(boost::math::tools::brent_find_minima(less, Scalar(0), Scalar(1), kBits).first));
+      const auto [part, least] = boost::math::tools::brent_find_minima(less, Scalar(0), Scalar(1), kBits);
+      const bool is_monotone = !(less(Scalar(0)) > least) || !(less(Scalar(1)) > least);
+      crest.push_back(is_monotone ? x[i] : height(part));
     }
   }
 

@@ -150,9 +150,17 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     times.most += most_from_state(k, h);
     return times.may_be(t_);
   }
+  [[nodiscard]] bool may_turn_at_once(const Route& route, std::size_t k, const Range& h) const {
+    auto times = route.stretches.times(h.least, h.most);
+    times.most += Stretches::most_in_turn(h.least, view_.low[k], view_.bends[k]);
+    return times.may_be(t_);
+  }
   /// Most time from a start in cell k to its upper end.
   [[nodiscard]] Scalar most_from_state(std::size_t k, const Range& h) const {
-    if (view_.is_curved(k)) return infinity<Scalar>();
+    if (view_.is_curved(k))
+      return Stretches::most_through(h.least, h.most, Scalar(view_.x[k + 1] - view_.x[k]),
+                                     std::min(view_.low[k], view_.high[k]),
+                                     std::max(view_.low[k], view_.high[k]), view_.bends[k]);
     if (view_.bend[k] == 0) return (view_.x[k + 1] - view_.x[k]) / (view_.low[k] * view_.q0[k]);
     return Stretches::most_from_state(h.least, h.most, view_.q0[k], view_.high[k], view_.bends[k]);
   }

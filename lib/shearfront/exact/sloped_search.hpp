@@ -341,10 +341,16 @@ class SlopedSearch : private Candidates {
   /// It turns in its own cell and leaves it at the bottom.
   void state_that_turns_at_once(Route& route, std::size_t k) {
     if (!view_.has_moving_state(k) || !(view_.bend[k] < 0)) return;
-    if (h_of_cell(k).most < view_.high[k]) return;
+    const Range h = h_of_cell(k);
+    if (h.most < view_.high[k]) return;
     if (view_.least_amount(k) + (view_.is_mirror ? Scalar(view_.x[k] - z_) : Scalar(0)) > limit()) return;
     const Scalar kept = route.least;
     route.least = std::min(route.least, view_.low[k]);
+    if (!this->may_turn_at_once(route, k,
+                                {std::max(h.least, view_.high[k]), std::min(h.most, route.least)})) {
+      route.least = kept;
+      return;
+    }
     if (view_.is_curved(k))
       this->search_curved(route, k, false, view_.high[k], z_, true, k);
     else

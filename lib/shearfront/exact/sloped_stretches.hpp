@@ -104,7 +104,7 @@ class SlopedStretches {
     add_first(n, h0, h1, all);
     const Scalar four(4);
     all.least += four * std::max(Scalar(0), Scalar(q(h1, begin) - kRoot)) / (bends.most * h1);
-    all.most += h0 > 0 ? Scalar(four * (q(h0, begin) + kRoot) / (bends.least * h0)) : infinity<Scalar>();
+    all.most += most_in_turn(h0, begin, bends);
     return all;
   }
   /// Most time that a state of |2 p0 - 1| = q0 needs to the end of its cell, where the rate is `exit`.
@@ -113,6 +113,19 @@ class SlopedStretches {
     const auto size = [](const Scalar& x) { return x < 0 ? Scalar(-x) : x; };
     const Scalar change = std::max(size(Scalar(q(h0, exit) - q0)), size(Scalar(q(h1, exit) - q0))) + kRoot;
     return h0 > 0 ? Scalar(Scalar(2) * change / (bends.least * h0)) : infinity<Scalar>();
+  }
+
+  /// The same of any state in a cell of this width between the rates `least` and `most`, h from h0 to h1.
+  [[nodiscard]] static Scalar most_through(const Scalar& h0, const Scalar& h1, const Scalar& width,
+                                           const Scalar& least, const Scalar& most, const Bends& bends) {
+    const Scalar slow = least * std::max(Scalar(0), Scalar(q(h1, least) - kRoot));
+    const Scalar by_speed = slow > 0 ? Scalar(width / slow) : infinity<Scalar>();
+    return std::min(by_speed, most_in_turn(h0, most, bends) / Scalar(2));
+  }
+  /// Most time from the rate `entry` to a turn in this piece and back.
+  [[nodiscard]] static Scalar most_in_turn(const Scalar& h0, const Scalar& entry, const Bends& bends) {
+    return h0 > 0 && bends.least > 0 ? Scalar(Scalar(4) * (q(h0, entry) + kRoot) / (bends.least * h0))
+                                     : infinity<Scalar>();
   }
 
  private:
