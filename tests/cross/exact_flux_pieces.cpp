@@ -225,7 +225,10 @@ TEST_P(FluxPieceShapes, HaveTheDerivativesOfTheirDifferences) {
                ", t = " + std::to_string(t);
       };
       const double dM = (M[1] - M[0]) / (2 * kStep), dphi = (phi[1] - phi[0]) / (2 * kStep);
-      // One-sided where two sides of a throat are equal.
+      // One-sided where the capacities of both sides of the place of rest are equal: there M has a kink.
+      if (const double M_here = exact.M(z, t);
+          std::abs((M[1] - M_here) - (M_here - M[0])) > 1e-3 * kStep * (1 + std::abs(dM)))
+        continue;
       EXPECT_NEAR(at.M[e], dM, 1e-6 * (1 + std::abs(dM))) << where();
       EXPECT_NEAR(at.phi[e], dphi, 1e-5 * (1 + std::abs(dphi))) << where();
       checked.count();

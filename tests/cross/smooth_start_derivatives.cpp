@@ -56,6 +56,20 @@ TEST(SmoothStartDerivatives, AreThoseOfDifferencesInSlopedPiecesOfAnyFlux) {
   EXPECT_GT(check.from_start, 100);
 }
 
+/// A state at the peak of a triangular flux leaves its layer when it likes, and with the capacity of the layer: phi beyond was taken
+/// for that of a state which moves with its start.
+TEST(SmoothStartDerivatives, AreThoseOfDifferencesWhereAStateLingersAtAKink) {
+  StartDifference<double> check{1e-6, 3e-6, 16};
+  SceneSpec<double> spec;
+  spec.fluxes = {Triangular<double>{0.25, 1}};
+  spec.shear_rate = Piecewise<double>{{0.55}, {1, 1.25}};
+  spec.initial_state = TableInitial<double>{{0, 0.2, 0.4, 1}, {0.8, 0.75, 0.125, 0.125}};
+  for (const double t : {0.15, 0.3, 0.45})
+    for (const double z : {0.58, 0.63, 0.71, 0.83, 0.93}) check.compare(Scene<double>(spec), z, t);
+  EXPECT_GT(check.compared, 80);
+  EXPECT_GT(check.from_start, 40);
+}
+
 /// Layers with other fluxes and solid fractions.
 TEST(SmoothStartDerivatives, AreThoseOfDifferencesInLayersOfAnyFlux) {
   StartDifference<double> check{1e-6, 3e-6, 16};

@@ -89,7 +89,7 @@ TEST(FvMarch, KeepsMassToTheBitAndPhiInItsRange) {
     const std::int64_t quanta = mass_in_quanta(march);
     EXPECT_NEAR(mass(scene, grid, march), scene.mass(), 1e-14);
     for (int i = 0; i < 40; ++i) {
-      march.step(options.cfl * march.largest_step());
+      march.step(std::min(options.cfl * march.largest_step(), 1.0));  // one cell has no largest step
       ASSERT_EQ(mass_in_quanta(march), quanta);
       ASSERT_NEAR(mass(scene, grid, march), scene.mass(), 1e-14);
       expect_in_range(march.shares());

@@ -41,7 +41,9 @@ inline Flux<double> random_flux(SceneMaker& make, FluxShape shape) {
 
 /// Up to four layers of a(z), one or two fluxes, c and T in up to three layers each; states in their ranges.
 inline SceneSpec<double> random_flux_scene(SceneMaker& make, FluxShape shape) {
-  SceneSpec<double> spec = make.data(make.integer(1, 4), make.order(), 5);
+  const auto order = make.order();  // one draw after the other: the same scenes with every compiler
+  const int n_layers = make.integer(1, 4);
+  SceneSpec<double> spec = make.data(n_layers, order, 5);
   spec.fluxes = {random_flux(make, shape)};
   if (make.integer(0, 1) == 1) {
     spec.flux_breaks = make.heights(1, 0, 1);

@@ -142,13 +142,15 @@ template <Real Scalar, class Law>
   }
   if (path.kind == PathKind::constant) {
     const std::size_t c = cells.layer[path.source];
+    // Between the two speeds of a kinked peak a state may be as slow as it likes.
+    const Scalar tie = Scalar(64) * unit_roundoff<Scalar>();
+    const bool is_still = cells.is_curved(path.source) && law.steepness(c, up, Scalar(0)) > 0 &&
+                          !(Scalar(4) * path.H < law.rate[c] * (Scalar(1) - tie));
     if (c == end) {  // one layer; H is that of the state also where the path stands still, at the peak
       out.pieces[c - lowest].M = path.H * law.inverse_rate[c] * t;
       out.phi_state = Scalar(1);
       if (!cells.is_curved(path.source)) return out;
-      // Between the two speeds of a kinked peak it stays at the peak.
-      const Scalar tie = Scalar(64) * unit_roundoff<Scalar>();
-      if (law.steepness(c, up, Scalar(0)) > 0 && !(Scalar(4) * path.H < law.rate[c] * (Scalar(1) - tie))) {
+      if (is_still) {  // at the peak
         out.phi_state = Scalar(0);
         return out;
       }
@@ -163,6 +165,10 @@ template <Real Scalar, class Law>
       return out;
     }
     legs.add(path.foot, z);
+    if (is_still) {
+      legs.add_rest(c, t);
+      return out;
+    }
     const Scalar by_H = legs.p_H(end, up), over = law.excess(c, cells.state(path.source, path.foot), up);
     const Scalar H_state = law.rate[c] * law.steepness(c, up, over);
     // From a smooth start dH = dH at y + A (T_H dH + dT - dt), A = -u0' H_state^2.
