@@ -37,8 +37,8 @@ class Parameter:
     start, estimate : float
     std_error : float or None
     ci95, profile95, bootstrap95 : pair of float or None
-        95 % intervals: from the curvature, by profile likelihood (on request, and beside a parameter at a bound), by
-        bootstrap. An end that the data do not give is NaN.
+        95 % intervals: from the curvature, by profile likelihood (on request, beside a parameter at a bound, and with exact
+        derivatives where ``ci95`` is doubtful), by bootstrap. An end that the data do not give is NaN.
     at_bound : bool
     held_by_shape : bool
         Whether the shape asked for binds it to its neighbours.

@@ -185,8 +185,9 @@ Outcome run(const fit::FitSpec& spec, const VectorXd& truth) {
     if (p.profile95)
       outcome.profile_covered[i] = !(p.profile95->low > truth[i]) && !(p.profile95->high < truth[i]) ? 1 : 0;
     if (p.check) outcome.doubtful[i] = p.check->is_doubtful() ? 1 : 0;
-    // What is printed: beside a bound the profile interval.
-    const auto& printed = p.ci95 ? p.ci95 : p.profile95;
+    // What is to be believed of what is printed: beside a bound, and where the plain one is not good enough, the profile interval.
+    const bool is_profile = p.profile95 && (!spec.uncertainty.profile || !p.ci95);
+    const auto& printed = is_profile ? p.profile95 : p.ci95;
     if (printed) outcome.covered[i] = !(printed->low > truth[i]) && !(printed->high < truth[i]) ? 1 : 0;
     if (p.std_error) outcome.stated[i] = *p.std_error / p.estimate;
   }

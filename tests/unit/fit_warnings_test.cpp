@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "support/fit_scenes.hpp"
 
@@ -91,15 +92,26 @@ TEST(FitWarnings, AnIntervalThatIsNotToBeTrusted) {
   // Sums over z: the profile interval of the lower rate ends 1.54 times as far above it, in the logarithm.
   FitSpec spec = layers(small_above_large({0.29}, {3.15, 0.5}), {0.5, 1, 2, 3}, 0.01);
   spec.misfit.quantity = "cumulative";
-  for (const bool has_profile : {false, true}) {
-    spec.uncertainty.profile = has_profile;
+  std::optional<Interval> profile;
+  for (const bool is_asked_for : {true, false}) {
+    spec.uncertainty.profile = is_asked_for;
     const Estimate e = fit(spec);
     expect_warning(e, "do not trust the 95 % interval of shear_rate.values[0], ");
-    expect_warning(e,
-                   std::string("the misfit is no parabola, its upper end should be farther off; ") +
-                       (has_profile ? "believe its profile interval" : "ask for uncertainty.profile = true"));
+    expect_warning(
+        e, "the misfit is no parabola, its upper end should be farther off; believe its profile interval");
     EXPECT_FALSE(e.parameters[1].check->is_doubtful());
+    // With derivatives it is there without being asked for, and the same.
+    ASSERT_TRUE(e.parameters[0].profile95);
+    EXPECT_EQ(e.parameters[1].profile95.has_value(), is_asked_for);
+    if (is_asked_for) profile = e.parameters[0].profile95;
+    EXPECT_EQ(e.parameters[0].profile95->low, profile->low);
+    EXPECT_EQ(e.parameters[0].profile95->high, profile->high);
+    EXPECT_GT(profile->high, 1.2 * e.parameters[0].ci95->high);
   }
+  spec.forward.method = Method::of<FrontTrackingSolver>({.resolution = 0.01});
+  const Estimate e = fit(spec);
+  expect_warning(e, "ask for uncertainty.profile = true");
+  EXPECT_FALSE(e.parameters[0].profile95);
 }
 
 TEST(FitWarnings, DataBeforeTheFirstWave) {

@@ -44,9 +44,10 @@ struct IntervalCheck {
 struct ParameterEstimate {
   std::string name;
   double start = 0, estimate = 0;
-  std::optional<double> std_error;      ///< from the Jacobian
-  std::optional<Interval> ci95;         ///< estimate -+ q std_error; for positive entries in the logarithm
-  std::optional<Interval> profile95;    ///< profile likelihood, on request and beside bounds; NaN: open end
+  std::optional<double> std_error;  ///< from the Jacobian
+  std::optional<Interval> ci95;     ///< estimate -+ q std_error; for positive entries in the logarithm
+  std::optional<Interval>
+      profile95;  ///< profile likelihood, on request, beside bounds and where `check` doubts; NaN: open end
   std::optional<Interval> bootstrap95;  ///< parametric bootstrap, on request
   std::optional<IntervalCheck> check;   ///< of ci95; empty where none was made
   bool at_bound = false;

@@ -66,10 +66,18 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
     estimate.warnings.insert(estimate.warnings.end(), texts.begin(), texts.end());
   };
   mind_bounds(spec, parameters, objective, progress, estimate);
-  if (spec.uncertainty.profile) {
-    const Profiles profiles = profile_intervals(spec, parameters, objective, estimate, progress);
+  // Those asked for, and of what the plain ones are not good enough for: by derivatives they are to be had in a few evaluations.
+  std::vector<bool> profiled(parameters.size(), spec.uncertainty.profile);
+  if (!spec.uncertainty.profile && objective.has_derivatives() && spec.unknown.shape == Shape::none)
+    for (std::size_t i = 0; i < profiled.size(); ++i) {
+      const ParameterEstimate& p = estimate.parameters[i];
+      const bool is_doubtful = p.check && p.check->is_doubtful();
+      profiled[i] = !p.profile95 && p.ci95 && (is_doubtful || is_barely_seen(parameters[i], p));
+    }
+  if (std::find(profiled.begin(), profiled.end(), true) != profiled.end()) {
+    const Profiles profiles = profile_intervals(spec, parameters, objective, estimate, profiled, progress);
     for (std::size_t i = 0; i < parameters.size(); ++i)
-      estimate.parameters[i].profile95 = profiles.intervals[i];
+      if (profiled[i]) estimate.parameters[i].profile95 = profiles.intervals[i];
     warn(profiles.warnings);
   }
   if (spec.uncertainty.bootstrap > 0) {

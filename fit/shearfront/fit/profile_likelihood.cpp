@@ -278,13 +278,13 @@ class Profiler {
                            coordinates_.at_bound(u_));
   }
 
-  Profiles operator()() {
+  Profiles of(const std::vector<bool>& wanted) {
     profiles_.intervals.resize(parameters_.size());
     if (!best_.is_valid)
       profiles_.warnings.emplace_back(
           "no profile intervals: the model has no solution at the estimate, or only just");
     for (Index j = 0; is_possible() && j < u_.size(); ++j)
-      if (!add(j, {true, true})) break;
+      if (wanted[static_cast<std::size_t>(j)] && !add(j, {true, true})) break;
     return finished();
   }
 
@@ -391,8 +391,9 @@ Profiles intervals_beside_bounds(const FitSpec& spec, const Parameters& paramete
 }
 
 Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters, const Objective& objective,
-                           const Estimate& estimate, const Progress& progress) {
-  return Profiler(spec, parameters, objective, estimate, progress)();
+                           const Estimate& estimate, const std::vector<bool>& wanted,
+                           const Progress& progress) {
+  return Profiler(spec, parameters, objective, estimate, progress).of(wanted);
 }
 
 }  // namespace shearfront::fit

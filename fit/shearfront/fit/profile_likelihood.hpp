@@ -10,14 +10,14 @@
 
 namespace shearfront::fit {
 
-/// 95 % intervals of all parameters, and what is to be said about them.
+/// 95 % intervals of parameters, and what is to be said about them.
 struct Profiles {
   /// An end that the data do not give is NaN; empty if neither end is known.
   std::vector<std::optional<Interval>> intervals;
   std::vector<std::string> warnings;
 };
 
-/// Profile-likelihood intervals: all values x of a coordinate for which
+/// Profile-likelihood intervals of the wanted parameters, empty for all others: all values x of a coordinate for which
 ///
 ///     2 (min over the others of F(u | u_j = x) - F(u_min)) <= c_j q,
 ///
@@ -38,7 +38,7 @@ struct Profiles {
 /// scaling: Chandler & Bate (2007).
 [[nodiscard]] Profiles profile_intervals(const FitSpec& spec, const Parameters& parameters,
                                          const Objective& objective, const Estimate& estimate,
-                                         const Progress& progress = {});
+                                         const std::vector<bool>& wanted, const Progress& progress = {});
 
 /// The intervals that a linear model cannot give because a parameter is at a bound, by profiles as above: those of parameters at
 /// a bound, open beyond it, and of all that move by more than kMostMoved of their standard errors while one at a bound

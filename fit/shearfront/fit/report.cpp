@@ -249,4 +249,10 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   return estimate;
 }
 
+bool is_barely_seen(const Parameter& parameter, const ParameterEstimate& estimate) {
+  constexpr double kHugeError = 0.5;
+  return parameter.entry.range == Range::positive && estimate.std_error &&
+         *estimate.std_error > kHugeError * estimate.estimate;
+}
+
 }  // namespace shearfront::fit

@@ -32,4 +32,7 @@ struct Minimum {
 /// trusted; residuals with structure or far larger than their sigma; too few data.
 [[nodiscard]] std::vector<std::string> warnings(const Minimum& minimum, const Estimate& estimate);
 
+/// Whether the standard error of a positive number is more than half of its estimate: a 95 % interval by a factor of e or more.
+[[nodiscard]] bool is_barely_seen(const Parameter& parameter, const ParameterEstimate& estimate);
+
 }  // namespace shearfront::fit

@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 /// A reduced chi^2 is worth a warning when chance hardly explains it and the noise is off by > 12 %.
 constexpr double kChance = 1e-3;
 constexpr double kLargeChi2 = 1.25;
-constexpr double kHugeError = 0.5;
 
 std::string short_text(double x) { return number_text(x, 3); }
 
@@ -181,6 +180,11 @@ class Writer {
                     short_text(low), short_text(high)));
     return true;
   }
+  /// Of what is doubtful or barely seen.
+  [[nodiscard]] bool has_profile() const {
+    return spec_.unknown.shape == Shape::none &&
+           (spec_.uncertainty.profile || minimum_.objective.has_derivatives());
+  }
   [[nodiscard]] bool is_relative(Index i) const {
     return parameters_[static_cast<std::size_t>(i)].entry.range == Range::positive;
   }
@@ -234,12 +238,12 @@ class Writer {
   void huge_errors() {
     for (Index i = 0; i < values_.size(); ++i) {
       const ParameterEstimate& p = of(i);
-      if (!is_relative(i) || !p.std_error || !(*p.std_error > kHugeError * p.estimate)) continue;
-      texts_.push_back(
-          fmt::format("{} is barely seen by these data: its standard error {} is {} % of the "
-                      "estimate {}",
-                      p.name, short_text(*p.std_error),
-                      number_text(std::round(100 * *p.std_error / p.estimate)), short_text(p.estimate)));
+      if (!is_barely_seen(parameters_[static_cast<std::size_t>(i)], p)) continue;
+      texts_.push_back(fmt::format(
+          "{} is barely seen by these data: its standard error {} is {} % of the "
+          "estimate {}{}",
+          p.name, short_text(*p.std_error), number_text(std::round(100 * *p.std_error / p.estimate)),
+          short_text(p.estimate), has_profile() ? "; believe its profile interval" : ""));
     }
   }
 
@@ -263,7 +267,7 @@ class Writer {
           "do not trust the 95 % interval of {}, {} to {}: {}{}; {}", p.name, short_text(p.ci95->low),
           short_text(p.ci95->high),
           is_off(p.check->low) || is_off(p.check->high) ? "the misfit is no parabola, " : "", listed(faults),
-          spec_.uncertainty.profile ? "believe its profile interval" : "ask for uncertainty.profile = true"));
+          has_profile() ? "believe its profile interval" : "ask for uncertainty.profile = true"));
     }
   }
 
