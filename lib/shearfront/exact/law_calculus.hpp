@@ -153,9 +153,8 @@ class LawCalculus {
   }
   [[nodiscard]] Scalar rho(const LawSide<Scalar>& side, std::size_t k, const Scalar& d, const Scalar& r1,
                            const LawState<Scalar>& s1, const Scalar& r2, const LawState<Scalar>& s2) const {
-    const auto [change, is_large] = LawSide<Scalar>::change(s1, s2);
     const Scalar rise = rise_of(pieces_.form[k], pieces_.bend[k], r1, d);
-    return is_large && rise != 0 ? Scalar(-change / rise) : Scalar(h_ / r1 / r2 / side.chord(s1, s2));
+    return LawRun<Scalar>::steepness(side, rise, r1, s1, r2, s2, h_).rho;
   }
 
   void times(std::size_t k, bool is_up, const Scalar& d, const Scalar& r1, const LawState<Scalar>& s1,

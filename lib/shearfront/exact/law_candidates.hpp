@@ -51,12 +51,13 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     for (const bool is_up : {true, false}) {
       if (s.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
       const LawSide<Scalar> side = view_.side(s.cell, is_up);
-      const auto slope = [&](const Scalar& at_h, const Scalar& r) {
-        const Scalar d = from_peak(s.cell, is_up, at_h, r);
+      const auto slope = [&](const Scalar& at_h, const Scalar& r, const Scalar& farther) {
+        const Scalar d =
+            std::clamp(Scalar(from_peak(s.cell, is_up, at_h, r) + farther), Scalar(0), side.reach());
         return side.slope({d, side.reach() - d});
       };
-      Scalar lower = four * s.flat / (most * slope(h.least, most));
-      const Scalar slow = least * slope(h.most, least);
+      Scalar lower = four * s.flat / (most * slope(h.least, most, slack));
+      const Scalar slow = least * slope(h.most, least, Scalar(-slack));
       Scalar upper = slow > 0 ? Scalar(four * s.flat / slow) : infinity<Scalar>();
       if (most - least > slack * most) {
         const auto change = [&](const Scalar& at_h) {

@@ -208,9 +208,7 @@ struct LawRun {
       return;
     }
     const Scalar rise = rise_of(form, bend, r1, d);
-    const auto [change, is_large] = LawSide<Scalar>::change(s1, s2);
-    const Scalar rho =
-        is_large && rise != 0 ? Scalar(-change / rise) : Scalar(h / r1 / r2 / side.chord(s1, s2));
+    const auto [rho, is_by_ends] = steepness(side, rise, r1, s1, r2, s2, h);
     if (!is_finite(rho)) {
       T = infinity<Scalar>();
       return;
@@ -218,7 +216,7 @@ struct LawRun {
     const Scalar &m1 = s1.from_pure, &m2 = s2.from_pure;
     if (form == RateForm::linear) {
       T = Scalar(4) * d * rho * side.mean_inverse(m1, m2);
-      if (is_large)
+      if (is_by_ends)
         X = d * ((r1 * m1 - r2 * m2) / rise);  // the same, and small terms only where the ends are far apart
       else
         X = d * h * rho * side.mean_bow_over_height(m1, m2);
@@ -227,6 +225,22 @@ struct LawRun {
       T = Scalar(4) * rho * way / h;
       X = rho * way * side.mean_bow(m1, m2);
     }
+  }
+
+  /// rho of a run in which r gains `rise`. Next to the peak states are known by what r differs from h, and that to rounding: where r
+  /// hardly changes their difference is none of its.
+  struct Steepness {
+    Scalar rho;
+    bool is_by_ends;  ///< they differ by more than rounding
+  };
+  [[nodiscard]] static Steepness steepness(const LawSide<Scalar>& side, const Scalar& rise, const Scalar& r1,
+                                           const LawState<Scalar>& s1, const Scalar& r2,
+                                           const LawState<Scalar>& s2, const Scalar& h) {
+    static const Scalar kResolved(std::ldexp(1.0, 6 - std::numeric_limits<Scalar>::digits / 2));
+    const auto [change, is_large] = LawSide<Scalar>::change(s1, s2);
+    const Scalar least = kResolved * r1;
+    if (is_large && (rise > least || -rise > least)) return {-change / rise, true};
+    return {h / r1 / r2 / side.chord(s1, s2), false};
   }
 
   /// int dz / r.

@@ -56,17 +56,19 @@ std::vector<Scalar> finer_cuts(const CanonicalForm<Scalar>& form) {
   return cuts;
 }
 
-/// Where a smooth start rises through the peak of a flux with a kink in a flat piece: a fan of speeds leaves there.
+/// Where a smooth start rises through the peak of a flux with a kink: in a flat piece a fan of speeds leaves there.
 template <Real Scalar>
-std::vector<Scalar> still_heights(const Cells<Scalar>& cells, const SlopedPieces<Scalar>& pieces,
-                                  const PieceFluxes<Scalar>& fluxes) {
+std::vector<Scalar> still_heights(const Cells<Scalar>& cells, const PieceFluxes<Scalar>& fluxes) {
   std::vector<Scalar> heights;
   for (std::size_t i = 0; i < cells.n_cells(); ++i) {
     const std::size_t k = cells.layer[i];
     const Scalar& peak = fluxes.flux(k).peak();
-    if (pieces.bend[k] == 0 && fluxes.flux(k).has_kink() && cells.phi[i] < peak && cells.phi_high[i] > peak)
-      heights.push_back(cells.height_of_state(i, peak));
+    if (!fluxes.flux(k).has_kink() || !(cells.phi[i] < cells.phi_high[i])) continue;
+    if (cells.phi[i] < peak && cells.phi_high[i] > peak) heights.push_back(cells.height_of_state(i, peak));
+    if (cells.phi[i] == peak) heights.push_back(cells.x[i]);
+    if (cells.phi_high[i] == peak) heights.push_back(cells.x[i + 1]);
   }
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   return heights;
 }
 
@@ -74,16 +76,15 @@ template <Real Scalar>
 Cells<Scalar> constant_cells(const CanonicalForm<Scalar>& form) {
   return {form.initial_breaks(), form.initial_values(), form.boundaries()};
 }
-/// In parts; `fluxes`: null for parabolas.
+/// In parts; `fluxes`, null for parabolas, get to know the heights that stand still.
 template <Real Scalar>
-Cells<Scalar> smooth_cells(const CanonicalForm<Scalar>& form, const SlopedPieces<Scalar>& pieces,
-                           const PieceFluxes<Scalar>* fluxes) {
+Cells<Scalar> smooth_cells(const CanonicalForm<Scalar>& form, PieceFluxes<Scalar>* fluxes) {
   std::vector<Scalar> cuts = finer_cuts(form);
   Cells<Scalar> cells(form.start(), cuts, form.boundaries());
   if (!fluxes) return cells;
-  const std::vector<Scalar> still = still_heights(cells, pieces, *fluxes);
-  if (still.empty()) return cells;
-  const auto middle = cuts.insert(cuts.end(), still.begin(), still.end());
+  fluxes->still = still_heights(cells, *fluxes);
+  if (fluxes->still.empty()) return cells;
+  const auto middle = cuts.insert(cuts.end(), fluxes->still.begin(), fluxes->still.end());
   std::inplace_merge(cuts.begin(), middle, cuts.end());
   return {form.start(), cuts, form.boundaries()};
 }
@@ -105,11 +106,10 @@ std::shared_ptr<const Medium<Scalar>> medium_of_pieces(const CanonicalForm<Scala
     return std::make_shared<const ScaledMedium<Scalar>>(std::move(root), unit);
   }
   SlopedPieces<Scalar> pieces(form.boundaries(), std::move(low), std::move(high), form.rate_forms());
-  const auto fluxes =
-      form.is_parabolic() ? nullptr : std::make_shared<const PieceFluxes<Scalar>>(fluxes_of(form));
-  auto medium = std::make_unique<const SlopedMedium<Scalar>>(
-      pieces, form.start() ? smooth_cells(form, pieces, fluxes.get()) : constant_cells(form), form.mass(),
-      fluxes);
+  const auto fluxes = form.is_parabolic() ? nullptr : std::make_shared<PieceFluxes<Scalar>>(fluxes_of(form));
+  Cells<Scalar> cells = form.start() ? smooth_cells(form, fluxes.get()) : constant_cells(form);
+  auto medium =
+      std::make_unique<const SlopedMedium<Scalar>>(std::move(pieces), std::move(cells), form.mass(), fluxes);
   if (unit == Scalar(1)) return medium;
   return std::make_shared<const ScaledMedium<Scalar>>(std::move(medium), unit);
 }

@@ -59,6 +59,7 @@ template <Real Scalar>
 struct PieceFluxes {
   std::vector<InverseFlux<Scalar>> fluxes;
   std::vector<std::size_t> of_piece;
+  std::vector<Scalar> still;  ///< where a smooth start rises through the peak of a flux with a kink
 
   [[nodiscard]] const InverseFlux<Scalar>& flux(std::size_t piece) const { return fluxes[of_piece[piece]]; }
   [[nodiscard]] LawSide<Scalar> side(std::size_t piece, bool is_up) const { return {flux(piece), is_up}; }
@@ -326,11 +327,11 @@ struct SlopedView {
     }
   }
 
-  /// In a flat piece a state at the peak of a flux with a kink moves at any speed between those of both sides.
+  /// A state at the peak of a flux with a kink moves at any speed between those of both sides, for as long as the rate beside it is the
+  /// same.
   [[nodiscard]] bool is_still(std::size_t node) const {
-    if (!shape || !fluxes || (bend[node - 1] != 0 && bend[node] != 0)) return false;
-    const Scalar slack = Scalar(1) / Scalar(1 << 20), off = p[node] - peak(node);
-    return fluxes->flux(piece[node]).has_kink() && off <= slack && -off <= slack;
+    return fluxes && std::binary_search(fluxes->still.begin(), fluxes->still.end(),
+                                        is_mirror ? Scalar(-x[node]) : x[node]);
   }
 
   /// Moving the start must not pay: state below <= p on its lower side, p on its upper side <= state above; upwards p >=

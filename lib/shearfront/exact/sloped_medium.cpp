@@ -52,8 +52,30 @@ Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, cons
   SlopedSearch<Scalar, SlopedCandidates<Scalar>>(down_, place.turned_over(up_), t, upper, moving_only, best)
       .run();
   throats_.search(up_, place, t, upper, best);
+  rest(place, t, best);
   settle(place, t, best);
   return best;
+}
+
+/// To rest at z costs its capacity, and is what there is where a path starts within rounding of z: from a jump or a state at the peak
+/// between flat pieces, or next to pieces so thin or so flat that a start beside z is none. It counts where none has been found that costs
+/// less.
+template <Real Scalar>
+void SlopedMedium<Scalar>::rest(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const {
+  const std::size_t node = place.above;
+  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (this->top() - this->bottom());
+  Path<Scalar> still;
+  still.r_reference = std::min(place.rate_below, place.rate_above);
+  still.H = still.r_reference / Scalar(4);
+  still.value = up_.amount(node, place.z) + still.H * t;
+  if (best.kind != PathKind::none && !(best.value > still.value + tie)) return;
+  const bool is_jump = place.below != node && up_.p_high[node - 1] != up_.p[node];
+  still.kind = is_jump ? PathKind::fan : PathKind::constant;
+  still.upward = true;
+  still.source = node;
+  still.foot = place.z;
+  still.x = Scalar(0);
+  best = still;
 }
 
 template <Real Scalar>
@@ -70,8 +92,9 @@ void SlopedMedium<Scalar>::settle(const SlopedPlace<Scalar>& place, const Scalar
   const Scalar less = std::min(Scalar(0.5), Scalar(Scalar(2) * best.H / r / (Scalar(1) + q)));
   best.p = best.upward ? Scalar(Scalar(1) - less) : less;
   // A state that has not left its cell knows p itself: after no time it is what it was, to the bit.
-  const bool is_inside =
-      best.kind == PathKind::constant && best.source == above && (!best.turned || best.interface == above);
+  const bool is_inside = best.kind == PathKind::constant && best.source == above &&
+                         (!best.turned || best.interface == above) &&
+                         !(best.x == 0 && best.foot == place.z);  // at rest
   if (is_inside && up_.is_curved(above)) {
     const auto state = up_.state_at(above, best.foot);
     best.p = arc_from_state(up_.form[above], up_.bend[above], t, state.p, state.missing, r).p;
@@ -181,20 +204,7 @@ Path<Scalar> SlopedMedium<Scalar>::search_for_law(const SlopedPlace<Scalar>& pla
     still.x = Scalar(0);
     if (still.better_than(best)) best = still;
   }
-  // So does one that a fan has at its own place between flat pieces: no more than the capacity comes through there.
-  const std::size_t node = place.above;
-  if (place.below != node && up_.bend[node] == 0 && up_.bend[node - 1] == 0 && !up_.is_jump(node)) {
-    Path<Scalar> still;
-    still.H = up_.low[node] / Scalar(4);
-    still.value = up_.M[node] + still.H * t;
-    still.kind = PathKind::fan;
-    still.upward = true;
-    still.source = node;
-    still.foot = z;
-    still.r_reference = up_.low[node];
-    still.x = Scalar(0);
-    if (still.better_than(best)) best = still;
-  }
+  rest(place, t, best);
   if (best.kind == PathKind::none) return best;
   // The momentum next to z on its upper side.
   const std::size_t piece = up_.piece[place.above];

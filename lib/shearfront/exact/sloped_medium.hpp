@@ -64,6 +64,8 @@ class SlopedMedium final : public Medium<Scalar> {
   using Medium<Scalar>::cells_;
   /// The momentum of a path at its end.
   void settle(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const;
+  /// The path that has been at z all the time, where no better one is known.
+  void rest(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const;
   /// The path to z between two paths of one family; kind none where it is not found at once.
   [[nodiscard]] Path<Scalar> path_between(const Path<Scalar>& low, const Path<Scalar>& high,
                                           const Scalar& part, const Scalar& z, const Scalar& t) const;

@@ -146,7 +146,10 @@ class SlopedSearch : private Candidates {
     sign_changes<Scalar>(gap, view_.x[k], view_.x[k + 1], [&](const Scalar& y) {
       const auto arc = arc_from(y);
       if (moving_only_ && (arc.p == 0 || arc.missing == 0)) return;
-      accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y), first, last);
+      // Of the start that leads to z to the last digit, which may lie between two doubles.
+      const Scalar beside = (z_ - arc.rise) - y;
+      accept(cell, arc, y, PathKind::constant, k, view_.amount(k, y) + view_.state_at(k, y).p * beside, first,
+             last);
     });
   }
   /// From the lower node of cell k.

@@ -54,7 +54,7 @@ class SlopedStarts {
 
   void offer(const Scalar& value, const Scalar& h, PathKind kind, bool rises, bool turned, std::size_t source,
              const Scalar& y, std::size_t turn, const Scalar& least, const Scalar& qm) {
-    if (!(value <= best_.value)) return;
+    if (!(value <= best_.value) || !is_finite(value)) return;  // not from a time that is none
     Path<Scalar> path;
     path.value = value;
     path.H = h / Scalar(4);

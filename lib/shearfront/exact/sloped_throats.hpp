@@ -168,20 +168,23 @@ class SlopedThroats {
       const Scalar G0 = view.is_curved(k) ? Scalar(0) : view.G0[k];
       const Scalar excess = is_new_piece(view, k, false, node) ? Scalar(view.high[k] - h) : way.excess;
       if (view.is_curved(k)) {
-        // The start whose state has the h of the throat.
-        Scalar lo = view.x[k], hi = view.x[k + 1];
+        // The starts whose state has the h of the throat, on both sides of where h is largest.
         const auto over = [&](const Scalar& y) { return view.state_at(k, y).q0; };
         const auto more = [&](const Scalar& y) -> std::optional<Scalar> {
           return Scalar(view.state_at(k, y).G * view.rate(k, y) - h);
         };
-        if (keep_where<Scalar>(over, lo, hi))
-          if (const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi)) {
-            const Scalar lack = view.state_at(k, *y).lack;
-            SlopedWay<Scalar> to = way;
-            to.add_run(view, k, true, Scalar(-view.bend[k]), Scalar(view.x[k + 1] - *y), view.high[k],
-                       Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y), lack, h);
-            add(*y, to, true);
-          }
+        const auto find = [&](Scalar lo, Scalar hi) {
+          if (!(lo < hi) || !keep_where<Scalar>(over, lo, hi)) return;
+          const std::optional<Scalar> y = sign_change<Scalar>(more, lo, hi);
+          if (!y) return;
+          SlopedWay<Scalar> to = way;
+          to.add_run(view, k, true, Scalar(-view.bend[k]), Scalar(view.x[k + 1] - *y), view.high[k],
+                     Scalar(std::max(Scalar(0), excess) / view.high[k]), view.rate(k, *y),
+                     view.state_at(k, *y).lack, h);
+          add(*y, to, true);
+        };
+        find(view.x[k], view.crest[k]);
+        find(view.crest[k], view.x[k + 1]);
       }
       if (view.q0[k] > 0 && G0 > 0 && view.bend[k] != 0) {
         // Its start, from the end where r is least.
