@@ -15,7 +15,7 @@ class Options(TypedDict, total=False):
 
     aim for the error that time steps make in phi; cells make another, > 0 and <= 1 (crank-nicolson)."""
     layers: int
-    """so many pieces for a smooth bed, and parts of a smooth start in it, instead of the tolerance, from 1 to 1000000 (exact)
+    """so many pieces for a smooth bed, or parts of a smooth start in one of pieces, instead of the tolerance, from 1 to 1000000 (exact)
 
     smooth shear rates: number of layers of the staircase, from 1 to 1000000 (front-tracking)."""
     resolution: float

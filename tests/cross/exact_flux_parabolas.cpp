@@ -119,7 +119,7 @@ TEST(ExactParabolas, EventsAreThoseOfTheQuadraticFlux) {
   EXPECT_DOUBLE_EQ(*image.interfaces[0].last, *plain.interfaces[0].last);
 }
 
-/// A linear solid fraction as many steps: the staircase the engine makes itself, and its estimate of the error.
+/// A linear solid fraction as many steps: the pieces the engine makes itself, and its estimate of the error.
 TEST(ExactParabolas, SmoothPackingConvergesWithTheLayers) {
   SceneSpec<double> spec;
   spec.fluxes = {Quadratic<double>{}};

@@ -26,14 +26,13 @@ struct ExactSolver {
                      {},
                      "1e-6"},
           self.tolerance);
-      visit(
-          OptionInfo{
-              "layers",
-              "so many pieces for a smooth bed, and parts of a smooth start in it, instead of the tolerance",
-              {1, 1e6},
-              {},
-              "as the tolerance asks"},
-          self.layers);
+      visit(OptionInfo{"layers",
+                       "so many pieces for a smooth bed, or parts of a smooth start in one of pieces, "
+                       "instead of the tolerance",
+                       {1, 1e6},
+                       {},
+                       "as the tolerance asks"},
+            self.layers);
     }
   };
 
