@@ -273,12 +273,18 @@ struct SlopedView {
   [[nodiscard]] Scalar h(std::size_t cell, const Scalar& r) const { return G0[cell] * r; }
 
   /// A path rests at a node at its capacity if leaving it to either side only gains capacity: at jumps next to whose
-  /// lower side the rate does not fall, at kinks with a minimum, at the ends of flat minima.
+  /// lower side the rate does not fall, at kinks with a minimum, at the ends of flat minima; and so it may where a piece is flat but for
+  /// rounding of the heights from which it would have to come instead.
   [[nodiscard]] bool is_throat(std::size_t node) const {
     const Scalar &below = high[node - 1], &above = low[node];
-    if (below < above) return !(bend[node - 1] > 0);
-    if (below > above) return !(bend[node] < 0);
-    return !(bend[node - 1] > 0) && !(bend[node] < 0) && (bend[node - 1] != 0 || bend[node] != 0);
+    const bool rises = bend[node - 1] > 0 && !is_nearly_flat(node - 1),
+               falls = bend[node] < 0 && !is_nearly_flat(node);
+    if (below < above) return !rises;
+    if (below > above) return !falls;
+    return !rises && !falls && (bend[node - 1] != 0 || bend[node] != 0) && piece[node - 1] != piece[node];
+  }
+  [[nodiscard]] bool is_nearly_flat(std::size_t cell) const {
+    return bends[cell].most * (x.back() - x.front()) < Scalar(0x1p-20);
   }
   [[nodiscard]] Scalar throat_h(std::size_t node) const { return std::min(high[node - 1], low[node]); }
 
@@ -327,6 +333,10 @@ struct SlopedView {
     }
   }
 
+  /// A part of a smooth start so narrow that its heights hardly tell its states apart: from its end a fan sets out as from a jump.
+  [[nodiscard]] bool is_thin(std::size_t cell) const {
+    return is_curved(cell) && x[cell + 1] - x[cell] < Scalar(0x1p-26) * (x.back() - x.front());
+  }
   /// A state at the peak of a flux with a kink moves at any speed between those of both sides, for as long as the rate beside it is the
   /// same.
   [[nodiscard]] bool is_still(std::size_t node) const {
@@ -339,10 +349,13 @@ struct SlopedView {
   [[nodiscard]] bool may_emit(std::size_t node) const {
     const Scalar slack = Scalar(1) / Scalar(1 << 20), one(1);
     const std::size_t b = node - 1, a = node;
-    if (!(p_high[b] < p[a]) && !is_jump(node)) return is_still(node);
+    const bool is_steep = is_thin(b) && p[b] < p_high[b];
+    if (!(p_high[b] < p[a]) && !is_jump(node) && !is_steep) return is_still(node);
     if (q0[a] < -slack) return false;
     const Scalar least = q0[a] > 0 ? h(a, low[a]) : low[a];
-    const Scalar most = std::min(low[a], is_curved(b) ? most_at_top(b) : q0[b] > 0 ? h(b, high[b]) : high[b]);
+    const Scalar most = std::min(low[a], is_curved(b) && !is_steep ? most_at_top(b)
+                                         : q0[b] > 0               ? h(b, high[b])
+                                                                   : high[b]);
     // Between pure states a fan is no more than the path of the state, which is no moving one.
     return most > 0 && least <= most * (one + slack);
   }
