@@ -269,10 +269,12 @@ void Derivatives<Scalar>::add_initial() {
 
 template <Real Scalar>
 void Derivatives<Scalar>::spread(const Chain& chain, std::size_t n, const Pair& by, At& out) const {
-  for (std::size_t i = chain.begin[n]; i < chain.begin[n + 1]; ++i) {
-    const Term& term = chain.terms[i];
-    out.M[term.entry] += by.M * term.factor;
-    out.phi[term.entry] += by.phi * term.factor;
+  if (by.M == 0 && by.phi == 0) return;
+  Scalar *M = out.M.data(), *phi = out.phi.data();
+  const Term *term = chain.terms.data() + chain.begin[n], *end = chain.terms.data() + chain.begin[n + 1];
+  for (; term != end; ++term) {
+    M[term->entry] += by.M * term->factor;
+    phi[term->entry] += by.phi * term->factor;
   }
 }
 

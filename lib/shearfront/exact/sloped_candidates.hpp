@@ -44,8 +44,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     add_route(view_, route, s);
     return s;
   }
-  /// Newton's step for a change of T: of w, dT/dw being more than the largest number where w is very small.
-  [[nodiscard]] static Scalar fan_step(const Sample& s, const Scalar& gap) { return gap / s.F() * s.v; }
+  /// dw/dT: dT/dw is more than the largest number where w is very small.
+  [[nodiscard]] static Scalar fan_slope(const Sample& s) { return s.v / s.F(); }
 
   void finish_fan(const Route& route, std::size_t node, const Scalar& base, const Sample& s,
                   const Scalar& step, bool turned, std::size_t turn) {
@@ -70,7 +70,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     zero.T = time;
     if (zero.T > late_) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
-    const auto step = [](const Sample& s, const Scalar& gap) { return fan_step(s, gap); };
+    const auto slope = [](const Sample& s) { return fan_slope(s); };
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, false, 0);
     };
@@ -79,7 +79,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
       zero = at(Scalar(0));
       return finish_fan(route, node, base, zero, Scalar(0), false, 0);
     }
-    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, 1, at, step, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, 1, at, slope, found)
         .solve(zero, top);
   }
 
@@ -91,11 +91,11 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Sample a = at(w_of(lo, route.least));
     if (bound(base, a) > limit()) return;
     const Sample b = at(w_of(hi, route.least));
-    const auto step = [](const Sample& s, const Scalar& gap) { return fan_step(s, gap); };
+    const auto slope = [](const Sample& s) { return fan_slope(s); };
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, true, j);
     };
-    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, -1, at, step, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, -1, at, slope, found)
         .run(a, b);
   }
   /// No path along the route with h above that of the sample costs less: H' t + int p dz at a smaller H'.
@@ -117,7 +117,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
       if (!(w > 0 && w < Scalar(1))) return false;
       const Sample s = fan_sample(route, w);
       if (!is_finite(s.T) || (turned ? !(s.F() < 0) : !(s.F() > 0))) return false;
-      const Scalar step = fan_step(s, Scalar(t_ - s.T));
+      const Scalar step = fan_slope(s) * (t_ - s.T);
       if (!(w + step >= least && w + step <= most)) return false;
       if ((step < 0 ? Scalar(-step) : step) > close * w) {
         w += step;
@@ -218,8 +218,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     if (range.is_empty) return;
     const std::size_t k = range.cell;
     const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
-    const auto step = [&](const Sample& s, const Scalar& gap) {
-      return Scalar(-gap / (s.F() * (slope_of_start(range, s) / s.rate)));
+    const auto slope = [&](const Sample& s) {
+      return Scalar(Scalar(-1) / (s.F() * (slope_of_start(range, s) / s.rate)));
     };
     const auto found = [&](const Sample& s, const Scalar& by) {
       const Start start = start_at(range, std::clamp(Scalar(s.v + by), Scalar(0), Scalar(1)));
@@ -230,7 +230,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
             sqrt(Scalar(range.qa2 + range.kappa * start.lost)));
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
-    SlopedRootSearch<Scalar, decltype(at), decltype(step), decltype(found)>(t_, sign, at, step, found)
+    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
         .run(a, b);
   }
 

@@ -52,11 +52,11 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] Scalar artanh_ratio(const Scalar& x2) {
   if constexpr (std::numeric_limits<Scalar>::digits == 53) {
-    // The first term left out is 2^-54 / 19.
-    double sum = 1.0 / 17;
-    for (const double c : {1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3, 1.0})
-      sum = sum * x2 + c;
-    return sum;
+    // The first term left out is 2^-54 / 19. By parts that do not wait for one another.
+    const double x4 = x2 * x2, x8 = x4 * x4;
+    const double low = (1.0 + x2 * kOneOver[1]) + x4 * (kOneOver[2] + x2 * kOneOver[3]),
+                 high = (kOneOver[4] + x2 * kOneOver[5]) + x4 * (kOneOver[6] + x2 * kOneOver[7]);
+    return low + x8 * (high + x8 * kOneOver[8]);
   } else {
     return Scalar(1) + x2 * artanh_series(x2);
   }
@@ -87,9 +87,17 @@ template <Real Scalar>
 struct RunEnds {
   RateForm form;
   Scalar d, r1, r2, inverse1, inverse2;
+  Scalar slowness;  ///< linear: 1 / slope; exponential: int dz / r
 
   RunEnds(RateForm of, const Scalar& length, const Scalar& from, const Scalar& to)
-      : form(of), d(length), r1(from), r2(to), inverse1(Scalar(1) / from), inverse2(Scalar(1) / to) {}
+      : form(of),
+        d(length),
+        r1(from),
+        r2(to),
+        inverse1(Scalar(1) / from),
+        inverse2(Scalar(1) / to),
+        slowness(of == RateForm::linear ? Scalar(length / (to - from))
+                                        : exponential_slowness(length, from, to)) {}
 };
 
 /// A run over d from the rate r1 (with q1) to r2 (with q2), in either direction.
@@ -104,7 +112,7 @@ struct Crossing {
   [[gnu::always_inline]] inline Crossing(const RunEnds<Scalar>& run, const Scalar& q1, const Scalar& q2,
                                          const Scalar& h) {
     using std::log;
-    const auto& [form, d, r1, r2, inverse1, inverse2] = run;
+    const auto& [form, d, r1, r2, inverse1, inverse2, slowness] = run;
     const Scalar one(1), two(2);
     const Scalar R1 = one + q1, R2 = one + q2, sum = q1 + q2, product = R1 * R2;
     if (!(sum > 0)) {
@@ -112,23 +120,27 @@ struct Crossing {
       return;
     }
     if (form == RateForm::exponential) {
-      exponential(d, r1, q1, r2, q2, h);
+      exponential(run, q1, q2, h);
       return;
     }
-    const Scalar w1 = r1 * R1 * R1, w2 = r2 * R2 * R2;
-    const Scalar slowness = two * product / (sum * (w1 + w2)), x = (r2 - r1) * slowness, x2 = x * x;
-    T = two * (d * slowness) *
-        (x2 < Scalar(1) / Scalar(64) ? artanh_ratio(x2) : Scalar(log(Scalar(w2 / w1)) / (two * x)));
+    const Scalar w1 = r1 * R1 * R1, w2 = r2 * R2 * R2, both = w1 + w2;
+    // b y = (w2 - w1) / both: where that is small, not by what cancels.
+    if (Scalar(8) * (w2 > w1 ? w2 - w1 : w1 - w2) < both) {
+      const Scalar part = two * product / (sum * both), x = (r2 - r1) * part;
+      T = two * (d * part) * artanh_ratio(Scalar(x * x));
+    } else {
+      T = slowness * log(Scalar(w2 / w1));
+    }
     X = h == 0 ? Scalar(0)
-               : d * (h * inverse1) * (h * inverse2) * (w1 + w2) /
+               : d * (h * inverse1) * (h * inverse2) * both /
                      (Scalar(4) * product * product * (r1 * q1 + r2 * q2));
   }
 
  private:
-  void exponential(const Scalar& d, const Scalar& r1, const Scalar& q1, const Scalar& r2, const Scalar& q2,
-                   const Scalar& h) {
+  void exponential(const RunEnds<Scalar>& run, const Scalar& q1, const Scalar& q2, const Scalar& h) {
+    const auto& [form, d, r1, r2, inverse1, inverse2, slowness] = run;
     const Scalar one(1), two(2), R1 = one + q1, R2 = one + q2, both = R1 + R2;
-    T = two * exponential_slowness(d, r1, r2) / (q1 + q2);
+    T = two * slowness / (q1 + q2);
     X = Scalar(0);
     if (h == 0) return;
     const Scalar change = h * ((r2 - r1) / r1 / r2) / (q1 + q2), w = change / both, w2 = w * w;

@@ -21,7 +21,7 @@ template <Real Scalar, class Calculus>
 class SlopedGradient {
  public:
   SlopedGradient(const Calculus& calculus, const SlopedPieces<Scalar>& pieces, const Cells<Scalar>& cells,
-                 const Path<Scalar>& path, const Scalar& z, const Scalar& t)
+                 const Path<Scalar>& path, const Scalar& z, const Scalar& t, PathGradient<Scalar>& out)
       : calculus_(calculus),
         pieces_(pieces),
         cells_(cells),
@@ -29,34 +29,36 @@ class SlopedGradient {
         z_(z),
         t_(t),
         h_(Scalar(4) * path.H),
-        end_(pieces.piece_at(z)) {}
+        out_(out) {}
 
-  [[nodiscard]] PathGradient<Scalar> run() {
+  /// Into an `out` that is empty.
+  void run() {
     if (path_.kind == PathKind::bottom_wall || path_.kind == PathKind::top_wall ||
         path_.kind == PathKind::none)
-      return {};
+      return;
+    end_ = pieces_.piece_at(z_);
+    rate_at_end_ = at(end_, z_);
     is_set_up_ = path_.upward != path_.turned;
-    make_room();
     if (path_.kind == PathKind::waiting) {
-      waiting();
-      return std::move(out_);
+      make_room();
+      return waiting();
     }
     const bool is_state = path_.kind == PathKind::constant;
     start_ =
         is_state ? cells_.layer[path_.source] : cells_.layer[is_set_up_ ? path_.source : path_.source - 1];
+    const bool is_inside = start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_);
+    if (h_ == 0 && is_state && !(is_inside && kKnowsPieces && cells_.is_curved(path_.source))) return pure();
+    make_room();
     if constexpr (kKnowsPieces) {
-      if (start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_)) {
+      if (is_inside) {
         ArcGradient<Scalar>(pieces_, cells_, path_, end_, z_, t_, numbers_, out_).run();
-        numbers_.move_boundaries();
-        return std::move(out_);
+        return numbers_.move_boundaries();
       }
     }
     if (!is_state) out_.start = momentum(start_, path_.foot, is_set_up_);
-    if (h_ == 0 && is_state) return pure();
     if (path_.foot == z_ && !path_.turned && !(is_state && kKnowsPieces)) return at_its_place(is_state);
     passes();
     if (path_.x == 0 && !is_state && !path_.turned) return rest_on_the_way();
-    const bool is_inside = start_ == end_ && (!path_.turned || cells_.layer[path_.interface] == start_);
     if (is_state && is_inside && !cells_.is_curved(path_.source))
       phi_of_state_inside();
     else if (is_state)
@@ -64,7 +66,6 @@ class SlopedGradient {
     else
       phi_of_fan();
     numbers_.move_boundaries();
-    return std::move(out_);
   }
 
  private:
@@ -81,8 +82,8 @@ class SlopedGradient {
   }
 
   void make_room() {
-    std::size_t lowest = std::min(end_, pieces_.piece_at(path_.foot)),
-                highest = std::max(end_, pieces_.piece_at(path_.foot));
+    foot_ = pieces_.piece_at(path_.foot);
+    std::size_t lowest = std::min(end_, foot_), highest = std::max(end_, foot_);
     if (path_.turned || path_.kind == PathKind::waiting) {
       const std::size_t k = cells_.layer[path_.interface];
       lowest = std::min(lowest, k);
@@ -91,10 +92,13 @@ class SlopedGradient {
     numbers_.make_room(lowest, highest);
   }
 
+  [[nodiscard]] std::size_t piece_of(const Scalar& z) const {
+    return z == z_ ? end_ : z == path_.foot ? foot_ : pieces_.piece_at(z);
+  }
   /// The run from one height to another.
   void add_run(const Scalar& from, const Scalar& to) {
     const Scalar &lo = std::min(from, to), &hi = std::max(from, to);
-    for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
+    for (std::size_t k = piece_of(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
       const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
       if (!(b > a)) continue;
       const bool is_at_low = a == pieces_.boundaries[k], is_at_high = b == pieces_.boundaries[k + 1];
@@ -119,11 +123,11 @@ class SlopedGradient {
   /// Of the boundaries between two heights, `from` and `to` left out.
   void add_jumps(const Scalar& from, const Scalar& to) {
     const Scalar &lo = std::min(from, to), &hi = std::max(from, to);
-    for (std::size_t k = pieces_.piece_at(lo) + 1; k < pieces_.size() && pieces_.boundaries[k] < hi; ++k)
+    for (std::size_t k = piece_of(lo) + 1; k < pieces_.size() && pieces_.boundaries[k] < hi; ++k)
       if (pieces_.boundaries[k] > lo) add_jump(k, from < to);
   }
   void add_jump_at(const Scalar& z, bool is_up) {
-    const std::size_t k = pieces_.piece_at(z);
+    const std::size_t k = piece_of(z);
     if (k > 0 && pieces_.boundaries[k] == z) add_jump(k, is_up);
   }
 
@@ -164,10 +168,10 @@ class SlopedGradient {
 
   /// d phi = +-dq / 2 at z, from dh and the rate at z.
   [[nodiscard]] Scalar phi_by_h() const {
-    const Scalar by = calculus_.slowness(end_, at(end_, z_), path_.upward) / Scalar(-4);
+    const Scalar by = calculus_.slowness(end_, rate_at_end_, path_.upward) / Scalar(-4);
     return path_.upward ? by : Scalar(-by);
   }
-  [[nodiscard]] Scalar phi_by_rate() const { return -phi_by_h() * (h_ / at(end_, z_)); }
+  [[nodiscard]] Scalar phi_by_rate() const { return -phi_by_h() * (h_ / rate_at_end_); }
 
   void phi_of_fan() {
     const Scalar by_h = phi_by_h(), turn = -by_h / T_h_;  // dh = -dT / T_h
@@ -202,7 +206,7 @@ class SlopedGradient {
     numbers_.clear_phi();
     const Scalar &p0 = cells_.phi[path_.source], &bend = pieces_.bend[end_], one(1),
                  width = pieces_.width(end_);
-    const Scalar r = at(end_, z_), G = h_ / r, unit = t_ / Scalar(4);
+    const Scalar r = rate_at_end_, G = h_ / r, unit = t_ / Scalar(4);
     if (pieces_.form[end_] == RateForm::linear) {
       const Scalar G0 = calculus_.height(start_, p0);
       out_.phi_state = G0 > 0 ? Scalar(G / G0) : Scalar(r / at(end_, path_.foot));
@@ -224,7 +228,7 @@ class SlopedGradient {
 
   /// H is the least capacity on the way, where a path through a flux with a kink spends the time that is left: at an end of a
   /// piece, at its start, or at z.
-  PathGradient<Scalar> rest_on_the_way() {
+  void rest_on_the_way() {
     numbers_.clear_phi();
     numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
     const Scalar M = (t_ - time_) / Scalar(4), phi = phi_by_h(), &lowest = std::min(path_.foot, z_),
@@ -232,7 +236,7 @@ class SlopedGradient {
     const auto excess = [&](const Scalar& r) {
       return r < path_.r_reference ? Scalar(path_.r_reference - r) : Scalar(r - path_.r_reference);
     };
-    Scalar least = excess(at(end_, z_));
+    Scalar least = excess(rate_at_end_);
     std::size_t piece = end_;
     const Scalar* place = &z_;
     const auto take = [&](std::size_t k, const Scalar& z, const Scalar& r) {
@@ -259,27 +263,24 @@ class SlopedGradient {
       out_.start.missing += M * slope;
       out_.phi_start = phi * slope;
     }
-    return std::move(out_);
   }
 
   /// H = 0: phi stays 0 or 1, and M does not change with the bed.
-  PathGradient<Scalar> pure() {
+  void pure() {
     // H = r(y) g is conserved.
-    out_.phi_state = at(start_, path_.foot) / at(end_, z_) * calculus_.pure_ratio(start_, end_, path_.upward);
-    return std::move(out_);
+    out_.phi_state = at(start_, path_.foot) / rate_at_end_ * calculus_.pure_ratio(start_, end_, path_.upward);
   }
 
   /// A jump or a state at the peak in a flat piece, seen from its place: the path rests there.
-  PathGradient<Scalar> at_its_place(bool is_state) {
-    numbers_.add_at(end_, z_, is_state ? Scalar(path_.H * t_ / at(end_, z_)) : Scalar(t_ / Scalar(4)),
+  void at_its_place(bool is_state) {
+    numbers_.add_at(end_, z_, is_state ? Scalar(path_.H * t_ / rate_at_end_) : Scalar(t_ / Scalar(4)),
                     Scalar(0));
     if (is_state && start_ == end_)
       phi_of_state_inside();
     else if (is_state)
       out_.phi_state = Scalar(1);
     else
-      out_.phi_start = calculus_.at_source(end_) / (at(end_, z_) * t_);
-    return std::move(out_);
+      out_.phi_start = calculus_.at_source(end_) / (rate_at_end_ * t_);
   }
 
   void waiting() {
@@ -291,7 +292,7 @@ class SlopedGradient {
     add_run(z_w, z_);
     add_jumps(z_w, z_);
     numbers_.clear_phi();
-    const bool is_still = calculus_.is_at_peak(end_, at(end_, z_), path_.upward);  // at the place of rest
+    const bool is_still = calculus_.is_at_peak(end_, rate_at_end_, path_.upward);  // at the place of rest
     if (!is_still) numbers_.add_at(end_, z_, Scalar(0), phi_by_rate());
     numbers_.move_boundaries();
     // What limits the throat; at rest it moves with the boundary.
@@ -321,10 +322,11 @@ class SlopedGradient {
   const Cells<Scalar>& cells_;
   const Path<Scalar>& path_;
   Scalar z_, t_, h_;
-  std::size_t end_, start_ = 0;
+  Scalar rate_at_end_{0};
+  std::size_t end_ = 0, foot_ = 0, start_ = 0;  ///< pieces of z, of the height of the start, of its source
   bool is_set_up_ = true;
   Scalar T_h_{0}, time_{0};
-  PathGradient<Scalar> out_;
+  PathGradient<Scalar>& out_;
   PieceNumbers<Scalar> numbers_{pieces_, out_};
 };
 

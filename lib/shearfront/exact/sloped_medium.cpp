@@ -393,12 +393,13 @@ std::optional<Scalar> SlopedMedium<Scalar>::first_wave(std::size_t i) const {
 template <Real Scalar>
 PathGradient<Scalar> SlopedMedium<Scalar>::gradient(const Path<Scalar>& path, const Scalar& z,
                                                     const Scalar& t) const {
-  if (fluxes_) {
-    const LawCalculus<Scalar> calculus(*fluxes_, pieces_, path);
-    return SlopedGradient<Scalar, LawCalculus<Scalar>>(calculus, pieces_, cells_, path, z, t).run();
-  }
-  const ParabolaCalculus<Scalar> calculus(pieces_, path);
-  return SlopedGradient<Scalar, ParabolaCalculus<Scalar>>(calculus, pieces_, cells_, path, z, t).run();
+  PathGradient<Scalar> out;
+  const auto differentiate = [&]<class Calculus>(const Calculus& calculus) {
+    SlopedGradient<Scalar, Calculus>(calculus, pieces_, cells_, path, z, t, out).run();
+  };
+  fluxes_ ? differentiate(LawCalculus<Scalar>(*fluxes_, pieces_, path))
+          : differentiate(ParabolaCalculus<Scalar>(pieces_, path));
+  return out;
 }
 
 template class SlopedMedium<Instantiated>;

@@ -16,12 +16,13 @@ namespace shearfront::exact {
 /// rate `least` is the largest h that can pass; with m the node that has it, h = least (1 - q_m^2).
 template <Real Scalar>
 struct SlopedRoute {
-  /// Runs one after the other: over d to the end of a cell from where the rate is r1, and through whole cells beyond it.
+  /// Runs one after the other: `first`, which belongs to the view or to the search, to the end of a cell, and through whole cells
+  /// beyond it.
   struct Leg {
     Passes passes = Passes::both;
-    bool is_upwards = true;  ///< away from r1
+    bool is_upwards = true;
     std::size_t cell = 0, n_cells = 0;
-    Scalar d{0}, r1{0};
+    const RunEnds<Scalar>* first = nullptr;
   };
   Leg once, twice;
   SlopedStretches<Scalar> stretches;  ///< of the runs
@@ -33,39 +34,34 @@ struct SlopedRoute {
 
   explicit SlopedRoute(bool has_bounds) : stretches(has_bounds) {}
 
-  void add_bounds(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
-                  const Scalar& r2, Passes passes) {
+  void add_bounds(const SlopedView<Scalar>& view, std::size_t cell, const RunEnds<Scalar>& run,
+                  Passes passes) {
     if (stretches.is_off()) return;
     const bool is_same_flux = !view.fluxes || stretches.all().empty() ||
                               view.fluxes->of_piece[view.piece[cell]] ==
                                   view.fluxes->of_piece[view.piece[stretches.all().back().cell]];
-    stretches.add(view.bends[cell], d, r1, r2, passes, cell, is_same_flux);
+    stretches.add(view.bends[cell], run.d, run.r1, run.r2, passes, cell, is_same_flux);
   }
   /// The next cell of what is passed once.
-  void add(const SlopedView<Scalar>& view, std::size_t cell, const Scalar& d, const Scalar& r1,
-           const Scalar& r2, Passes passes, bool is_upwards) {
-    least = std::min({least, r1, r2});
+  void add(const SlopedView<Scalar>& view, std::size_t cell, const RunEnds<Scalar>& run, Passes passes,
+           bool is_upwards) {
+    least = std::min({least, run.r1, run.r2});
     if (once.n_cells++ == 0) {
       once.passes = passes;
       once.is_upwards = is_upwards;
       once.cell = cell;
-      once.d = d;
-      once.r1 = r1;
+      once.first = &run;
     }
-    add_bounds(view, cell, d, r1, r2, passes);
+    add_bounds(view, cell, run, passes);
   }
   /// Calls visit(leg, cell, run, is_whole) for every run.
   template <class Visit>
   void for_each_run(const SlopedView<Scalar>& view, const Visit& visit) const {
     for (const Leg* leg : {&once, &twice}) {
-      if (leg->n_cells == 0) continue;
-      if (leg->d > 0) {
-        const Scalar& end = leg->is_upwards ? view.high[leg->cell] : view.low[leg->cell];
-        visit(*leg, leg->cell, RunEnds<Scalar>(view.form[leg->cell], leg->d, leg->r1, end));
-      }
-      for (std::size_t n = 1; n < leg->n_cells; ++n) {
-        const std::size_t cell = leg->is_upwards ? leg->cell + n : leg->cell - n;
-        visit(*leg, cell, leg->is_upwards ? view.upwards[cell] : view.downwards[cell]);
+      const auto& runs = leg->is_upwards ? view.upwards : view.downwards;
+      for (std::size_t n = 0, cell = leg->cell; n < leg->n_cells; ++n, leg->is_upwards ? ++cell : --cell) {
+        const RunEnds<Scalar>& run = n == 0 ? *leg->first : runs[cell];
+        if (run.d > 0) visit(*leg, cell, run);
       }
     }
   }
@@ -118,13 +114,13 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
     s.T_rising += n * c.T;
     s.X += n * c.X;
     if (run.form == RateForm::linear) {
-      const Scalar by = n * run.d * (s.h * run.inverse1) * run.inverse2 / (q1 + q2);
+      const Scalar by = n * run.d * (s.h * run.inverse1) * run.inverse2, sum = q1 + q2;
       if (run.r1 == least)
-        s.rising += by / q2;
+        s.rising += by / (sum * q2);
       else if (run.r2 == least)
-        s.rising += by / q1;
+        s.rising += by / (sum * q1);
       else
-        s.steep += by / (q1 * q2);
+        s.steep += by / (sum * (q1 * q2));
     } else {
       // T = 2 sigma / (q1 + q2); with q_m at one end the product does not decrease either.
       const Scalar by = n * c.T / (Scalar(2) * (q1 + q2));
@@ -149,14 +145,14 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
 }
 
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
-/// sample next to the root and what is missing to it. `at` makes the sample of a v, `step` is Newton's step of v at a sample for a change of T.
+/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is dv/dT there.
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
 /// point before t, so the sign is known: + for straight fans, - for turned ones.
-template <Real Scalar, class At, class Step, class Found>
+template <Real Scalar, class At, class Slope, class Found>
 class SlopedRootSearch {
  public:
-  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Step& step, const Found& found)
-      : t_(t), sign_(sign), at_(at), step_(step), found_(found) {
+  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
+      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {
     tolerance_ = Scalar(256) * unit_roundoff<Scalar>() * t;
   }
 
@@ -191,27 +187,56 @@ class SlopedRootSearch {
       return;
     }
     Scalar lo = less.v, hi = more.v, lo_T = less.T, hi_T = more.T;
-    Scalar v = guess(lo, lo_T, hi, hi_T);
-    using std::sqrt;
-    const Scalar close = sqrt(unit_roundoff<Scalar>());
+    Place last, here{guess(lo, lo_T, hi, hi_T), Scalar(0), Scalar(0)};
     for (int n = 0; n < 400; ++n) {
-      const SlopedSample<Scalar> s = at_(v);
+      const SlopedSample<Scalar> s = at_(here.v);
       const Scalar gap = t_ - s.T;
-      (gap > 0 ? lo : hi) = v;
-      Scalar step = step_(s, gap);
+      (gap > 0 ? lo : hi) = here.v;
+      here.T = s.T;
+      here.slope = slope_(s);
+      Scalar step = here.slope * gap;
       // Newton on 1 / T where that is the straighter line: T has a pole next to a flat piece of rate h.
       if (gap < 0) step *= s.T / t_;
-      const Scalar size = step < 0 ? Scalar(-step) : step, scale = v < 0 ? Scalar(-v) : v;
-      if (size <= close * scale || size == 0) return found_(s, step);
-      Scalar next = v + step;
+      bool is_found = is_small(step, here.v);
+      if (!is_found && n > 0) is_found = refine(last, here, step);
+      if (is_found) return found_(s, step);
+      Scalar next = here.v + step;
       const bool inside = next > std::min(lo, hi) && next < std::max(lo, hi);
       if (!inside) next = split(lo, hi);
-      if (next == v || !(next > std::min(lo, hi) && next < std::max(lo, hi))) return found_(s, Scalar(0));
-      v = next;
+      if (next == here.v || !(next > std::min(lo, hi) && next < std::max(lo, hi)))
+        return found_(s, Scalar(0));
+      last = here;
+      here.v = next;
     }
   }
 
  private:
+  struct Place {
+    Scalar v{0}, T{0}, slope{0};
+  };
+  static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
+  /// So small that its square is rounding.
+  [[nodiscard]] static bool is_small(const Scalar& step, const Scalar& v) {
+    using std::sqrt;
+    static const Scalar close = sqrt(unit_roundoff<Scalar>());
+    return size(step) <= close * size(v) || step == 0;
+  }
+  /// Newton's step from `here` by the cubic v(T) through this place and the last one, with their slopes: true if what it leaves is rounding.
+  /// Its error is (t - T)^2 (t - T_last)^2 / 24 times the fourth derivative. With the length of v over which the slope changes, known
+  /// from what the cubic corrects, that is correction^3 (way from the last place)^2 / step^4.
+  [[nodiscard]] bool refine(const Place& last, const Place& here, Scalar& step) const {
+    const Scalar gap = t_ - here.T, before = t_ - last.T, apart = last.T - here.T;
+    if (!(Scalar(4) * size(before) < t_) || apart == 0) return false;
+    const Scalar chord = (last.v - here.v) / apart, near = (chord - here.slope) / apart,
+                 far = (last.slope - chord) / apart;
+    const Scalar newton = here.slope * gap, correction = gap * gap * (near + before * ((far - near) / apart));
+    if (!is_finite(correction) || size(correction) > size(newton)) return false;
+    step = newton + correction;
+    const Scalar scale = size(here.v), s = size(newton) / scale, c = size(correction) / scale,
+                 way = size(Scalar(last.v - here.v)) / scale;
+    const Scalar &rounding = unit_roundoff<Scalar>(), s2 = s * s;
+    return s2 * s <= rounding && s2 * way * way <= rounding && c * c * c * way * way <= rounding * s2 * s2;
+  }
   /// Where 1 / T is 1 / t if it is linear in v.
   Scalar guess(const Scalar& lo, const Scalar& lo_T, const Scalar& hi, const Scalar& hi_T) const {
     Scalar part(0.5);
@@ -232,7 +257,7 @@ class SlopedRootSearch {
   Scalar t_, tolerance_;
   int sign_;
   const At& at_;
-  const Step& step_;
+  const Slope& slope_;
   const Found& found_;
 };
 

@@ -33,13 +33,11 @@ class SlopedSearch : private Candidates {
     if (turned ? j < std::max(node, above_) : !is_below) return false;
     Route way(false);
     if (is_below) {
-      way.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
-      for (std::size_t k = below_; k-- > node;)
-        way.add(view_, k, view_.x[k + 1] - view_.x[k], view_.high[k], view_.low[k], Passes::upwards, false);
+      way.add(view_, below_, down_, Passes::upwards, false);
+      for (std::size_t k = below_; k-- > node;) way.add(view_, k, view_.downwards[k], Passes::upwards, false);
     } else {
       for (std::size_t k = above_; k < node; ++k) {
-        const Entrance from = k == above_ ? at_z() : at_node(k);
-        way.add(view_, k, view_.x[k + 1] - from.z, from.rate, view_.high[k], Passes::downwards, true);
+        way.add(view_, k, k == above_ ? up_ : view_.upwards[k], Passes::downwards, true);
       }
     }
     Scalar top = z_, least = h_least, most = h_most;
@@ -47,16 +45,15 @@ class SlopedSearch : private Candidates {
       const Entrance from = node > above_ ? at_node(node) : at_z();
       way.twice.cell = from.cell;
       way.twice.n_cells = j - from.cell;
-      way.twice.d = view_.x[from.cell + 1] - from.z;
-      way.twice.r1 = from.rate;
-      way.least = std::min(way.least, from.rate);
+      way.twice.first = &from.run;
+      way.least = std::min(way.least, from.run.r1);
       for (std::size_t k = from.cell; k < j; ++k)
         way.least = std::min({way.least, view_.high[k], view_.low[k + 1]});
       top = j == from.cell ? from.z : view_.x[j];
       way.turn_form = view_.form[j];
       way.turn_cell = j;
       way.turn_bend = -view_.bend[j];
-      way.turn_rate = j == from.cell ? from.rate : view_.low[j];
+      way.turn_rate = j == from.cell ? from.run.r1 : view_.low[j];
       least = std::max(least, view_.high[j]);
     }
     most = std::min(most, way.least);
@@ -65,9 +62,9 @@ class SlopedSearch : private Candidates {
 
  private:
   using Base = Candidates;
-  using Base::above_, Base::below_, Base::best_, Base::late_, Base::moving_only_, Base::n_, Base::rate_above_,
-      Base::rate_below_, Base::slack_, Base::back_above_, Base::t_, Base::time_above_, Base::time_below_,
-      Base::view_, Base::z_;
+  using Base::above_, Base::below_, Base::best_, Base::down_, Base::late_, Base::moving_only_, Base::n_,
+      Base::rate_above_, Base::up_, Base::rate_below_, Base::slack_, Base::back_above_, Base::t_,
+      Base::time_above_, Base::time_below_, Base::view_, Base::z_;
   using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
       Base::straight_fan, Base::turned_fan;
   using typename Base::Leaves;
@@ -179,16 +176,17 @@ class SlopedSearch : private Candidates {
     offer(M0 + arc.gain, h, kind, ends_up, turned, source, y, cell, r, q);
   }
 
-  /// Where a way begins at which a path turns: a height, its cell, r there, and the times of pure states to the end of the cell and
-  /// back.
+  /// Where a way begins at which a path turns: a height, its cell, the run from there to the end of the cell, and the times of pure
+  /// states over it and back.
   struct Entrance {
-    Scalar z;
+    const Scalar& z;
     std::size_t cell;
-    Scalar rate, time, back;
+    const RunEnds<Scalar>& run;
+    const Scalar &time, &back;
   };
-  [[nodiscard]] Entrance at_z() const { return {z_, above_, rate_above_, time_above_, back_above_}; }
+  [[nodiscard]] Entrance at_z() const { return {z_, above_, up_, time_above_, back_above_}; }
   [[nodiscard]] Entrance at_node(std::size_t node) const {
-    return {view_.x[node], node, view_.low[node], view_.pure_time[node], view_.pure_back[node]};
+    return {view_.x[node], node, view_.upwards[node], view_.pure_time[node], view_.pure_back[node]};
   }
 
   /// Everything that starts below z and leaves its cell at the top.
@@ -196,9 +194,9 @@ class SlopedSearch : private Candidates {
     Route route(Candidates::has_bounds(n_));
     if (below_ != above_) {
       if (!is_known(below_, below_)) state(route, below_, Scalar(0));
-      turned_states(route, below_, Scalar(0), at_z());
+      if (view_.has_moving_state(below_)) turned_states(route, below_, Scalar(0), at_z());
     }
-    route.add(view_, below_, z_ - view_.x[below_], rate_below_, view_.low[below_], Passes::upwards, false);
+    route.add(view_, below_, down_, Passes::upwards, false);
     Scalar time = time_below_;
     for (std::size_t k = below_; k-- > view_.first_start; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
@@ -209,8 +207,8 @@ class SlopedSearch : private Candidates {
         turned_fans(route, node, time, at_z());
       }
       if (!is_known(k, below_)) state(route, k, time);
-      turned_states(route, k, time, at_z());
-      route.add(view_, k, view_.x[node] - view_.x[k], view_.high[k], view_.low[k], Passes::upwards, false);
+      if (view_.has_moving_state(k)) turned_states(route, k, time, at_z());
+      route.add(view_, k, view_.downwards[k], Passes::upwards, false);
     }
   }
 
@@ -225,11 +223,11 @@ class SlopedSearch : private Candidates {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
       if (!is_known(k, above_)) state_that_turns_at_once(route, k);
       const Entrance from = k == above_ ? at_z() : at_node(k);
-      route.add(view_, k, view_.x[k + 1] - from.z, from.rate, view_.high[k], Passes::downwards, true);
+      route.add(view_, k, from.run, Passes::downwards, true);
       time += from.back;
       const std::size_t node = k + 1;
       if (node == n_ || time > late_) return;
-      turned_states(route, k, time, at_node(node));
+      if (view_.has_moving_state(k)) turned_states(route, k, time, at_node(node));
       if (view_.emits[node]) turned_fans(route, node, time, at_node(node));
     }
   }
@@ -241,8 +239,8 @@ class SlopedSearch : private Candidates {
             turned_fan(way, node, j, lo, hi, top);
           });
   }
+  /// Precondition: cell k has a moving state.
   void turned_states(const Route& once, std::size_t k, const Scalar& time, const Entrance& from) {
-    if (!view_.has_moving_state(k)) return;
     turns(once, time, view_.least_amount(k), k, k + 1, from, h_of_cell(k),
           [&](Route& way, std::size_t j, const Scalar& lo, const Scalar& hi, const Scalar& top) {
             const Range h = h_of_cell(k);
@@ -270,13 +268,12 @@ class SlopedSearch : private Candidates {
     way.once = once.once;
     way.twice.cell = first;
     way.twice.n_cells = 0;
-    way.twice.d = view_.x[first + 1] - from.z;
-    way.twice.r1 = from.rate;
+    way.twice.first = &from.run;
     if (!once.stretches.is_off()) way.stretches = once.stretches;
     way.least = once.least;
     way.turn_bend = Scalar(0);
     const auto entry_of = [&](std::size_t j) -> const Scalar& {
-      return j == first ? from.rate : view_.low[j];
+      return j == first ? from.run.r1 : view_.low[j];
     };
     const auto height_of = [&](std::size_t j) -> const Scalar& { return j == first ? from.z : view_.x[j]; };
     for (std::size_t j = first; j < view_.end_of_falls; ++j) {
@@ -299,7 +296,7 @@ class SlopedSearch : private Candidates {
         way.least = kept;
         way.turn_bend = Scalar(0);
       }
-      way.add_bounds(view_, j, Scalar(view_.x[j + 1] - height), entry, view_.high[j], Passes::both);
+      way.add_bounds(view_, j, j == first ? from.run : view_.upwards[j], Passes::both);
       way.least = std::min(least, view_.high[j]);
       time += j == first ? Scalar(from.time + from.back) : Scalar(view_.pure_time[j] + view_.pure_back[j]);
     }

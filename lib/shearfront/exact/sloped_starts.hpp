@@ -30,6 +30,8 @@ class SlopedStarts {
         above_(place.above),
         rate_below_(place.rate_below),
         rate_above_(place.rate_above),
+        down_(place.down),
+        up_(place.up),
         time_below_(place.time_below),
         time_above_(place.time_above),
         back_above_(place.back_above) {
@@ -282,6 +284,7 @@ class SlopedStarts {
   Path<Scalar>& best_;
   std::size_t n_, below_, above_;
   Scalar rate_below_, rate_above_;
+  RunEnds<Scalar> down_, up_;                    ///< from z to the ends of its cells
   Scalar time_below_, time_above_, back_above_;  ///< of pure states from z to the ends of its cells
   Scalar slack_{0}, late_{0};
 };
