@@ -293,17 +293,24 @@ namespace curved_front_detail {
                      grid.q(p, grid.level(f.above), z, rate));
 }
 
-/// Sets the course of a front from (z, t) on with the states it has: direction, end, whether it turns there. Its lower state may be
-/// the upper one of another front that begins there.
+/// Sets where the way of a front, or what is left of it, begins, with the states it has. Its lower state may be the upper one of another
+/// front that begins there.
+inline void set_origin(const LevelCurves& grid, CurvedNode& f, double z, double t,
+                       const CurvedNode* neighbour = nullptr) {
+  const std::size_t p = f.layer;
+  f.z = z;
+  f.t = t;
+  f.rate = neighbour ? neighbour->rate : grid.piece(p).rate(z);
+  f.q_below = neighbour ? neighbour->q_above : grid.q(p, grid.level(f.below), z, f.rate);
+  f.q_above = grid.q(p, grid.level(f.above), z, f.rate);
+}
+
+/// Sets the course of a front from (z, t) on: its origin, direction, end, whether it turns there.
 inline void set_course(const LevelCurves& grid, CurvedNode& f, double z, double t,
                        const CurvedNode* neighbour = nullptr) {
   const std::size_t i = grid.level(f.below), j = grid.level(f.above), p = f.layer;
   const RatePiece& piece = grid.piece(p);
-  f.z = z;
-  f.t = t;
-  f.rate = neighbour ? neighbour->rate : piece.rate(z);
-  f.q_below = neighbour ? neighbour->q_above : grid.q(p, i, z, f.rate);
-  f.q_above = grid.q(p, j, z, f.rate);
+  set_origin(grid, f, z, t, neighbour);
   f.turns = false;
   f.end = z;
   f.direction = 0;

@@ -344,11 +344,14 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
   };
   if (grid_->level(ahead) == level) {
     set_turned(f);
-    if (rises)
-      set_below(over, label);
-    else
-      set_above(under, label);
-    schedule_all(!rises && fronts_[under].prev != kNoFront ? fronts_[under].prev : under, rises ? over : f);
+    rises ? set_below(over, label) : set_above(under, label);
+    schedule(under);
+    schedule(f);
+    // The front or boundary ahead goes on as before, and so does what it meets on its far side, if it does not run in parallel now.
+    const FrontIndex beyond = rises ? over : fronts_[under].prev;
+    if (beyond != kNoFront && fronts_[beyond].next != kNoFront &&
+        fronts_[beyond].below == fronts_[fronts_[beyond].next].above)
+      schedule(beyond);
     return;
   }
   if (rises) {
@@ -372,11 +375,10 @@ void CurvedSystem<Observer>::anchor_beyond(Node& f, std::size_t level) {
   if (level == 0 || f.direction == 0 || !(grid_->q(piece, level, f.z, f.rate) > 0)) return;
   const double z = grid_->turning_height(piece, level);
   if (f.direction > 0 ? !(z > f.z && z < f.end) : !(z < f.z && z > f.end)) return;
-  const double turned = f.turned, t = passage(*grid_, f, z).t;
+  const double t = passage(*grid_, f, z).t;
   f.is_edge = false;
   if constexpr (Observer::kActive) observer_.ended(f, t, z);
-  set_course(*grid_, f, z, t);
-  f.turned = turned;
+  set_origin(*grid_, f, z, t);
 }
 
 template <class Observer>
