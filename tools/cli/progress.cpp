@@ -46,13 +46,16 @@ void say_when_interrupted() {
 }
 
 ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {
-  if (is_terminal_ || seconds_between_lines > 0)
-    ticking_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
+  if (is_terminal_ || seconds_between_lines > 0) ticking_ = std::thread([this] { tick(); });
 }
 
 ProgressLine::~ProgressLine() {
   if (!ticking_.joinable()) return;
-  ticking_.request_stop();
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  stopped_.notify_one();
   ticking_.join();
   if (is_shown_) std::fputs("\r\x1b[K", stderr);
 }
@@ -85,13 +88,13 @@ void ProgressLine::show(std::string text) {
   text_ = std::move(text);
 }
 
-void ProgressLine::tick(const std::stop_token& stop) {
+void ProgressLine::tick() {
   constexpr std::chrono::duration<double> kPeriod{0.2};
   const std::chrono::duration<double> period =
       is_terminal_ ? kPeriod : std::chrono::duration<double>(seconds_between_lines);
   constexpr double kPatience = 1;  // short work shows nothing
   std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
+  while (!stopped_.wait_for(lock, period, [this] { return is_over_; })) {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (seconds < kPatience) continue;
     const std::string line = fmt::format("{}{}{:.0f} s", text_, text_.empty() ? "" : ", ", seconds);

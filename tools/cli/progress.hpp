@@ -5,7 +5,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -15,8 +14,8 @@
 namespace shearfront::tools {
 
 /// A line on standard error that shows how far it is and for how long it has run, if standard error is a terminal; elsewhere,
-/// with --verbose, a line per minute, or as often as it says. Work that reports nothing is seen to run by the seconds. The line is gone when this object is: nothing else may be
-/// written meanwhile.
+/// with --verbose, a line per minute, or as often as it says. Work that reports nothing is seen to run by the seconds. The line is gone
+/// when this object is: nothing else may be written meanwhile.
 class ProgressLine {
  public:
   ProgressLine();
@@ -40,15 +39,17 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
   void show(std::string text);
   [[nodiscard]] std::string part_text(double part) const;
-  void tick(const std::stop_token& stop);
+  void tick();
 
   const Clock::time_point begin_ = Clock::now();
   std::mutex mutex_;  ///< of what follows
-  std::condition_variable_any stopped_;
+  std::condition_variable stopped_;
+  bool is_over_ = false;
   std::string text_;
   bool is_shown_ = false;
   const bool is_terminal_;
-  std::jthread ticking_;  ///< none if there is no terminal; ends before the rest is gone
+  std::thread
+      ticking_;  ///< none if there is no terminal. Not a jthread: libc++ has had that since its version 20 only
 };
 
 /// Calls work(Progress) under a line of its own.

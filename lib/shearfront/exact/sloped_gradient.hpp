@@ -184,9 +184,10 @@ class SlopedGradient {
 
   /// h = 4 g r(y) and T(y, h) = t with y free, on which g depends as well where the start is smooth.
   void phi_of_state() {
-    const Scalar p0 = cells_.state(path_.source, path_.foot), one(1), G = calculus_.height(start_, p0),
-                 G_p = calculus_.height_slope(start_, p0, is_set_up_);
+    const Scalar p0 = cells_.state(path_.source, path_.foot), one(1), G = calculus_.height(start_, p0);
     const Scalar r = at(start_, path_.foot), speed = one / calculus_.slowness(start_, r, is_set_up_);
+    // By the speed that the path has there, r |dG/dp| / 4: next to the peak rounding gives that of the state another one.
+    const Scalar G_p = Scalar(is_set_up_ ? -4 : 4) * speed / r;
     // dh/dy, away from where it goes.
     const Scalar slope = G * slope_at(pieces_.form[start_], pieces_.bend[start_], r) +
                          r * G_p * cells_.slope(path_.source, path_.foot);

@@ -347,11 +347,12 @@ void CurvedSystem<Observer>::turn(FrontIndex f) {
     rises ? set_below(over, label) : set_above(under, label);
     schedule(under);
     schedule(f);
-    // The front or boundary ahead goes on as before, and so does what it meets on its far side, if it does not run in parallel now.
-    const FrontIndex beyond = rises ? over : fronts_[under].prev;
-    if (beyond != kNoFront && fronts_[beyond].next != kNoFront &&
-        fronts_[beyond].below == fronts_[fronts_[beyond].next].above)
-      schedule(beyond);
+    // What the front ahead meets on its far side is as before if it leaves, with its new label dead for good, and does not run in
+    // parallel now.
+    const FrontIndex front = rises ? over : under, beyond = rises ? over : fronts_[under].prev;
+    const bool comes_back = fronts_[front].direction == (rises ? -1 : 1);
+    if (beyond == kNoFront || fronts_[beyond].next == kNoFront) return;
+    if (comes_back || fronts_[beyond].below == fronts_[fronts_[beyond].next].above) schedule(beyond);
     return;
   }
   if (rises) {
