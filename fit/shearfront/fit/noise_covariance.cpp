@@ -121,11 +121,14 @@ NoiseCovariance::NoiseCovariance(std::shared_ptr<const NoisePlaces> places, cons
   gain_ = 1 / factor_.diagonal().minCoeff();
 }
 
-MatrixXd NoiseCovariance::sorted(const MatrixXd& x) const { return x(places_->order_, Eigen::all); }
+// Of all columns: Eigen::all is not in Eigen 5, and what is there instead is deprecated in 3.4.
+MatrixXd NoiseCovariance::sorted(const MatrixXd& x) const {
+  return x(places_->order_, Eigen::seqN(0, x.cols()));
+}
 
 MatrixXd NoiseCovariance::unsorted(const MatrixXd& x) const {
   MatrixXd all(x.rows(), x.cols());
-  all(places_->order_, Eigen::all) = x;
+  all(places_->order_, Eigen::seqN(0, x.cols())) = x;
   return all;
 }
 

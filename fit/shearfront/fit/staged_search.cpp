@@ -146,7 +146,8 @@ NoiseData StagedSearch::noise_data() const {
   for (Eigen::Index j = 0; j < u_.size(); ++j)
     if (!held[static_cast<std::size_t>(j)]) free.push_back(j);
   data.residuals = objective_->rows().coloured(at.residuals);
-  data.jacobian = objective_->rows().coloured(at.jacobian)(Eigen::all, free);
+  const Eigen::MatrixXd jacobian = objective_->rows().coloured(at.jacobian);
+  data.jacobian = jacobian(Eigen::seqN(0, jacobian.rows()), free);
   return data;
 }
 
