@@ -18,6 +18,7 @@
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solution/bed_height.hpp"
 #include "shearfront/solver/all.hpp"
+#include "support/exact_scenes.hpp"
 #include "support/model_types.hpp"
 #include "support/random_scene.hpp"
 #include "support/scene_cast.hpp"
@@ -29,51 +30,25 @@ constexpr std::size_t kLayers = 7;  // of staircases; no piece of a sample is a 
 constexpr double kTop =
     0.96875;  // no bed is symmetric: equal layers make a path at rest no smooth function of them
 
-/// Shares of the range of a flux: a jump, several of them, none.
-struct Start {
-  std::vector<double> breaks, states;
-};
-const std::vector<Start> kStarts{
+/// A jump, several of them, none.
+const std::vector<support::ShareOfRange> kStarts{
     {{0.53125}, {0, 1}}, {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}}, {{}, {0.40625}}};
 
-template <class Model>
-class ExactDerivatives : public testing::Test {
+/// Samples of every shear rate.
+class ExactDerivatives : public testing::TestWithParam<support::NamedDepthFunction> {
  public:
-  /// Calls visit(spec) for every scene with this shear rate, its first samples, that the solver solves.
+  /// Calls visit(spec) for every scene with so many of the samples that the solver solves.
   template <class Visit>
   static void for_each_scene(Visit&& visit, std::size_t most_samples = kNoEntry) {
-    std::vector<Model> rates = Model::samples();
-    if (rates.size() > most_samples)
-      rates.erase(rates.begin() + static_cast<std::ptrdiff_t>(most_samples), rates.end());
-    for (const Model& rate : rates)
-      FluxList<double>::for_each([&]<class F>() {
-        for (const F& flux : F::samples())
-          for (const Start& start : kStarts) {
-            SceneSpec<double> spec;
-            spec.fluxes = {flux};
-            spec.shear_rate = rate;
-            spec.top = kTop;
-            spec.initial_breaks = start.breaks;
-            const auto range = flux.range();
-            for (const double x : start.states)
-              spec.initial_values.push_back(range.lowest + x * (range.highest - range.lowest));
-            if (!find_complaints(spec).empty()) continue;
-            if (!ExactSolver::refusal(Scene<double>(spec), {}).empty()) continue;
-            SCOPED_TRACE(std::string(Model::kName) + " with " + std::string(F::kName) + " and " +
-                         std::to_string(start.breaks.size()) + " jumps");
-            visit(spec);
-          }
-      });
+    const auto& rates = GetParam().samples;
+    const auto fluxes = support::every_flux(true);
+    for (std::size_t i = 0; i < std::min(rates.size(), most_samples); ++i)
+      support::for_each_exact_scene(rates[i], fluxes, kStarts, kTop, visit);
   }
+  static void compare_with_differences(std::size_t most_of_costly, std::size_t most_samples);
 };
-
-template <class List>
-struct TestTypes;
-template <class... Model>
-struct TestTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model...>;
-};
-TYPED_TEST_SUITE(ExactDerivatives, TestTypes<DepthFunctionList<double>>::Type, support::ModelName);
+INSTANTIATE_TEST_SUITE_P(ShearRates, ExactDerivatives, testing::ValuesIn(support::every_depth_function()),
+                         support::name_of_parameter);
 
 struct Difference {
   double phi = 0, M = 0;
@@ -104,14 +79,13 @@ Difference difference(const SceneSpec<Real110>& spec, std::size_t entry, const R
 }
 
 /// Of every scene of so many samples of a model all entries, or where they cost most (integrals of a law along pieces) only some of them, each time others.
-template <class Fixture>
-void compare_with_differences(std::size_t most_of_costly, std::size_t most_samples) {
+void ExactDerivatives::compare_with_differences(std::size_t most_of_costly, std::size_t most_samples) {
   int n_scenes = 0, n_compared = 0, n_refused = 0;
   std::set<std::string> costly;  // fluxes whose derivatives along pieces have been compared
   std::set<std::string> all_costly;
   std::size_t number = 0, turn = 0;
   support::SceneMaker make(support::seed_of(5501));
-  Fixture::for_each_scene(
+  for_each_scene(
       [&](const SceneSpec<double>& spec) {
         // Of each flux the initial states in turn: many digits take time.
         if (spec.initial_breaks.size() != kStarts[(number++ / kStarts.size()) % kStarts.size()].breaks.size())
@@ -163,22 +137,19 @@ void compare_with_differences(std::size_t most_of_costly, std::size_t most_sampl
   EXPECT_GE(n_refused, 2 * n_scenes);  // the ends of the domain
 }
 
-TYPED_TEST(ExactDerivatives, AreDifferencesInManyDigits) { compare_with_differences<TestFixture>(1, 1); }
+TEST_P(ExactDerivatives, AreDifferencesInManyDigits) { compare_with_differences(1, 1); }
 
-template <class Model>
-class SlowExactDerivatives : public ExactDerivatives<Model> {
- public:
-  using ExactDerivatives<Model>::for_each_scene;
-};
-TYPED_TEST_SUITE(SlowExactDerivatives, TestTypes<DepthFunctionList<double>>::Type, support::ModelName);
+class SlowExactDerivatives : public ExactDerivatives {};
+INSTANTIATE_TEST_SUITE_P(ShearRates, SlowExactDerivatives, testing::ValuesIn(support::every_depth_function()),
+                         support::name_of_parameter);
 
-TYPED_TEST(SlowExactDerivatives, OfAllEntriesAreDifferencesInManyDigits) {
-  compare_with_differences<TestFixture>(kNoEntry, kNoEntry);
+TEST_P(SlowExactDerivatives, OfAllEntriesAreDifferencesInManyDigits) {
+  compare_with_differences(kNoEntry, kNoEntry);
 }
 
-TYPED_TEST(ExactDerivatives, AFitCanAskForEveryEntry) {
+TEST_P(ExactDerivatives, AFitCanAskForEveryEntry) {
   int checked = 0;
-  this->for_each_scene([&](const SceneSpec<double>& spec) {
+  for_each_scene([&](const SceneSpec<double>& spec) {
     fit::ForwardSpec exact;
     exact.method = Method::of<ExactSolver>({.layers = kLayers});
     bool is_first = true;
@@ -216,7 +187,11 @@ struct Bare : Model {
   void knot_entries() const = delete;
 };
 
-TYPED_TEST(ExactDerivatives, OfMeansAreTheSameForAModelThatLeavesThemOut) {
+template <class Model>
+class MeanDerivatives : public testing::Test {};
+TYPED_TEST_SUITE(MeanDerivatives, support::ModelTypes<DepthFunctionList<double>>::Type, support::ModelName);
+
+TYPED_TEST(MeanDerivatives, AreTheSameForAModelThatLeavesThemOut) {
   int compared = 0;
   for (const TypeParam& model : TypeParam::samples()) {
     const Bare<TypeParam> bare(model);

@@ -17,7 +17,7 @@
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
 #include "shearfront/solution/bed_height.hpp"
-#include "support/model_types.hpp"
+#include "support/exact_scenes.hpp"
 #include "support/random_scene.hpp"
 #include "support/scene_cast.hpp"
 #include "support/smooth_starts.hpp"
@@ -29,57 +29,36 @@ constexpr std::size_t kFewPieces = 7;
 constexpr std::size_t kSomePieces = 64;
 constexpr double kBedTop = 0.96875;
 
-struct BedStart {
-  std::vector<double> breaks, states;  ///< shares of the range of a flux
-};
-const std::vector<BedStart> kBedStarts{{{0.53125}, {0, 1}},
-                                       {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}},
-                                       {{0.21875, 0.65625}, {0, 0.90625, 0.125}},
-                                       {{}, {0.40625}}};
+const std::vector<support::ShareOfRange> kBedStarts{{{0.53125}, {0, 1}},
+                                                    {{0.21875, 0.65625}, {0.3125, 0.90625, 0.125}},
+                                                    {{0.21875, 0.65625}, {0, 0.90625, 0.125}},
+                                                    {{}, {0.40625}}};
 
-template <class Model>
-class ExactOnEveryBed : public testing::Test {
+/// The first sample of every shear rate.
+class ExactOnEveryBed : public testing::TestWithParam<support::NamedDepthFunction> {
  public:
-  /// Calls visit(spec) for every scene with the first sample of this shear rate and every flux that the solver solves; of beds for
-  /// which pieces stand only for some, unless all are wanted.
+  /// Calls visit(spec) for every scene; of beds for which pieces stand only for some, unless all are wanted.
   template <class Visit>
   static void for_each_scene(bool are_all_wanted, Visit&& visit) {
-    FluxList<double>::for_each([&]<class F>() {
-      const F flux = F::samples().front();
-      for (const BedStart& start : kBedStarts) {
-        SceneSpec<double> spec;
-        spec.fluxes = {flux};
-        spec.shear_rate = Model::samples().front();
-        spec.top = kBedTop;
-        spec.initial_breaks = start.breaks;
-        const auto range = flux.range();
-        for (const double x : start.states)
-          spec.initial_values.push_back(range.lowest + x * (range.highest - range.lowest));
-        if (!find_complaints(spec).empty()) continue;
-        if (!ExactSolver::refusal(Scene<double>(spec), {}).empty()) continue;
-        const bool is_quick = (spec.fluxes[0].is_parabola() && &start == &kBedStarts.front()) ||
-                              ExactSolution<double>(Scene<double>(spec), {kFewPieces}).is_exact();
-        if (!are_all_wanted && !is_quick) continue;
-        SCOPED_TRACE(std::string(Model::kName) + " with " + std::string(F::kName) + " and " +
-                     std::to_string(start.breaks.size()) + " jumps from " + std::to_string(start.states[0]));
-        visit(spec);
-      }
-    });
+    support::for_each_exact_scene(
+        GetParam().samples.front(), support::every_flux(false), kBedStarts, kBedTop,
+        [&](const SceneSpec<double>& spec) {
+          const bool is_quick =
+              (spec.fluxes[0].is_parabola() && spec.initial_breaks == kBedStarts.front().breaks) ||
+              ExactSolution<double>(Scene<double>(spec), {kFewPieces}).is_exact();
+          if (are_all_wanted || is_quick) visit(spec);
+        });
   }
+  static void compare_event_times(bool are_all_wanted);
+  static void compare_heights(bool are_all_wanted);
 };
-
-template <class List>
-struct EveryBedTypes;
-template <class... Model>
-struct EveryBedTypes<TypeList<Model...>> {
-  using Type = testing::Types<Model...>;
-};
-TYPED_TEST_SUITE(ExactOnEveryBed, EveryBedTypes<DepthFunctionList<double>>::Type, support::ModelName);
+INSTANTIATE_TEST_SUITE_P(ShearRates, ExactOnEveryBed, testing::ValuesIn(support::every_depth_function()),
+                         support::name_of_parameter);
 
 /// At the top a bed of pieces had paths that turned beyond it (flux no parabola): phi 0.5 for 1, and a height of the bed off by 1e-5.
-TYPED_TEST(ExactOnEveryBed, AtItsEndsIsWhatIsNextToThem) {
+TEST_P(ExactOnEveryBed, AtItsEndsIsWhatIsNextToThem) {
   int n_compared = 0;
-  this->for_each_scene(true, [&](const SceneSpec<double>& spec) {
+  for_each_scene(true, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     const ExactSolution<double> solution(scene, {kFewPieces});
     for (const bool is_top : {false, true})
@@ -116,9 +95,9 @@ struct Continuity {
   }
 };
 
-TYPED_TEST(ExactOnEveryBed, MIsContinuousAtKnotsAndJumps) {
+TEST_P(ExactOnEveryBed, MIsContinuousAtKnotsAndJumps) {
   Continuity continuity;
-  this->for_each_scene(true, [&](const SceneSpec<double>& spec) { continuity.check(spec, kFewPieces); });
+  for_each_scene(true, [&](const SceneSpec<double>& spec) { continuity.check(spec, kFewPieces); });
   EXPECT_GT(continuity.n_compared, 500);
 }
 
@@ -175,10 +154,9 @@ std::vector<std::optional<Scalar>> moved_times(SceneSpec<Scalar> spec, std::size
   return times_of(exact_timeline(ExactSolution<Scalar>(Scene<Scalar>(spec), {kFewPieces})));
 }
 
-template <class Fixture>
-void compare_event_times(bool are_all_wanted) {
+void ExactOnEveryBed::compare_event_times(bool are_all_wanted) {
   int n_scenes = 0, n_compared = 0, n_wanted = 0;
-  Fixture::for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
+  for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     ++n_scenes;
     const ExactSolution<double> solution(scene, {kFewPieces});
@@ -228,15 +206,12 @@ void compare_event_times(bool are_all_wanted) {
   EXPECT_GE(n_compared, 0.8 * n_wanted);
 }
 
-TYPED_TEST(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
-  compare_event_times<TestFixture>(false);
-}
+TEST_P(ExactOnEveryBed, DerivativesOfEventTimesAreDifferences) { compare_event_times(false); }
 
-template <class Fixture>
-void compare_heights(bool are_all_wanted) {
+void ExactOnEveryBed::compare_heights(bool are_all_wanted) {
   int n_scenes = 0, n_compared = 0;
   support::SceneMaker make(support::seed_of(5502));
-  Fixture::for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
+  for_each_scene(are_all_wanted, [&](const SceneSpec<double>& spec) {
     const Scene<double> scene(spec);
     if (!BedHeight::refusal(scene).empty()) return;
     ++n_scenes;
@@ -277,19 +252,14 @@ void compare_heights(bool are_all_wanted) {
   EXPECT_GT(n_compared, n_scenes);
 }
 
-TYPED_TEST(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights<TestFixture>(false); }
+TEST_P(ExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights(false); }
 
-template <class Model>
-class SlowExactOnEveryBed : public ExactOnEveryBed<Model> {
- public:
-  using ExactOnEveryBed<Model>::for_each_scene;
-};
-TYPED_TEST_SUITE(SlowExactOnEveryBed, EveryBedTypes<DepthFunctionList<double>>::Type, support::ModelName);
+class SlowExactOnEveryBed : public ExactOnEveryBed {};
+INSTANTIATE_TEST_SUITE_P(ShearRates, SlowExactOnEveryBed, testing::ValuesIn(support::every_depth_function()),
+                         support::name_of_parameter);
 
-TYPED_TEST(SlowExactOnEveryBed, DerivativesOfEventTimesAreDifferences) {
-  compare_event_times<TestFixture>(true);
-}
-TYPED_TEST(SlowExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights<TestFixture>(true); }
+TEST_P(SlowExactOnEveryBed, DerivativesOfEventTimesAreDifferences) { compare_event_times(true); }
+TEST_P(SlowExactOnEveryBed, DerivativesOfItsHeightAreDifferences) { compare_heights(true); }
 
 /// Paths of a flux with a kink that come too early spend the time that is left where the capacity is least: at a knot, at their
 /// start, or at their end.
