@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/model_choice.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "support/fit_scenes.hpp"
@@ -70,6 +71,36 @@ TEST(FitModelChoice, FinerLayersFitNoWorseAndTheTruthIsChosen) {
   // chi^2 of 36 data and 2 unknowns, 1e-6 to either side.
   EXPECT_GT(2 * models.estimates[3].misfit, 8);
   EXPECT_LT(2 * models.estimates[3].misfit, 85);
+}
+
+// A search for many breaks at once ended in wrong valleys: eight layers of ten fitted 8 times worse than now. The least misfit is no more than
+// that of the truth, whose layers BIC finds.
+TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
+  const std::vector<double> breaks{0.2, 0.35, 0.55, 0.8}, values{2, 0.9, 1.6, 0.5, 0.25};
+  const SceneSpec<double> truth = small_above_large(breaks, values);
+  const ObservationPlan plan{{0.4, 0.8, 1.2, 1.8, 2.5, 3.5}, {}, Quantity::bin, 0.05};
+  ObservationPlan filled = plan;
+  for (int i = 0; i < 19; ++i) filled.depths.push_back(0.05 + 0.05 * i);
+  FitSpec base = fit_of(truth, observed(truth, filled, 0.003, 11, true), {});
+  const FitSpec true_fit = fit_of(truth, base.observations, {"shear_rate.breaks", "shear_rate.values"});
+  base.scene = Scene<double>(small_above_large({}, {1}));
+  ModelChoice choice{{}, true, true};
+  for (std::size_t n = 1; n <= 6; ++n) choice.models.push_back({"piecewise", n});
+  const ChosenModels models = fit_models(base, choice);
+  ASSERT_EQ(models.estimates.size(), 6U);
+  const Estimate at_truth = fit(true_fit);
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    ASSERT_TRUE(models.estimates[i].usable()) << models.estimates[i].message;
+    if (i > 0)
+      EXPECT_LE(models.estimates[i].misfit, models.estimates[i - 1].misfit * (1 + 1e-9))
+          << i + 1 << " layers";
+    if (*models.estimates[i].bic < *models.estimates[best].bic) best = i;
+  }
+  EXPECT_EQ(best, 4U);
+  EXPECT_LE(models.estimates[4].misfit, at_truth.misfit * (1 + 1e-6));
+  for (std::size_t i = 0; i < breaks.size(); ++i)
+    EXPECT_NEAR(models.estimates[4].parameters[i].estimate, breaks[i], 0.02) << i;
 }
 
 TEST(FitModelChoice, WhatIsNoModelIsRefused) {

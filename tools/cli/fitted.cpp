@@ -52,11 +52,11 @@ FittedModels run_models(const fit::FitFile& file, const std::string& path) {
                                        [&](const fit::Progress& progress) {
                                          return fit::fit_models(file.spec, *file.choice, progress);
                                        }),
-                      std::nullopt};
+                      std::nullopt, file.choice->is_by_bic};
   const std::vector<fit::Estimate>& estimates = result.all.estimates;
   const auto key = [&](std::size_t i) {
     const fit::Estimate& e = estimates[i];
-    return std::pair(e.aic.value_or(HUGE_VAL), e.misfit);
+    return std::pair((file.choice->is_by_bic ? e.bic : e.aic).value_or(HUGE_VAL), e.misfit);
   };
   for (std::size_t i = 0; i < estimates.size(); ++i)
     if (estimates[i].usable() && (!result.best || key(i) < key(*result.best))) result.best = i;

@@ -36,7 +36,8 @@ struct Fitted {
 /// The models of [compare]; `best` has the smallest AIC, or without one the smallest misfit; nothing if none is usable.
 struct FittedModels {
   fit::ChosenModels all;
-  std::optional<std::size_t> best;
+  std::optional<std::size_t> best;  ///< by the criterion of the file
+  bool is_by_bic = false;
 };
 /// The same for every model of a file. Precondition: file.choice. Errors: FileError.
 [[nodiscard]] FittedModels run_models(const fit::FitFile& file, const std::string& path);

@@ -23,6 +23,7 @@ struct ModelChoice {
   };
   std::vector<Model> models;
   bool has_free_breaks = false;  ///< of layers whose breaks are not known; else they are equally thick
+  bool is_by_bic = false;        ///< the best has the least BIC; else the least AIC
 
   /// "1 layer", "3 layers", "3 known layers", "exponential", "table:6".
   [[nodiscard]] static std::string text(const Model& model);

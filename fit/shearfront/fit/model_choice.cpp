@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <type_traits>
 #include <utility>
 
 #include "shearfront/fit.hpp"
+#include "shearfront/fit/layer_path.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "shearfront/model/depth/all.hpp"
 
@@ -148,6 +150,13 @@ std::vector<std::string> unknowns_of(const DepthFunction<double>& function, bool
   return names;
 }
 
+bool has_unknown_breaks(const ModelChoice& choice, const ModelChoice::Model& model) {
+  if (!choice.has_free_breaks || !model.breaks.empty()) return false;
+  const auto function = new_function(model.name);
+  return function &&
+         std::visit([](const auto& m) { return std::decay_t<decltype(m)>::kIsLayered; }, *function);
+}
+
 void append(UnknownSpec& to, const Parameters& parameters) {
   for (const Parameter& p : parameters) {
     to.parameters.push_back(p.name());
@@ -169,6 +178,14 @@ std::string ModelChoice::text(const Model& model) {
   return model.n == 0 ? model.name : fmt::format("{}:{}", model.name, model.n);
 }
 
+std::string layered_name() {
+  std::string name;
+  DepthFunctionList<double>::for_each([&]<class Model>() {
+    if (name.empty() && Model::kIsLayered) name = Model::kName;
+  });
+  return name;
+}
+
 std::string refusal(const ModelChoice::Model& model) {
   const auto function = new_function(model.name);
   if (!function) return "must be one of: " + DepthFunctionList<double>::names();
@@ -181,7 +198,7 @@ std::string refusal(const ModelChoice::Model& model) {
 }
 
 FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelChoice::Model& model,
-                   const Scene<double>& resembled) {
+                   const Scene<double>& resembled, const std::vector<double>& first_breaks) {
   FitSpec spec = base;
   DepthFunction<double> function = new_function(model.name).value();
   const bool arrays = has_arrays(function);
@@ -189,7 +206,8 @@ FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelCh
   std::visit(
       [&](auto& m) {
         if (arrays)
-          fill_arrays(m, model.n, model.breaks, resembled, base.unknown.shape != Shape::none);
+          fill_arrays(m, model.n, model.breaks.empty() ? first_breaks : model.breaks, resembled,
+                      base.unknown.shape != Shape::none);
         else
           fit_numbers(m, resembled);
       },
@@ -215,11 +233,19 @@ FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelCh
 ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice, const Progress& progress) {
   ChosenModels result;
   std::optional<std::size_t> best;
+  std::size_t most_layers = 0;
+  for (const ModelChoice::Model& model : choice.models)
+    if (has_unknown_breaks(choice, model)) most_layers = std::max(most_layers, model.n);
+  std::map<std::size_t, FitSpec> built;
+  if (most_layers > 1 && base.unknown.shape == Shape::none && has_layer_path(base, choice))
+    built = layer_path(base, choice, most_layers, progress);
   for (const ModelChoice::Model& model : choice.models) {
-    FitSpec spec = with_model(base, choice, model, base.scene);
+    const auto start = has_unknown_breaks(choice, model) ? built.find(model.n) : built.end();
+    const bool is_built = start != built.end();
+    FitSpec spec = is_built ? start->second : with_model(base, choice, model, base.scene);
     Estimate estimate = fit(spec, progress);
     bool is_interrupted = estimate.status == Status::interrupted;
-    if (best && !is_interrupted) {
+    if (best && !is_built && !is_interrupted) {
       FitSpec again = with_model(base, choice, model, *result.estimates[*best].scene);
       Estimate other = fit(again, progress);
       is_interrupted = other.status == Status::interrupted;

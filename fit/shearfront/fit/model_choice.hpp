@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
 #include <vector>
 
 #include "shearfront/fit/estimate.hpp"
@@ -12,12 +13,17 @@ namespace shearfront::fit {
 /// other way round. Empty if it can.
 [[nodiscard]] std::string refusal(const ModelChoice::Model& model);
 
+/// The depth function that consists of layers.
+[[nodiscard]] std::string layered_name();
+
 /// The fit with this shear rate in place of the scene's, which it resembles at the start: layers have its harmonic means,
 /// a table its values, entries that are single numbers those that come closest in log a(z). Layers are equally thick if their breaks are not known, the
-/// points of a table equally far from each other. With a shape the start is constant, which has every shape.
+/// points of a table equally far from each other. With a shape the start is constant, which has every shape. `first_breaks`: where unknown
+/// breaks start; empty: equally far from each other.
 /// Precondition: refusal() is empty. Errors: InputError if the scene is invalid with it.
 [[nodiscard]] FitSpec with_model(const FitSpec& base, const ModelChoice& choice,
-                                 const ModelChoice::Model& model, const Scene<double>& resembled);
+                                 const ModelChoice::Model& model, const Scene<double>& resembled,
+                                 const std::vector<double>& first_breaks = {});
 
 struct ChosenModels {
   std::vector<FitSpec> specs;
@@ -25,7 +31,8 @@ struct ChosenModels {
 };
 
 /// Fits every model from the scene, and again from the best found so far, of which it keeps the better: a model with more
-/// entries starts no worse than one with fewer. Ends with the model that `progress` interrupts. Errors: as fit(). Cost: two fits a model.
+/// entries starts no worse than one with fewer. Layers with unknown breaks are built from the data (layer_path.hpp) where the forward model
+/// has exact derivatives. Ends with the model that `progress` interrupts. Errors: as fit(). Cost: two fits a model.
 [[nodiscard]] ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice,
                                       const Progress& progress = {});
 

@@ -21,15 +21,6 @@ using Need = TableReader::Need;
 
 constexpr unsigned kMostLayers = 1000;
 
-/// The depth function that consists of layers.
-std::string layered_name() {
-  std::string name;
-  DepthFunctionList<double>::for_each([&]<class Model>() {
-    if (name.empty() && Model::kIsLayered) name = Model::kName;
-  });
-  return name;
-}
-
 }  // namespace
 
 ModelChoice read_model_choice(TableReader& table, const std::function<void(Complaint)>& add) {
@@ -75,6 +66,7 @@ ModelChoice read_model_choice(TableReader& table, const std::function<void(Compl
   } else {
     choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
   }
+  choice.is_by_bic = table.choice("criterion", Need::optional, {"AIC", "BIC"}).value_or("") == "BIC";
   const auto is_fine = [&](const char* key) { return !table.node(key) || table.is_good(key); };
   if (choice.models.empty() && !is_refused && is_fine("layers") && is_fine("models") && is_fine("breaks"))
     add({"compare", "", "must have layers, models or known breaks"});

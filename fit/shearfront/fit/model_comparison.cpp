@@ -12,12 +12,12 @@
 namespace shearfront::fit {
 namespace {
 
-using Criterion = std::optional<double> ComparedModel::*;
+using ModelColumn = std::optional<double> ComparedModel::*;
 
 bool is_same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// Fills the differences from the smallest.
-void set_differences(std::vector<ComparedModel>& models, Criterion criterion, Criterion difference) {
+void set_differences(std::vector<ComparedModel>& models, ModelColumn criterion, ModelColumn difference) {
   std::optional<double> least;
   for (const ComparedModel& m : models)
     if (m.*criterion) least = std::min(*(m.*criterion), least.value_or(HUGE_VAL));
@@ -53,7 +53,7 @@ std::string incomparable(const FitSpec& a, const FitSpec& b) {
 }
 
 std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
-                                          const std::vector<Estimate>& estimates) {
+                                          const std::vector<Estimate>& estimates, bool is_by_bic) {
   std::vector<ComparedModel> models;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const Estimate& e = estimates[i];
@@ -71,8 +71,9 @@ std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
     if (m.daic) sum += *(m.aic_weight = std::exp(-*m.daic / 2));
   for (ComparedModel& m : models)
     if (m.aic_weight) *m.aic_weight /= sum;
-  std::stable_sort(models.begin(), models.end(), [](const ComparedModel& a, const ComparedModel& b) {
-    return a.aic.value_or(HUGE_VAL) < b.aic.value_or(HUGE_VAL);
+  const ModelColumn criterion = is_by_bic ? &ComparedModel::bic : &ComparedModel::aic;
+  std::stable_sort(models.begin(), models.end(), [&](const ComparedModel& a, const ComparedModel& b) {
+    return (a.*criterion).value_or(HUGE_VAL) < (b.*criterion).value_or(HUGE_VAL);
   });
   return models;
 }

@@ -22,8 +22,9 @@ struct ComparedModel {
   std::optional<double> misfit, aic, daic, aic_weight, bic, dbic;
 };
 
-/// Best AIC first, then those without.
+/// Best AIC, or BIC, first, then those without.
 [[nodiscard]] std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
-                                                        const std::vector<Estimate>& estimates);
+                                                        const std::vector<Estimate>& estimates,
+                                                        bool is_by_bic = false);
 
 }  // namespace shearfront::fit
