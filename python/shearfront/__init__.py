@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ._estimate import Bootstrap, Fit, Parameter, Prediction, RateBand
     from ._fit import Problem, compare_fits, fit, problem, read_fit
     from ._misfit import Misfit
+    from ._petab import petab
     from ._posterior import Posterior
     from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
     from ._study import Study, study
@@ -43,6 +44,7 @@ _LAZY = {
     "_estimate": ("Bootstrap", "Fit", "Parameter", "Prediction", "RateBand"),
     "_fit": ("Problem", "compare_fits", "fit", "problem", "read_fit"),
     "_misfit": ("Misfit",),
+    "_petab": ("petab",),
     "_posterior": ("Posterior",),
     "_priors": ("HalfNormal", "LogNormal", "Normal", "Prior", "Uniform"),
     "_study": ("Study", "study"),
@@ -81,6 +83,7 @@ __all__ = [
     "data",
     "fit",
     "methods",
+    "petab",
     "pictures",
     "problem",
     "read",

@@ -144,6 +144,43 @@ def test_sigma_is_drawn_where_it_is_not_given() -> None:
     assert samples.log_likelihood["residuals"].shape == (2, 300, 45)
 
 
+def test_petab_has_the_measurements_and_the_unknowns(tmp_path: Path) -> None:
+    observations = BED.observe(TIMES, [0.2, 0.4, 0.6], quantity="bin", width=0.1, noise=0.02, seed=3)
+    problem = sf.problem(BED, observations, ["shear_rate.values", "shear_rate.breaks"])
+    tables = sf.petab(
+        problem, tmp_path / "out", {"shear_rate.values": sf.LogNormal(2.0, 0.5), "shear_rate.breaks": sf.Normal(0.3, 0.1)}
+    )
+    rows = {
+        name: [dict(zip(lines[0].split("\t"), line.split("\t"), strict=True)) for line in lines[1:]]
+        for name in tables
+        for lines in [(tmp_path / "out" / name).read_text().splitlines()]
+    }
+    seen = rows["measurements.tsv"]
+    assert [float(row["measurement"]) for row in seen] == observations.value.tolist()
+    assert [float(row["time"]) for row in seen] == observations.t.tolist()
+    assert {row["observableId"]: float(row["z"]) for row in seen} == {"phi_1": 0.2, "phi_2": 0.4, "phi_3": 0.6}
+    assert {row["noiseParameters"] for row in seen} == {"0.02"}
+    unknowns = {row["parameterName"]: row for row in rows["parameters.tsv"]}
+    assert list(unknowns) == problem.misfit.names
+    rate, height = unknowns["shear_rate.values[0]"], unknowns["shear_rate.breaks[0]"]
+    assert (rate["parameterId"], rate["parameterScale"]) == ("shear_rate_values_0", "log10")
+    assert rate["objectivePriorType"] == "logNormal"
+    assert rate["objectivePriorParameters"] == f"{math.log(2.0)!r};0.5"
+    assert (height["parameterScale"], height["objectivePriorType"], height["objectivePriorParameters"]) == (
+        "lin",
+        "normal",
+        "0.3;0.1",
+    )
+    assert float(rate["nominalValue"]) == problem.misfit.start[problem.misfit.names.index("shear_rate.values[0]")]
+
+
+def test_petab_refuses_what_it_has_no_name_for(tmp_path: Path) -> None:
+    problem = sf.problem(BED, seen(), "shear_rate.values")
+    with pytest.raises(sf.InputError, match="PEtab has no name"):
+        sf.petab(problem, tmp_path / "none", {"shear_rate.values": sf.HalfNormal(1.0)})
+    assert not (tmp_path / "none").exists()
+
+
 def test_umbridge_client_gets_what_the_fit_has() -> None:
     bridge = pytest.importorskip("umbridge")
     problem = sf.problem(BED, seen(), "shear_rate.values")
