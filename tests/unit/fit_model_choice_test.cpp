@@ -92,9 +92,8 @@ TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
   std::size_t best = 0;
   for (std::size_t i = 0; i < 6; ++i) {
     ASSERT_TRUE(models.estimates[i].usable()) << models.estimates[i].message;
-    if (i > 0)
-      EXPECT_LE(models.estimates[i].misfit, models.estimates[i - 1].misfit * (1 + 1e-9))
-          << i + 1 << " layers";
+    const double before = i > 0 ? models.estimates[i - 1].misfit : HUGE_VAL;
+    EXPECT_LE(models.estimates[i].misfit, before * (1 + 1e-9)) << i + 1 << " layers";
     if (*models.estimates[i].bic < *models.estimates[best].bic) best = i;
   }
   EXPECT_EQ(best, 4U);
