@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ._petab import petab
     from ._posterior import Posterior
     from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
+    from ._profile import MisfitProfile
     from ._study import Study, study
     from ._tracking import Profile, Tracking
     from ._umbridge import umbridge
@@ -47,6 +48,7 @@ _LAZY = {
     "_petab": ("petab",),
     "_posterior": ("Posterior",),
     "_priors": ("HalfNormal", "LogNormal", "Normal", "Prior", "Uniform"),
+    "_profile": ("MisfitProfile",),
     "_study": ("Study", "study"),
     "_tracking": ("Profile", "Tracking"),
     "_umbridge": ("umbridge",),
@@ -63,6 +65,7 @@ __all__ = [
     "Jacobian",
     "LogNormal",
     "Misfit",
+    "MisfitProfile",
     "NoResult",
     "Normal",
     "Observations",

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ._fit import Problem
     from ._posterior import Posterior
     from ._priors import Prior
+    from ._profile import MisfitProfile
 
 _DRAWS = 1000
 
@@ -435,6 +436,65 @@ class Fit:
         """
         again = self.problem._engine.with_uncertainty(True, 0, 1, 0).run()
         return {row["name"]: row["profile95"] for row in again.parameters}
+
+    def profile_curve(self, name: str, *, points: int = 31, reach: float = 3.0) -> MisfitProfile:
+        """The least misfit along one unknown: where its 95 % interval ends, and whether it is a parabola.
+
+        Each value begins from its neighbour towards the estimate, where the linear model leads. Needs scipy.
+
+        Parameters
+        ----------
+        name : str
+            An unknown.
+        points : int, optional
+            Values.
+        reach : float, optional
+            How far either way, in standard errors of the linear model and within the bounds; of positive unknowns by their
+            logarithm.
+
+        Returns
+        -------
+        MisfitProfile
+
+        Raises
+        ------
+        InputError
+            For a name that is none, and for a loss that is not squared.
+
+        Examples
+        --------
+        >>> curve = found.profile_curve("shear_rate.values[1]", points=5)
+        >>> curve.increase.round(1).tolist()[2], bool(curve.increase[0] > curve.level)
+        (0.0, True)
+        """
+        from ._profile import profile_of
+
+        return profile_of(self, (name,), points, reach)
+
+    def profile_surface(self, name: str, other: str, *, points: int = 21, reach: float = 3.0) -> MisfitProfile:
+        """The same along two unknowns: how they make up for each other.
+
+        Parameters
+        ----------
+        name, other : str
+            Two unknowns.
+        points : int, optional
+            Values of each.
+        reach : float, optional
+            As of :meth:`profile_curve`.
+
+        Returns
+        -------
+        MisfitProfile
+
+        Examples
+        --------
+        >>> found.profile_surface("shear_rate.values[0]", "shear_rate.values[1]", points=3).increase.shape
+        (3, 3)
+        """
+        from ._profile import profile_of
+
+        return profile_of(self, (name, other), points, reach)
 
     def bootstrap(self, replicates: int = 200, seed: int = 1, threads: int = 0) -> Bootstrap:
         """Parametric bootstrap; the numbers do not depend on the threads (0: all cores).

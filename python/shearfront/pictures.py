@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ._arrays import FloatArray
     from ._estimate import Fit
     from ._options import Options
+    from ._profile import MisfitProfile
     from ._scene import Scene
     from ._solution import Events, Solution
     from ._tracking import Tracking
@@ -34,6 +35,8 @@ PHI = LinearSegmentedColormap.from_list("shearfront", ["#0d0887", "#6a00a8", "#b
 _LEAST_SHOCK = 0.15
 #: A band that ends beyond so many times the fit is drawn over the logarithm.
 _WIDEST = 5
+#: A profile over so many times its least value, too.
+_WIDE_GRID = 10
 _MAP_TIMES, _MAP_HEIGHTS = 300, 400
 
 
@@ -284,6 +287,55 @@ def rate(of: Fit, ax: Axes | None = None, *, truth: Scene | None = None) -> Axes
         ax.set_xlim(left=0)
     _label(ax, of.scene, "s a(z)", "z")
     ax.legend(framealpha=0.8, edgecolor="none", fontsize="small")
+    return ax
+
+
+def misfit(of: MisfitProfile, ax: Axes | None = None) -> Axes:
+    """The least misfit along one unknown, or along two, with the region that holds both in 95 % (and in 68 %).
+
+    Parameters
+    ----------
+    of : MisfitProfile
+        From :meth:`Fit.profile_curve` or :meth:`Fit.profile_surface`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> truth = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
+    >>> seen = truth.observe([0.2, 0.5, 1], [0.1, 0.3, 0.5, 0.7, 0.9], quantity="cumulative", noise=0.01)
+    >>> found = sf.fit(truth, seen, ["shear_rate.values"])
+    >>> sf.pictures.misfit(found.profile_curve("shear_rate.values[0]", points=9)).get_xlabel()
+    'shear_rate.values[0]'
+    """
+    ax = _axes(ax, (4.2, 3.4) if len(of.names) == 1 else (4.2, 3.8))
+    ax.set_xlabel(of.names[0])
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(False)
+    for values, set_scale in zip(of.grid, (ax.set_xscale, ax.set_yscale), strict=False):
+        if values.min() > 0 and values.max() > _WIDE_GRID * values.min():
+            set_scale("log")
+    if ax.get_xscale() == "linear":
+        ax.locator_params(axis="x", nbins=5)
+    if len(of.names) == 1:
+        ax.plot(of.grid[0], of.increase, color=COLOURS[0])
+        ax.axhline(of.level, color=_GREY, linestyle="--", linewidth=0.8)
+        ax.annotate(
+            "95 %", (0.99, of.level), xycoords=("axes fraction", "data"), va="bottom", ha="right", color=_DARK, fontsize="small"
+        )
+        ax.plot(of.estimates[0], 0, "o", ms=5, color=_DARK, clip_on=False, zorder=5)
+        ax.set_ylabel("least misfit above its minimum")
+        ax.set_ylim(0, 2.5 * of.level)
+        return ax
+    levels = (of.level * np.log(1 - 0.68) / np.log(1 - 0.95), of.level)
+    lines = ax.contour(*of.grid, of.increase.T, levels=levels, colors=(COLOURS[5], COLOURS[0]))
+    ax.clabel(lines, fmt=dict(zip(lines.levels, ("68 %", "95 %"), strict=True)), fontsize="small")
+    ax.plot(*of.estimates, "o", ms=5, color=_DARK)
+    ax.set_ylabel(of.names[1])
     return ax
 
 

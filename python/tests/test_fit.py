@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -276,3 +277,55 @@ def test_how_a_file_is_read_is_checked(may: sf.Scene) -> None:
             sf.read_data(may, "nowhere.csv", **wrong)
     with pytest.raises(sf.InputError, match="not both"):
         sf.data(may, "nowhere.csv", t=1)
+
+
+def misfit_fit() -> sf.Fit:
+    bed = sf.Scene(shear_rate=sf.Piecewise([0.6], [1.4, 0.6]), initial=sf.Step(0.5))
+    seen = bed.observe(T, Z, quantity="cumulative", noise=0.002, seed=5)
+    return sf.fit(bed, seen, ["shear_rate.values", "shear_rate.breaks"])
+
+
+def test_profile_curves_end_where_the_intervals_of_the_fit_do() -> None:
+    pytest.importorskip("scipy")
+    found = misfit_fit()
+    intervals = found.profile()
+    for name in found.names:
+        curve = found.profile_curve(name, points=61, reach=3.5)
+        x, above = curve.grid[0], curve.increase - curve.level
+        ends = [
+            x[i] - above[i] * (x[i + 1] - x[i]) / (above[i + 1] - above[i]) for i in range(60) if above[i] * above[i + 1] <= 0
+        ]
+        interval = intervals[name]
+        assert interval is not None
+        # Between two of the places the curve is a parabola: the chord is off by an eighth of the square of their distance.
+        assert ends == pytest.approx(list(interval), abs=0.01 * (interval[1] - interval[0]))
+
+
+def test_profile_surfaces_are_least_where_curves_are() -> None:
+    pytest.importorskip("scipy")
+    found = misfit_fit()
+    name, other = "shear_rate.values[0]", "shear_rate.breaks[0]"
+    surface = found.profile_surface(name, other, points=25)
+    curve = found.profile_curve(name, points=25)
+    assert surface.grid[0] == pytest.approx(curve.grid[0])
+    # The least of a row is at most half a step from the least of all: above it by an eighth of the second difference, if that is
+    # a parabola.
+    inner = 0
+    for row, least in zip(surface.increase, curve.increase, strict=True):
+        i = int(np.argmin(row))
+        if not 0 < i < len(row) - 1:
+            continue
+        inner += 1
+        assert least - 1e-6 <= row[i] <= least + 1.2 * (row[i - 1] - 2 * row[i] + row[i + 1]) / 8
+    assert inner > 5
+    assert surface.level == pytest.approx(-math.log(0.05))
+    assert curve.evaluations <= 4 * 25
+
+
+def test_profile_refuses_names_and_losses() -> None:
+    pytest.importorskip("scipy")
+    found = misfit_fit()
+    with pytest.raises(sf.InputError, match="must be one of: shear_rate"):
+        found.profile_curve("shear_rate.depth")
+    with pytest.raises(sf.InputError, match="must be another unknown"):
+        found.profile_surface(found.names[0], found.names[0])
