@@ -44,8 +44,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     add_route(view_, route, s);
     return s;
   }
-  /// dw/dT: dT/dw is more than the largest number where w is very small.
-  [[nodiscard]] static Scalar fan_slope(const Sample& s) { return s.v / s.F(); }
+  /// t dw/dT.
+  [[nodiscard]] Scalar fan_slope(const Sample& s) const { return t_ / s.F() * s.v; }
 
   void finish_fan(const Route& route, std::size_t node, const Scalar& base, const Sample& s,
                   const Scalar& step, bool turned, std::size_t turn) {
@@ -70,7 +70,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     zero.T = time;
     if (zero.T > late_) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
-    const auto slope = [](const Sample& s) { return fan_slope(s); };
+    const auto slope = [&](const Sample& s) { return fan_slope(s); };
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, false, 0);
     };
@@ -91,7 +91,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Sample a = at(w_of(lo, route.least));
     if (bound(base, a) > limit()) return;
     const Sample b = at(w_of(hi, route.least));
-    const auto slope = [](const Sample& s) { return fan_slope(s); };
+    const auto slope = [&](const Sample& s) { return fan_slope(s); };
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, true, j);
     };
@@ -117,7 +117,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
       if (!(w > 0 && w < Scalar(1))) return false;
       const Sample s = fan_sample(route, w);
       if (!is_finite(s.T) || (turned ? !(s.F() < 0) : !(s.F() > 0))) return false;
-      const Scalar step = fan_slope(s) * (t_ - s.T);
+      const Scalar step = fan_slope(s) * ((t_ - s.T) / t_);
       if (!(w + step >= least && w + step <= most)) return false;
       if ((step < 0 ? Scalar(-step) : step) > close * w) {
         w += step;
@@ -219,7 +219,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const std::size_t k = range.cell;
     const auto at = [&](const Scalar& v) { return state_sample(route, range, v); };
     const auto slope = [&](const Sample& s) {
-      return Scalar(Scalar(-1) / (s.F() * (slope_of_start(range, s) / s.rate)));
+      return Scalar(-t_ / (s.F() * (slope_of_start(range, s) / s.rate)));
     };
     const auto found = [&](const Sample& s, const Scalar& by) {
       const Start start = start_at(range, std::clamp(Scalar(s.v + by), Scalar(0), Scalar(1)));

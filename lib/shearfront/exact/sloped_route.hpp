@@ -54,7 +54,7 @@ struct SlopedRoute {
     }
     add_bounds(view, cell, run, passes);
   }
-  /// Calls visit(leg, cell, run, is_whole) for every run.
+  /// Calls visit(leg, cell, run) for every run.
   template <class Visit>
   void for_each_run(const SlopedView<Scalar>& view, const Visit& visit) const {
     for (const Leg* leg : {&once, &twice}) {
@@ -145,7 +145,7 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
 }
 
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
-/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is dv/dT there.
+/// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is t dv/dT there: dv/dT itself may be no number.
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
 /// point before t, so the sign is known: + for straight fans, - for turned ones.
 template <Real Scalar, class At, class Slope, class Found>
@@ -190,7 +190,7 @@ class SlopedRootSearch {
     Place last, here{guess(lo, lo_T, hi, hi_T), Scalar(0), Scalar(0)};
     for (int n = 0; n < 400; ++n) {
       const SlopedSample<Scalar> s = at_(here.v);
-      const Scalar gap = t_ - s.T;
+      const Scalar gap = (t_ - s.T) / t_;
       (gap > 0 ? lo : hi) = here.v;
       here.T = s.T;
       here.slope = slope_(s);
@@ -212,7 +212,7 @@ class SlopedRootSearch {
 
  private:
   struct Place {
-    Scalar v{0}, T{0}, slope{0};
+    Scalar v{0}, T{0}, slope{0};  ///< t dv/dT
   };
   static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
   /// So small that its square is rounding.
@@ -225,8 +225,8 @@ class SlopedRootSearch {
   /// Its error is (t - T)^2 (t - T_last)^2 / 24 times the fourth derivative. With the length of v over which the slope changes, known
   /// from what the cubic corrects, that is correction^3 (way from the last place)^2 / step^4.
   [[nodiscard]] bool refine(const Place& last, const Place& here, Scalar& step) const {
-    const Scalar gap = t_ - here.T, before = t_ - last.T, apart = last.T - here.T;
-    if (!(Scalar(4) * size(before) < t_) || apart == 0) return false;
+    const Scalar gap = (t_ - here.T) / t_, before = (t_ - last.T) / t_, apart = (last.T - here.T) / t_;
+    if (!(Scalar(4) * size(before) < Scalar(1)) || apart == 0) return false;
     const Scalar chord = (last.v - here.v) / apart, near = (chord - here.slope) / apart,
                  far = (last.slope - chord) / apart;
     const Scalar newton = here.slope * gap, correction = gap * gap * (near + before * ((far - near) / apart));
