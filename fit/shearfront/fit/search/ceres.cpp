@@ -125,21 +125,29 @@ void silence_log() {
   if (!google::IsGoogleLoggingInitialized()) FLAGS_minloglevel = google::GLOG_FATAL;
 }
 
-/// Ends the search where nothing is left to find, or when told to.
+/// Ends the search where nothing is left to find, or when told to. With derivatives by differences that is where a step comes of which the
+/// linear model expects less than this part of the misfit, some 1e-4 of a standard error: those that follow are as long as the error of
+/// the derivatives makes them.
 class Stop final : public ceres::IterationCallback {
  public:
-  Stop(const Allowance& allowance, double rounding) : allowance_(&allowance), rounding_(rounding) {}
+  Stop(const Allowance& allowance, double rounding, bool has_derivatives)
+      : allowance_(&allowance), rounding_(rounding), has_derivatives_(has_derivatives) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
     if (at.cost <= rounding_) is_at_rounding_ = true;
-    return is_at_rounding_ || allowance_->must_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                      : ceres::SOLVER_CONTINUE;
+    const bool has_step = at.iteration > 0 && at.step_is_valid && at.relative_decrease != 0;
+    is_at_noise_ =
+        !has_derivatives_ && has_step && std::abs(at.cost_change / at.relative_decrease) <= kWorth * at.cost;
+    return is_at_rounding_ || is_at_noise_ || allowance_->must_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                                      : ceres::SOLVER_CONTINUE;
   }
   [[nodiscard]] bool is_at_rounding() const { return is_at_rounding_; }
+  [[nodiscard]] bool is_at_noise() const { return is_at_noise_; }
 
  private:
+  static constexpr double kWorth = 1e-9;
   const Allowance* allowance_;
   double rounding_;
-  bool is_at_rounding_ = false;
+  bool has_derivatives_, is_at_rounding_ = false, is_at_noise_ = false;
 };
 
 void set_bounds(ceres::Problem& problem, Batch& batch, const Coordinates& coordinates,
@@ -200,7 +208,8 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
     for (Index i = 0; i < n; ++i)
       problem.AddResidualBlock(new RowCost(batch, i, 1, start.size()), &row_loss, blocks);
   set_bounds(problem, batch, objective.coordinates(), fixed);
-  Stop stop(allowance, batch.size() * batch.size() * objective.rounding_misfit());
+  Stop stop(allowance, batch.size() * batch.size() * objective.rounding_misfit(),
+            objective.has_derivatives());
   ceres::Solver::Summary summary;
   static std::once_flag once;
   std::call_once(once, silence_log);
@@ -220,7 +229,9 @@ SearchResult solve(Objective& objective, const VectorXd& start, const SearchSpec
     result.message = "the misfit is at rounding level";
     return result;
   }
-  result.status = summary.termination_type == ceres::CONVERGENCE ? Status::ok : Status::not_converged;
+  const bool has_converged = summary.termination_type == ceres::CONVERGENCE || stop.is_at_noise();
+  if (stop.is_at_noise()) result.message = "the noise of the model leaves nothing to find";
+  result.status = has_converged ? Status::ok : Status::not_converged;
   allowance.report(result);
   return result;
 }
