@@ -37,6 +37,15 @@ class MisfitProfile:
         Of these unknowns.
     evaluations : int
         Runs of the forward model.
+
+    Examples
+    --------
+    >>> import shearfront as sf
+    >>> bed = sf.Scene(shear_rate=sf.Piecewise([0.6], [1.4, 0.6]), initial=sf.Step(0.5))
+    >>> seen = bed.observe([0.2, 0.5, 1], [0.1, 0.3, 0.5, 0.7, 0.9], quantity="cumulative", noise=0.01)
+    >>> curve = sf.fit(bed, seen, ["shear_rate.values"]).profile_curve("shear_rate.values[0]", points=5)
+    >>> len(curve.grid[0]), bool(curve.increase.min().round(3) == 0), round(curve.level, 2)
+    (5, True, 1.92)
     """
 
     names: tuple[str, ...]
