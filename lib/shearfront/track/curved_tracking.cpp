@@ -157,9 +157,8 @@ class CurvedTracking final : public AnyTracking {
   [[nodiscard]] std::string message() const {
     if (has_lost())
       return "rounding lost " + number_text(lost_, 2) +
-             " of what the bed holds: rates or heights differ by too much for curved fronts; exact and "
-             "finite volumes "
-             "take such beds";
+             " of what the bed holds: rates or heights differ by too much, or by next to nothing, for "
+             "curved fronts; exact and finite volumes take such beds";
     if (tracker_.has_too_many_fronts())
       return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
              " fronts, more than allowed; use a coarser resolution, or allow more, at 128 bytes each and as "
