@@ -7,6 +7,7 @@
 
 #include "shearfront/exact/medium.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
+#include "shearfront/exact/sloped_place.hpp"
 #include "shearfront/exact/sloped_throats.hpp"
 
 namespace shearfront::exact {

@@ -8,6 +8,7 @@
 #include "shearfront/exact/path.hpp"
 #include "shearfront/exact/sloped_bed.hpp"
 #include "shearfront/exact/sloped_curved.hpp"
+#include "shearfront/exact/sloped_place.hpp"
 #include "shearfront/exact/sloped_route.hpp"
 
 namespace shearfront::exact {
