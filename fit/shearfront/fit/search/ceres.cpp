@@ -120,9 +120,12 @@ class RowLoss final : public ceres::LossFunction {
   double size2_;
 };
 
-/// Ceres tells developers what it tries, on standard error if nobody has set up its log: the outcome says it here.
+/// Ceres tells developers what it tries, on standard error if nobody has set up its log: the outcome says it here. One that was built with a
+/// small log of its own (miniglog) has been told then.
 void silence_log() {
+#ifndef CERCES_INTERNAL_MINIGLOG_GLOG_LOGGING_H_
   if (!google::IsGoogleLoggingInitialized()) FLAGS_minloglevel = google::GLOG_FATAL;
+#endif
 }
 
 /// Ends the search where nothing is left to find, or when told to. With derivatives by differences that is where a step comes of which the
