@@ -75,8 +75,9 @@ std::string reshaped(const CLI::ParseError& error, const std::vector<Command>& c
     return text.substr(begin, end - begin) + ": takes no value";
   }
   if (error.get_name() != "ArgumentMismatch") return text;
-  return name + (text.find("At Most") != std::string::npos ? ": must not be given more than once"
-                                                           : ": needs a value");
+  const bool is_twice =
+      text.find("At Most") != std::string::npos || text.find("At most") != std::string::npos;
+  return name + (is_twice ? ": must not be given more than once" : ": needs a value");
 }
 
 int run(int argc, char** argv) {
