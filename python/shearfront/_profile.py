@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._errors import one_complaint
+from ._errors import NoResult, one_complaint
 
 if TYPE_CHECKING:
     from ._arrays import FloatArray
@@ -30,7 +30,7 @@ class MisfitProfile:
         Their values.
     increase : ndarray
         By how much the least misfit there exceeds that of the estimate, one axis for each unknown; NaN where the model has no
-        solution.
+        solution, or the search for the other unknowns did not end.
     level : float
         The increase where the 95 % region of these unknowns ends, both at once if there are two.
     estimates : tuple of float
@@ -154,8 +154,6 @@ class _Search:
         self, values: FloatArray, near: tuple[FloatArray, FloatArray, FloatArray]
     ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
         """Place, residuals and Jacobian where the misfit is least with these values, searched from another such place."""
-        from ._errors import NoResult
-
         x, r, J = near
         step = np.zeros_like(x)
         step[self.fixed] = values - x[self.fixed]
@@ -194,6 +192,8 @@ class _Search:
             ftol=1e-9,
             max_nfev=_MOST_EVALUATIONS,
         )
+        if best.status <= 0:
+            raise NoResult(best.message)
         x = first.copy()
         x[free] = best.x
         return x, *at(best.x)
