@@ -27,7 +27,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
  protected:
   using Base = SlopedStarts<Scalar>;
   using Base::gained, Base::late_, Base::limit, Base::moving_only_, Base::offer, Base::size_of_bend,
-      Base::search_curved_cell, Base::slack_, Base::start_at, Base::t_, Base::view_, Base::w_of, Base::z_;
+      Base::search_curved_cell, Base::slack_, Base::start_at, Base::t_, Base::view_, Base::z_;
   using typename Base::CellState;
   using typename Base::Leaves;
   using typename Base::Range;
@@ -144,10 +144,10 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     return all.may_be(t_);
   }
 
-  /// The state at a rate r in a cell, on the way of a route on which h = least (1 - lack).
+  /// The state at a rate r in a cell, on the way of a route on which h = least - lost.
   [[nodiscard]] State state_at(std::size_t cell, bool is_up, const Scalar& r, const Scalar& least,
-                               const Scalar& lack, const Scalar& h) const {
-    const Scalar e = r == least ? lack : Scalar(((r - least) + least * lack) / r);
+                               const Scalar& lost, const Scalar& h) const {
+    const Scalar e = ((r - least) + lost) / r;
     return view_.side(cell, is_up)
         .at(std::clamp(e, Scalar(0), Scalar(1)), std::min(Scalar(1), Scalar(h / r)));
   }
@@ -158,7 +158,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     return {std::max(Scalar(0), Scalar(q0 / Scalar(2))), std::min(missing, view_.side(k, true).reach())};
   }
 
-  /// Adds all runs and the turn of a route to a sample that has h and qm2.
+  /// Adds all runs and the turn of a route to a sample that has h and lost.
   void add_law_route(const Route& route, Sample& s) const {
     // Where two runs meet at one rate in one flux they share the state.
     struct {
@@ -173,9 +173,9 @@ class LawCandidates : protected SlopedStarts<Scalar> {
         if (leg.passes == (is_up ? Passes::downwards : Passes::upwards)) continue;
         auto& [r, state, of] = last[is_up];
         const State begin =
-            r == run.r1 && of == flux ? state : state_at(cell, is_up, run.r1, route.least, s.qm2, s.h);
+            r == run.r1 && of == flux ? state : state_at(cell, is_up, run.r1, route.least, s.lost, s.h);
         r = run.r2;
-        state = state_at(cell, is_up, run.r2, route.least, s.qm2, s.h);
+        state = state_at(cell, is_up, run.r2, route.least, s.lost, s.h);
         of = flux;
         const LawRun<Scalar> law(view_.side(cell, is_up), run.form, bend, run.d, run.r1, begin, run.r2, state,
                                  s.h);
@@ -187,8 +187,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
       const std::size_t j = route.turn_cell;
       const Scalar& r = route.turn_rate;
       const LawTurn<Scalar> turn(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend,
-                                 r, state_at(j, true, r, route.least, s.qm2, s.h),
-                                 state_at(j, false, r, route.least, s.qm2, s.h), s.h);
+                                 r, state_at(j, true, r, route.least, s.lost, s.h),
+                                 state_at(j, false, r, route.least, s.lost, s.h), s.h);
       s.T_falling += turn.T;
       s.X += turn.X;
       s.X_falling += turn.X;
@@ -202,8 +202,14 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     Sample s;
     s.v = w;
     s.qm = (one - w) / more;
-    s.qm2 = s.qm * s.qm;
+    s.lost = route.least * s.qm * s.qm;
     s.h = Scalar(4) * route.least * w / (more * more);
+    add_law_route(route, s);
+    return s;
+  }
+  /// Of an h to the bit, as SlopedCandidates.
+  [[nodiscard]] Sample fan_sample_of(const Route& route, const Scalar& h) const {
+    Sample s = this->fan_of(route, h);
     add_law_route(route, s);
     return s;
   }
@@ -232,11 +238,12 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     const Sample top = fan_sample(route, Scalar(1));
     // It comes too early: it dawdles where the rate is least, in a flux with a kink. Any other rests at a throat.
     if (top.T <= t_ && has_kink(route)) return offer_fan(route, node, base, top, false, 0);
-    // Right then both are the path, and rounding must not drop both.
-    if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
     Sample zero;
     zero.T = time;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
+    // Right then both are the path, of the same cost, and rounding must not drop both.
+    if (top.T < t_ && !is_end_close(top, zero, at, Scalar(Scalar(256) * unit_roundoff<Scalar>() * t_)))
+      return;
     roots(
         1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); }, kSure,
         never_dear);
@@ -246,14 +253,14 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     const Scalar base = view_.M[node] + gained(view_.x[node], top);
     if (base > limit()) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
-    const Sample a = at(w_of(lo, route.least));
+    const Sample a = fan_sample_of(route, lo);
     // No path along the route with a larger h costs less: H' t + int p dz at a smaller H'.
     const auto is_dear = [&](const Sample& s) {
       return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising) > limit();
     };
     if (is_dear(a)) return;
     roots(
-        -1, a, at(w_of(hi, route.least)), at,
+        -1, a, fan_sample_of(route, hi), at,
         [&](const Sample& s) { offer_fan(route, node, base, s, true, j); }, 0, is_dear);
   }
 
@@ -267,8 +274,9 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     s.y = start.y;
     s.rate = start.rate;
     s.h = start.h;
-    s.qm2 = range.qa2 + range.kappa * start.lost;
-    s.qm = sqrt(s.qm2);
+    const Scalar qm2 = range.qa2 + range.kappa * start.lost;
+    s.qm = sqrt(qm2);
+    s.lost = route.least * qm2;
     add_law_route(route, s);
     add_way(route, k, range.leaves == Leaves::upwards, start.d, initial_state(k), view_.e0[k], view_.G0[k],
             s);
@@ -279,7 +287,9 @@ class LawCandidates : protected SlopedStarts<Scalar> {
                const Scalar& lack, const Scalar& G, Sample& s) const {
     const Scalar& exit = leaves_up ? view_.high[k] : view_.low[k];
     const auto at_exit = [&](const State& at_start) {
-      return exit == s.rate ? at_start : state_at(k, leaves_up, exit, route.least, s.qm2, s.h);
+      // Next to the peak rates that are the same still have states that differ, by what the start has lost.
+      const bool is_there = !(d > 0) || view_.bend[k] == 0;
+      return is_there ? at_start : state_at(k, leaves_up, exit, route.least, s.lost, s.h);
     };
     if (leaves_up) {
       const LawRun<Scalar> run(view_.side(k, true), view_.form[k], view_.bend[k], d, s.rate, from, exit,
@@ -328,9 +338,9 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     Sample s;
     s.h = view_.h(k, r);
     if (!(view_.q0[k] > 0) || s.h < h_low) return;
-    s.qm2 = ((route.least - r) + r * view_.e0[k]) / route.least;
-    if (s.qm2 < 0) return;
-    s.qm = sqrt(s.qm2);
+    s.lost = (route.least - r) + r * view_.e0[k];
+    if (s.lost < 0) return;
+    s.qm = sqrt(Scalar(s.lost / route.least));
     add_law_route(route, s);
     if (!(s.T <= late_)) return;
     const LawSide<Scalar> side = view_.side(k, true);
@@ -361,8 +371,8 @@ class LawCandidates : protected SlopedStarts<Scalar> {
              const IsDear& is_dear) {
     int left = kMostSamples;
     const Scalar tolerance = Scalar(256) * unit_roundoff<Scalar>() * t_;
-    for (const Sample* s : {&a, &b})
-      if (is_close(s->T, tolerance)) found(*s);
+    if (is_end_close(a, b, at, tolerance)) found(a);
+    if (is_end_close(b, a, at, tolerance)) found(b);
     halve(sign, a, b, at, found, is_dear, tolerance, depth, left);
   }
   template <class At, class Found, class IsDear>
@@ -380,8 +390,27 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     --left;
     const Sample m = at(middle);
     if (is_close(m.T, tolerance)) found(m);
-    halve(sign, a, m, at, found, is_dear, tolerance, depth + 1, left);
+    // First where T is nearer to t, lest all samples are spent elsewhere.
+    const auto away = [&](const Sample& s) { return s.T < t_ ? Scalar(t_ - s.T) : Scalar(s.T - t_); };
+    const bool is_a_nearer = away(a) < away(b);
+    if (is_a_nearer) halve(sign, a, m, at, found, is_dear, tolerance, depth + 1, left);
     halve(sign, m, b, at, found, is_dear, tolerance, depth + 1, left);
+    if (!is_a_nearer) halve(sign, a, m, at, found, is_dear, tolerance, depth + 1, left);
+  }
+  /// Whether T is t at the end `s` of an interval, but for rounding: of T, and of h, as in SlopedRootSearch, by what T is beside it.
+  template <class At>
+  [[nodiscard]] bool is_end_close(const Sample& s, const Sample& other, const At& at,
+                                  const Scalar& tolerance) const {
+    using std::sqrt;
+    if (is_close(s.T, tolerance)) return true;
+    const Scalar few = Scalar(32) * unit_roundoff<Scalar>();
+    if (!is_close(s.T, Scalar(sqrt(few) * t_))) return false;
+    // h is of second order in v where q_m = 0.
+    const Scalar apart = s.h < other.h ? Scalar(other.h - s.h) : Scalar(s.h - other.h);
+    const Scalar part = s.qm * s.qm > few ? Scalar(few * s.h / apart) : Scalar(sqrt(few));
+    if (!(part < Scalar(1))) return true;
+    const Scalar T = at(Scalar(s.v + part * (other.v - s.v))).T;
+    return is_close(s.T, Scalar(tolerance + (T < s.T ? Scalar(s.T - T) : Scalar(T - s.T))));
   }
   [[nodiscard]] static bool never_dear(const Sample&) { return false; }
   [[nodiscard]] bool is_close(const Scalar& T, const Scalar& tolerance) const {

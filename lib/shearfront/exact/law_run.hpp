@@ -74,14 +74,14 @@ class LawSide {
   /// m2 - m1 by what is known better, and whether that is good enough.
   struct Change {
     Scalar value;
-    bool is_large;
+    bool is_large, by_peak;
   };
   [[nodiscard]] static Change change(const State& a, const State& b) {
     const Scalar of_peak = std::max(a.from_peak, b.from_peak), of_pure = std::max(a.from_pure, b.from_pure);
     const bool by_peak = of_peak < of_pure;
     const Scalar value = by_peak ? Scalar(a.from_peak - b.from_peak) : Scalar(b.from_pure - a.from_pure);
     const Scalar size = value < 0 ? Scalar(-value) : value;
-    return {value, size > (by_peak ? of_peak : of_pure) / Scalar(16)};
+    return {value, size > (by_peak ? of_peak : of_pure) / Scalar(16), by_peak};
   }
   /// Mean of 1 / G over m between two states.
   [[nodiscard]] Scalar mean_inverse(const Scalar& m1, const Scalar& m2) const {
@@ -208,7 +208,7 @@ struct LawRun {
       return;
     }
     const Scalar rise = rise_of(form, bend, r1, d);
-    const auto [rho, is_by_ends] = steepness(side, rise, r1, s1, r2, s2, h);
+    const auto [rho, ends] = steepness(side, rise, r1, s1, r2, s2, h);
     if (!is_finite(rho)) {
       T = infinity<Scalar>();
       return;
@@ -216,10 +216,13 @@ struct LawRun {
     const Scalar &m1 = s1.from_pure, &m2 = s2.from_pure;
     if (form == RateForm::linear) {
       T = Scalar(4) * d * rho * side.mean_inverse(m1, m2);
-      if (is_by_ends)
-        X = d * ((r1 * m1 - r2 * m2) / rise);  // the same, and small terms only where the ends are far apart
-      else
+      // By the ends the same, of terms that are small where these are far apart: next to the peak those of the distances from it.
+      if (ends == Ends::alike)
         X = d * h * rho * side.mean_bow_over_height(m1, m2);
+      else if (ends == Ends::by_peak)
+        X = d * ((r2 * s2.from_peak - r1 * s1.from_peak) / rise - side.reach());
+      else
+        X = d * ((r1 * m1 - r2 * m2) / rise);
     } else {
       const Scalar way = rise / bend;
       T = Scalar(4) * rho * way / h;
@@ -229,18 +232,20 @@ struct LawRun {
 
   /// rho of a run in which r gains `rise`. Next to the peak states are known by what r differs from h, and that to rounding: where r
   /// hardly changes their difference is none of its.
+  enum class Ends { alike, by_peak, by_pure };  ///< whether they differ by more than rounding, and in what
   struct Steepness {
     Scalar rho;
-    bool is_by_ends;  ///< they differ by more than rounding
+    Ends ends;
   };
   [[nodiscard]] static Steepness steepness(const LawSide<Scalar>& side, const Scalar& rise, const Scalar& r1,
                                            const LawState<Scalar>& s1, const Scalar& r2,
                                            const LawState<Scalar>& s2, const Scalar& h) {
     static const Scalar kResolved(std::ldexp(1.0, 6 - std::numeric_limits<Scalar>::digits / 2));
-    const auto [change, is_large] = LawSide<Scalar>::change(s1, s2);
+    const auto [change, is_large, by_peak] = LawSide<Scalar>::change(s1, s2);
     const Scalar least = kResolved * r1;
-    if (is_large && (rise > least || -rise > least)) return {-change / rise, true};
-    return {h / r1 / r2 / side.chord(s1, s2), false};
+    if (is_large && (rise > least || -rise > least))
+      return {-change / rise, by_peak ? Ends::by_peak : Ends::by_pure};
+    return {h / r1 / r2 / side.chord(s1, s2), Ends::alike};
   }
 
   /// int dz / r.

@@ -35,6 +35,8 @@ struct Path {
   /// Layered media: 4 H = r_reference (1 - x^2), so that what layer k lacks to its capacity,
   /// (r_k - r_reference + r_reference x^2) / r_k, keeps its accuracy near the capacity, where H alone does not.
   Scalar r_reference{0}, x{1};
+  /// r_reference - 4 H.
+  [[nodiscard]] Scalar lost() const { return r_reference * x * x; }
 
   /// Smaller value first; at a tie (a shock passes through z) the smaller p, which is the state above.
   [[nodiscard]] bool better_than(const Path& other) const {

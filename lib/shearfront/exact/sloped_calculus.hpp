@@ -195,9 +195,7 @@ class ParabolaCalculus {
     using std::sqrt;
     return sqrt(unit_roundoff<Scalar>());
   }
-  [[nodiscard]] Scalar q(const Scalar& rate) const {
-    return q_at(rate, path_.r_reference, Scalar(path_.x * path_.x));
-  }
+  [[nodiscard]] Scalar q(const Scalar& rate) const { return q_at(rate, path_.r_reference, path_.lost()); }
 
   const SlopedPieces<Scalar>& pieces_;
   const Path<Scalar>& path_;

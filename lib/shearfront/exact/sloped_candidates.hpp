@@ -39,8 +39,14 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     Sample s;
     s.v = w;
     s.qm = (one - w) / more;
-    s.qm2 = s.qm * s.qm;
+    s.lost = route.least * s.qm * s.qm;
     s.h = Scalar(4) * route.least * w / (more * more);
+    add_route(view_, route, s);
+    return s;
+  }
+  /// Of an h to the bit: next to where a path turns right at a node, rounding of h is 1e-8 in q.
+  [[nodiscard]] Sample fan_sample_of(const Route& route, const Scalar& h) const {
+    Sample s = this->fan_of(route, h);
     add_route(view_, route, s);
     return s;
   }
@@ -62,8 +68,8 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     if (base > limit()) return;  // L >= max(0, v)
     const Sample top = fan_sample(route, Scalar(1));
     if (is_finite(top.T)) {
-      // Later it rests at the least rate on its way. Right then both are the path, and rounding must not drop both.
-      if (top.T < t_ - Scalar(256) * unit_roundoff<Scalar>() * t_) return;
+      // Later it rests at the least rate on its way. Right then both are the path, of the same cost, and rounding must not drop both.
+      if (top.T < t_ && top.T < t_ - rounding_of_time(top, t_)) return;
       if (base + top.X + top.h / Scalar(4) * (t_ - top.T) > limit()) return;
     }
     Sample zero;
@@ -88,9 +94,9 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Scalar base = view_.M[node] + gained(view_.x[node], top);
     if (base + view_.turn_times.least_cost(t_, node, above_, j, lo) > limit()) return;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
-    const Sample a = at(w_of(lo, route.least));
+    const Sample a = fan_sample_of(route, lo);
     if (bound(base, a) > limit()) return;
-    const Sample b = at(w_of(hi, route.least));
+    const Sample b = fan_sample_of(route, hi);
     const auto slope = [&](const Sample& s) { return fan_slope(s); };
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, true, j);
@@ -174,12 +180,13 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     s.y = start.y;
     s.rate = start.rate;
     s.h = start.h;
-    s.qm2 = range.qa2 + range.kappa * start.lost;
-    s.qm = sqrt(s.qm2);
+    const Scalar qm2 = range.qa2 + range.kappa * start.lost;
+    s.qm = sqrt(qm2);
+    s.lost = route.least * qm2;
     add_route(view_, route, s);
     const bool up = range.leaves == Leaves::upwards;
     const Scalar& exit = up ? view_.high[k] : view_.low[k];
-    const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
+    const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.lost);
     const Crossing<Scalar> c(view_.form[k], start.d, s.rate, view_.q0[k], exit, q, s.h);
     s.T += c.T;
     s.X += c.X;
@@ -241,10 +248,10 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     Sample s;
     s.h = view_.h(k, r);
     if (!(q0 > 0) || s.h < h_low) return;
-    s.qm2 = ((route.least - r) + r * q0 * q0) / route.least;
-    if (s.qm2 < 0) return;
+    s.lost = (route.least - r) + r * q0 * q0;
+    if (s.lost < 0) return;
     using std::sqrt;
-    s.qm = sqrt(s.qm2);
+    s.qm = sqrt(Scalar(s.lost / route.least));
     add_route(view_, route, s);
     if (!(s.T <= late_)) return;
     const Scalar left = std::max(Scalar(0), Scalar(t_ - s.T)), speed = r * q0;
@@ -265,7 +272,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
       add_route(view_, route, s);
       const Scalar& exit = leaves_up ? view_.high[k] : view_.low[k];
       const Scalar d = leaves_up ? view_.x[k + 1] - s.y : s.y - view_.x[k];
-      const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.qm2);
+      const Scalar q = exit == route.least ? s.qm : q_at(exit, route.least, s.lost);
       if (d > 0) {
         const Crossing<Scalar> c(view_.form[k], d, s.rate, from.q0, exit, q, s.h);
         s.T += c.T;

@@ -303,7 +303,7 @@ template <Real Scalar>
 void SlopedMedium<Scalar>::add_run(const Path<Scalar>& path, const Scalar& from, const Scalar& to,
                                    Costs& costs) const {
   const Scalar &lo = std::min(from, to), &hi = std::max(from, to), h = Scalar(4) * path.H;
-  const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, Scalar(path.x * path.x)); };
+  const auto q = [&](const Scalar& rate) { return q_at(rate, path.r_reference, path.lost()); };
   const bool is_up = from < to;
   for (std::size_t k = pieces_.piece_at(lo); k < pieces_.size() && pieces_.boundaries[k] < hi; ++k) {
     const Scalar a = std::max(lo, pieces_.boundaries[k]), b = std::min(hi, pieces_.boundaries[k + 1]);
@@ -333,7 +333,7 @@ void SlopedMedium<Scalar>::add_turn(const Path<Scalar>& path, std::size_t piece,
     add(LawTurn<Scalar>(fluxes_->side(piece, true), fluxes_->side(piece, false), pieces_.form[piece], bend, r,
                         state_on(path, piece, r, true), state_on(path, piece, r, false), h));
   else
-    add(Turn<Scalar>(pieces_.form[piece], bend, r, q_at(r, path.r_reference, Scalar(path.x * path.x)), h));
+    add(Turn<Scalar>(pieces_.form[piece], bend, r, q_at(r, path.r_reference, path.lost()), h));
 }
 
 /// The value of a path is (M0 at its start + U) + sum X + H (t - sum T), U the height gained on its ways up, those in a turn
@@ -372,7 +372,7 @@ Scalar SlopedMedium<Scalar>::shortfall(const Path<Scalar>& path, const Scalar& z
     const Scalar bend = is_up ? Scalar(-pieces_.bend[j]) : pieces_.bend[j], X_before = X;
     add_turn(path, j, r, is_up, costs);
     if (!fluxes_ && pieces_.form[j] == RateForm::linear)
-      X = X_before + (r_end - h / (Scalar(1) + q_at(r, path.r_reference, Scalar(path.x * path.x)))) / bend;
+      X = X_before + (r_end - h / (Scalar(1) + q_at(r, path.r_reference, path.lost()))) / bend;
     else
       X -= is_up ? Scalar(far - last) : Scalar(last - far);
   } else {

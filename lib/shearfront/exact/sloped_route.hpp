@@ -72,10 +72,10 @@ struct SlopedRoute {
 /// kept times h, for rates may fall by more than the root of the largest number.
 template <Real Scalar>
 struct SlopedSample {
-  Scalar v{0};  ///< the variable of the search
-  Scalar h{0}, qm2{0}, qm{0};
-  Scalar y{0}, rate{0};  ///< start of a state, and r there
-  Scalar T{0}, X{0};     ///< X: with half of the E of a turn
+  Scalar v{0};                  ///< the variable of the search
+  Scalar h{0}, lost{0}, qm{0};  ///< lost = least - h
+  Scalar y{0}, rate{0};         ///< start of a state, and r there
+  Scalar T{0}, X{0};            ///< X: with half of the E of a turn
   /// The parts of T that do not decrease and do not increase with h: not T less the other, which may be far larger.
   Scalar T_rising{0}, T_falling{0};
   Scalar X_falling{0};  ///< X of the turn
@@ -85,19 +85,19 @@ struct SlopedSample {
   [[nodiscard]] Scalar F() const { return rising + qm * steep + up - down; }
 };
 
-/// q at a node of rate r.
+/// q at a node of rate r, where h = least - lost.
 template <Real Scalar>
-[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& inverse, const Scalar& least, const Scalar& qm2) {
+[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& inverse, const Scalar& least, const Scalar& lost) {
   using std::sqrt;
-  const Scalar q2 = ((r - least) + least * qm2) * inverse;
+  const Scalar q2 = ((r - least) + lost) * inverse;
   return q2 > 0 ? Scalar(sqrt(q2)) : Scalar(0);
 }
 template <Real Scalar>
-[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& least, const Scalar& qm2) {
-  return q_at<Scalar>(r, Scalar(1) / r, least, qm2);
+[[nodiscard]] Scalar q_at(const Scalar& r, const Scalar& least, const Scalar& lost) {
+  return q_at<Scalar>(r, Scalar(1) / r, least, lost);
 }
 
-/// Adds all runs and the turn of a route to a sample that has h, qm2, qm.
+/// Adds all runs and the turn of a route to a sample that has h, lost, qm.
 template <Real Scalar>
 void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route, SlopedSample<Scalar>& s) {
   const Scalar& least = route.least;
@@ -105,8 +105,8 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
   route.for_each_run(view, [&](const auto& leg, std::size_t, const RunEnds<Scalar>& run) {
     const Scalar q1 = run.r1 == r_last  ? q_last
                       : run.r1 == least ? s.qm
-                                        : q_at(run.r1, run.inverse1, least, s.qm2);
-    const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, run.inverse2, least, s.qm2);
+                                        : q_at(run.r1, run.inverse1, least, s.lost);
+    const Scalar q2 = run.r2 == least ? s.qm : q_at(run.r2, run.inverse2, least, s.lost);
     r_last = run.r2;
     q_last = q2;
     const Crossing<Scalar> c(run, q1, q2, s.h);
@@ -133,7 +133,7 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
     }
   });
   if (route.turn_bend > 0) {
-    const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.qm2);
+    const Scalar q = route.turn_rate == least ? s.qm : q_at(route.turn_rate, least, s.lost);
     const Turn<Scalar> turn(route.turn_form, route.turn_bend, route.turn_rate, q, s.h);
     s.T_falling += turn.T;
     s.X_falling += turn.X;
@@ -144,6 +144,17 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
   s.T = s.T_rising + s.T_falling;
 }
 
+/// What rounding of T and of h makes of T, a part of t. At the ends of an interval of h paths of another kind begin, right at a node,
+/// and rounding must not drop both: next to a turn q has the root of an error of h, and T, known less well than h, has it too.
+template <Real Scalar>
+[[nodiscard]] Scalar rounding_of_time(const SlopedSample<Scalar>& s, const Scalar& t) {
+  using std::sqrt;
+  const Scalar &u = unit_roundoff<Scalar>(), few = Scalar(32) * u, signed_F = s.F(),
+               F = signed_F < 0 ? Scalar(-signed_F) : signed_F;
+  const Scalar by_h = s.qm * s.qm > few ? Scalar(F * (few / s.qm)) : Scalar(F * sqrt(few));
+  return Scalar(256) * u * t + (is_finite(by_h) ? by_h : Scalar(0));
+}
+
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
 /// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is t dv/dT there: dv/dT itself may be no number.
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
@@ -152,14 +163,12 @@ template <Real Scalar, class At, class Slope, class Found>
 class SlopedRootSearch {
  public:
   SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
-      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {
-    tolerance_ = Scalar(256) * unit_roundoff<Scalar>() * t;
-  }
+      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {}
 
   void run(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b, int depth = 0) {
     // T between the values of its rising and its falling part.
-    if (a.T_rising + b.T_falling > t_ + tolerance_) return;
-    if (b.T_rising + a.T_falling < t_ - tolerance_) return;
+    if (a.T_rising + b.T_falling > t_ && a.T_rising + b.T_falling > t_ + tolerance(a, b)) return;
+    if (b.T_rising + a.T_falling < t_ && b.T_rising + a.T_falling < t_ - tolerance(a, b)) return;
     const Scalar ratio = a.h / b.h;  // both times the h of a
     const Scalar low = a.rising + b.qm * a.steep + b.up * ratio - a.down;
     const Scalar high = (b.rising + a.qm * b.steep - b.down) * ratio + a.up;
@@ -179,11 +188,11 @@ class SlopedRootSearch {
     const SlopedSample<Scalar>& less = sign_ > 0 ? a : b;  // T <= t there
     const SlopedSample<Scalar>& more = sign_ > 0 ? b : a;
     if (less.T >= t_) {
-      if (less.T <= t_ + tolerance_) found_(less, Scalar(0));
+      if (less.T <= t_ + tolerance(less)) found_(less, Scalar(0));
       return;
     }
     if (more.T <= t_) {
-      if (more.T >= t_ - tolerance_) found_(more, Scalar(0));
+      if (more.T >= t_ - tolerance(more)) found_(more, Scalar(0));
       return;
     }
     Scalar lo = less.v, hi = more.v, lo_T = less.T, hi_T = more.T;
@@ -214,6 +223,10 @@ class SlopedRootSearch {
   struct Place {
     Scalar v{0}, T{0}, slope{0};  ///< t dv/dT
   };
+  [[nodiscard]] Scalar tolerance(const SlopedSample<Scalar>& s) const { return rounding_of_time(s, t_); }
+  [[nodiscard]] Scalar tolerance(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b) const {
+    return std::max(tolerance(a), tolerance(b));
+  }
   static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
   /// So small that its square is rounding.
   [[nodiscard]] static bool is_small(const Scalar& step, const Scalar& v) {
@@ -254,7 +267,7 @@ class SlopedRootSearch {
     return lo + (hi - lo) / Scalar(2);
   }
 
-  Scalar t_, tolerance_;
+  Scalar t_;
   int sign_;
   const At& at_;
   const Slope& slope_;

@@ -80,6 +80,16 @@ class SlopedStarts {
     const Scalar more = Scalar(1) + sqrt(Scalar((least - h) / least));
     return h / (least * more * more);
   }
+  /// What a sample of a fan has before its route is added.
+  [[nodiscard]] static Sample fan_of(const Route& route, const Scalar& h) {
+    using std::sqrt;
+    Sample s;
+    s.v = w_of(h, route.least);
+    s.h = h;
+    s.lost = std::max(Scalar(0), Scalar(route.least - h));
+    s.qm = sqrt(Scalar(s.lost / route.least));
+    return s;
+  }
   struct Range {
     Scalar least, most;
   };
@@ -248,8 +258,8 @@ class SlopedStarts {
         s.T = infinity<Scalar>();
         return s;
       }
-      s.qm2 = std::max(Scalar(0), Scalar(((route.least - s.rate) + s.rate * state.lack) / route.least));
-      s.qm = sqrt(s.qm2);
+      s.lost = std::max(Scalar(0), Scalar((route.least - s.rate) + s.rate * state.lack));
+      s.qm = sqrt(Scalar(s.lost / route.least));
       add_way(state, s);
       return s;
     };

@@ -25,8 +25,11 @@ struct SlopedWay {
   /// down.
   void add(const SlopedView<Scalar>& view, std::size_t k, bool moves_up, const Scalar& bend, const Scalar& d,
            const Scalar& r1, const Scalar& r2, const Scalar& h, bool is_new_piece) {
-    if (is_new_piece) excess = r1 - h;
-    if (!(d > 0)) return;
+    if (is_new_piece) {
+      excess = r1 - h;
+      if (excess < 0) T = infinity<Scalar>();  // a jump is in its way
+    }
+    if (!(d > 0) || !is_finite(T)) return;
     const Scalar e1 = std::max(Scalar(0), excess) / r1;
     excess += rise_of(view.form[k], bend, r1, d);
     if (excess < 0)
