@@ -34,7 +34,6 @@ constexpr int kDoubleDigits = 17;
 constexpr std::size_t kMostCompared = 5000;
 // Few enough fronts to be told apart.
 constexpr double kPictureResolution = 0.04;
-constexpr std::uint64_t kPictureLayers = 100;
 
 struct EventsArguments {
   PictureOptions pictures;
@@ -197,7 +196,6 @@ int draw_events(const EventsArguments& arguments, const Scene<double>& scene,
                 const Timeline<double>& timeline) {
   Method method = arguments.method.with(Method::names(&Guarantees::has_fronts).front());
   if (!arguments.method.has("resolution")) method.set("resolution", kPictureResolution);
-  if (!arguments.method.has("layers")) method.set("layers", kPictureLayers);
   SolverRequest request;
   request.times = {std::numeric_limits<double>::infinity()};
   request.fronts = true;

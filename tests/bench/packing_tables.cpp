@@ -66,7 +66,6 @@ double tracked_overshoot(const Scene<double>& scene, double resolution) {
   request.profiles = true;
   FrontTrackingSolver::Options options;
   options.resolution = resolution;
-  options.layers = 200;
   const SolverResult result = solve<FrontTrackingSolver>(scene, request, options);
   if (!result.summary.usable()) return std::nan("");
   double most = 0;

@@ -129,7 +129,7 @@ SceneSpec<double> staircase_of(const Flux<double>& flux) {
 void any_flux(benchmark::State& state, const SceneSpec<double>& spec, double resolution, double t) {
   const Scene<double> scene(spec);
   state.SetLabel(fluxes()[static_cast<std::size_t>(state.range(0))].first);
-  if (LevelGrid<double>::refusal(tracking_layers(scene, resolution, 0)).empty())
+  if (LevelGrid<double>::refusal(tracking_layers(scene, resolution)).empty())
     run<LevelGrid<double>>(state, scene, resolution, t);
   else
     run<UnimodalGrid<double>>(state, scene, resolution, t);

@@ -63,7 +63,7 @@ TEST(PackingLaws, NoOvershootAndNoLossOver1000Profiles) {
   for (int number = 0; number < 1000; ++number) {
     SCOPED_TRACE("scene " + std::to_string(number));
     const Scene<double> scene = draw_scene(maker);
-    const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
+    const TrackingSetup<double> setup(scene, staircase(scene, 8), 0.25, GridKind::levels);
     Tracker<LevelGrid<double>> tracker(setup);
     const double mass = tracker.mass();
     EXPECT_NEAR(mass, scene.mass(), 1e-14);
@@ -93,7 +93,7 @@ TEST(PackingLaws, SolutionsInASmoothPackingFillItAndKeepTheMass) {
     const Scene<double> scene(spec);
     SolverRequest request{{0.05, 0.5, infinity<double>()}, {0, 0.2, 0.71, 1}};
     request.profiles = true;
-    const FrontTrackingSolver::Options options{.resolution = 0.1, .layers = 16};
+    const FrontTrackingSolver::Options options{.resolution = 0.1};
     const SolverResult result = solve<FrontTrackingSolver>(scene, request, options);
     ASSERT_TRUE(result.summary.usable()) << result.summary.message;
     for (const Profile<double>& profile : result.profiles) {
@@ -116,7 +116,7 @@ TEST(PackingLaws, MassBelowAFrontIsThatOfItsLayers) {
     SceneSpec<double> spec = draw_scene(maker).spec();
     spec.solid_fraction = Table<double>{{0, 1}, {maker.uniform(0.3, 0.7), maker.uniform(0.3, 0.7)}};
     const Scene<double> scene(spec);
-    const TrackingSetup<double> setup(scene, 0.25, GridKind::levels, 8);
+    const TrackingSetup<double> setup(scene, staircase(scene, 8), 0.25, GridKind::levels);
     Tracker<LevelGrid<double>> tracker(setup);
     tracker.advance_to(0.3);
     const Profile<double> layers = tracker.profile(), smooth = solid_profile(tracker, scene, setup.stack);

@@ -32,7 +32,7 @@ struct CurvedRun {
         bed(make(scene, resolution)),
         tracker(CurvedSystem<NoObserver>(bed->grid, bed->scene.problem, {}, SIZE_MAX)) {}
   static std::shared_ptr<const CurvedBed> make(const Scene<double>& scene, double resolution) {
-    CurvedScene curved = curved_scene(scene);
+    CurvedScene curved = curved_scene(scene, resolution);
     LevelPlan plan = plan_levels(curved.problem, resolution);
     return std::make_shared<const CurvedBed>(std::move(curved), std::move(plan), resolution);
   }
@@ -105,7 +105,7 @@ class CurvedLaws {
     const auto where = [&] { return when; };
     const CurvedSnapshot snapshot = run.snapshot();
     const double mass = run.scene.mass(), order = run.disorder(),
-                 amount = run.bed->scene.amount_of(snapshot.z.back(), snapshot.below.back());
+                 amount = run.bed->scene.heights.amount_of(snapshot.z.back(), snapshot.below.back());
     found_.expect_near(amount, mass, kCurvedMassSlack, "curved fronts keep the mass", where);
     found_.expect_between(order, 0, 0, kCurvedOrderSlack, "curved fronts keep their order", where);
     worst_.mass = std::max(worst_.mass, std::abs(amount - mass));

@@ -112,7 +112,9 @@ TEST(FluxBranches, AmountsAndTimesAreIntegrals) {
   for (const Flux<double>& flux : branched_fluxes()) {
     const auto branches = std::make_shared<const FluxBranches>(flux);
     for (const RatePiece& piece : branch_pieces()) {
-      const LevelCurves grid({piece}, {0, 1e-7, 0.1, 0.35, 0.62}, {}, branches);
+      RatePiece with_flux = piece;
+      with_flux.flux = branches;
+      const LevelCurves grid({with_flux}, {0, 1e-7, 0.1, 0.35, 0.62}, {});
       for (State s = 1; s < 9; ++s) {
         const std::size_t level = grid.level(s);
         double lo = 0.05, hi = 0.95;
@@ -144,7 +146,9 @@ TEST(FluxBranches, FrontsMoveByRankineAndHugoniot) {
   for (const Flux<double>& flux : branched_fluxes()) {
     const auto branches = std::make_shared<const FluxBranches>(flux);
     for (const RatePiece& piece : branch_pieces()) {
-      const LevelCurves grid({piece}, {0, 0.1, 0.25, 0.25 * (1 + 1e-9), 0.45}, {}, branches);
+      RatePiece with_flux = piece;
+      with_flux.flux = branches;
+      const LevelCurves grid({with_flux}, {0, 0.1, 0.25, 0.25 * (1 + 1e-9), 0.45}, {});
       for (State l = 0; l < 10; ++l)
         for (State r = 0; r < 10; ++r) {
           if (grid.level(l) == grid.level(r)) continue;

@@ -90,11 +90,7 @@ Problem without_cells(const Scene<double>& scene) {
 void set_pieces(const Scene<double>& scene, const SolidHeights& solid, Problem& problem) {
   if (solid.is_identity()) return;
   problem.mean_solid_fraction = scene.solid(scene.bottom(), scene.top()) / (scene.top() - scene.bottom());
-  const auto ends = [&](double lo, double hi) {
-    return std::visit([&](const auto& c) { return end_values(c, lo, hi); }, *scene.spec().solid_fraction);
-  };
-  const bool is_layered =
-      std::visit([](const auto& c) { return c.kIsLayered; }, *scene.spec().solid_fraction);
+  const bool is_layered = is_constant_in_pieces<double>(scene.spec().solid_fraction);
   auto knot = solid.knots().begin();
   double from = scene.bottom();
   for (std::size_t j = 0; j < problem.n_cells; ++j) {
@@ -102,7 +98,9 @@ void set_pieces(const Scene<double>& scene, const SolidHeights& solid, Problem& 
     const auto add = [&](double to) {
       if (!(to > from)) return;
       const double c = scene.solid_fraction_at(from);
-      const auto [c_below, c_above] = is_layered ? EndValues<double>{c, c} : ends(from, to);
+      const auto [c_below, c_above] = is_layered
+                                          ? EndValues<double>{c, c}
+                                          : end_values_of<double>(*scene.spec().solid_fraction, from, to);
       problem.pieces.push_back({j, from, to, std::max(solid.coordinate(from), problem.face(j)),
                                 std::min(solid.coordinate(to), problem.face(j + 1)), c_below, c_above});
       from = to;

@@ -13,17 +13,13 @@ namespace shearfront::exact {
 
 namespace {
 
-template <class AnyDepthFunction>
-bool is_layered(const std::optional<AnyDepthFunction>& function) {
-  return !function || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *function);
-}
-
 /// Whether its rate is, between its own knots, what `is_so` says of a(z): all else is constant there.
 template <Real Scalar, class IsSo>
 bool is_between_knots(const Scene<Scalar>& scene, const IsSo& is_so) {
   return std::visit([&](const auto& model) { return !model.kIsLayered && is_so(model); },
                     scene.shear_rate()) &&
-         is_layered(scene.spec().temperature) && is_layered(scene.spec().solid_fraction);
+         is_constant_in_pieces<Scalar>(scene.spec().temperature) &&
+         is_constant_in_pieces<Scalar>(scene.spec().solid_fraction);
 }
 template <Real Scalar>
 bool is_linear_scene(const Scene<Scalar>& scene) {
@@ -39,17 +35,6 @@ template <Real Scalar>
 bool is_root_scene(const Scene<Scalar>& scene) {
   return is_between_knots(scene, [](const auto& model) { return is_root_between_knots(model); }) &&
          !scene.has_smooth_start() && scene.knots().empty();
-}
-
-/// A function at both ends of an interval without a knot inside.
-template <Real Scalar>
-EndValues<Scalar> ends_of(const DepthFunction<Scalar>& function, const Scalar& lo, const Scalar& hi) {
-  return std::visit(
-      [&](const auto& model) -> EndValues<Scalar> {
-        if (model.kIsLayered) return {model.value(lo), model.value(lo)};
-        return end_values(model, lo, hi);
-      },
-      function);
 }
 
 /// The form that comes nearer to the rate in the middle of a piece.
@@ -141,19 +126,19 @@ void CanonicalForm<Scalar>::set_end_rates() {
   for (std::size_t k = 0; k < layers_.n_layers(); ++k) {
     const Scalar &lo = layers_.boundary(k), &hi = layers_.boundary(k + 1);
     // A smooth c at the ends, not its mean: the rates on both sides of a boundary must be the same to the bit.
-    const bool has_smooth_c = !is_layered(c);
+    const bool has_smooth_c = !is_constant_in_pieces<Scalar>(c);
     const Scalar factor =
         scene_->scale() *
         (has_smooth_c ? Scalar(Scalar(4) * depth_of<Scalar>(layers_.flux(k))) : rate_factor(k));
     const auto ends = [&](const Scalar& from, const Scalar& to) -> EndValues<Scalar> {
       using std::sqrt;
-      EndValues<Scalar> rates = ends_of<Scalar>(scene_->shear_rate(), from, to);
+      EndValues<Scalar> rates = end_values_of<Scalar>(scene_->shear_rate(), from, to);
       if (scene_->spec().temperature) {
-        const EndValues<Scalar> T = ends_of<Scalar>(*scene_->spec().temperature, from, to);
+        const EndValues<Scalar> T = end_values_of<Scalar>(*scene_->spec().temperature, from, to);
         rates = {rates.low * sqrt(T.low), rates.high * sqrt(T.high)};
       }
       if (has_smooth_c) {
-        const EndValues<Scalar> fraction = ends_of<Scalar>(*c, from, to);
+        const EndValues<Scalar> fraction = end_values_of<Scalar>(*c, from, to);
         rates = {rates.low * fraction.low, rates.high * fraction.high};
       }
       return {factor * rates.low, factor * rates.high};

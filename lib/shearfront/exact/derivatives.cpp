@@ -22,10 +22,6 @@ template <class AnyDepthFunction>
 auto knots_of(const AnyDepthFunction& a) {
   return std::visit([](const auto& model) { return model.knots(); }, a);
 }
-template <class AnyDepthFunction>
-bool is_layered(const std::optional<AnyDepthFunction>& c) {
-  return !c || std::visit([](const auto& model) { return bool(model.kIsLayered); }, *c);
-}
 
 /// Whether c, T or the flux jumps at z.
 template <Real Scalar>
@@ -78,8 +74,9 @@ std::string derivative_refusal(const Scene<Scalar>& scene, const Entry& entry) {
   const bool is_start = scene.has_smooth_start() && entry.field.starts_with("initial.");
   if (!is_rate && !is_jump && !is_start && entry.field != "initial.values")
     return entry.field + " has no exact derivatives";
-  if (!is_layered(scene.spec().solid_fraction)) return "the solid fraction varies smoothly";
-  if (!is_layered(scene.spec().temperature)) return "the temperature varies smoothly";
+  if (!is_constant_in_pieces<Scalar>(scene.spec().solid_fraction))
+    return "the solid fraction varies smoothly";
+  if (!is_constant_in_pieces<Scalar>(scene.spec().temperature)) return "the temperature varies smoothly";
   if (is_start) return {};
   if (is_jump) {
     // With a solid fraction pieces of a smooth bed end at the initial jumps.
@@ -216,7 +213,7 @@ template <Real Scalar>
 void Derivatives<Scalar>::add_sloped_pieces() {
   const LayerStack<Scalar>& layers = form_.layers();
   const Scene<Scalar>& scene = form_.scene();
-  if (!is_layered(scene.spec().temperature)) {  // all entries are refused
+  if (!is_constant_in_pieces<Scalar>(scene.spec().temperature)) {  // all entries are refused
     for (std::size_t k = 0; k < 2 * layers.n_layers(); ++k) pieces_.close();
     return;
   }

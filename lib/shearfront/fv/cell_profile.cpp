@@ -9,8 +9,7 @@ namespace shearfront::fv {
 
 Profile<double> cell_profile(const Scene<double>& scene, const Grid& grid, const CellShares& cells) {
   const auto& solid_fraction = scene.spec().solid_fraction;
-  const bool is_layered =
-      !solid_fraction || std::visit([](const auto& model) { return model.kIsLayered; }, *solid_fraction);
+  const bool is_layered = is_constant_in_pieces<double>(solid_fraction);
   const auto knots = solid_fraction
                          ? std::visit([](const auto& model) { return model.knots(); }, *solid_fraction)
                          : std::vector<double>{};

@@ -15,16 +15,6 @@ namespace {
 
 constexpr unsigned kMostAmountHalvings = 12;
 
-template <Real S>
-S value(const DepthFunction<S>& function, const S& z) {
-  return std::visit([&](const auto& model) { return S(model.value(z)); }, function);
-}
-
-template <Real S>
-bool is_constant_in_pieces(const DepthFunction<S>& function) {
-  return std::visit([](const auto& model) { return model.kIsLayered; }, function);
-}
-
 /// Whether the flux is positive at its first extremum: a maximum.
 template <Real S>
 bool rises(const Flux<S>& flux) {

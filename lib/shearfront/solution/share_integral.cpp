@@ -21,9 +21,7 @@ double integral_of(const Scene<double>& scene, const SharePiece& piece, const Sh
   const auto phi_at = [&](double z) {
     return piece.phi_lo + (piece.phi_hi - piece.phi_lo) * ((z - piece.lo) / width);
   };
-  const bool is_layered =
-      !scene.spec().solid_fraction ||
-      std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
+  const bool is_layered = is_constant_in_pieces<double>(scene.spec().solid_fraction);
   const double mean = scene.mean_solid_fraction(piece.lo, piece.hi);
   if (is_layered && piece.phi_lo == piece.phi_hi) return g.value(piece.phi_lo / mean) * (mean * width);
   constexpr unsigned kMostHalvings = 5;

@@ -17,7 +17,8 @@ Sample CurvedField::at(double height) const {
   const LevelCurves& grid = bed_->grid;
   const std::size_t piece = snapshot_.piece[i];
   const double amount = snapshot_.below[i] + grid.amount(piece, snapshot_.state[i], heights[i], z);
-  return {bed_->scene.phi_of(z, grid.phi(piece, snapshot_.state[i], z)), bed_->scene.amount_of(z, amount)};
+  const BedHeights& bed = bed_->scene.heights;
+  return {bed.phi_of(piece, height, grid.phi(piece, snapshot_.state[i], z)), bed.amount_of(z, amount)};
 }
 
 double CurvedField::integral(const ShareFunction& g) const {
@@ -29,8 +30,10 @@ double CurvedField::integral(const ShareFunction& g) const {
     if (!(hi > lo)) continue;
     const std::size_t piece = snapshot_.piece[i], level = grid.level(snapshot_.state[i]);
     const RatePiece& rate = grid.piece(piece);
+    const BedHeights& bed = bed_->scene.heights;
+    const double solid = bed.solid_per_height(piece);
     const auto value = [&](double z) {
-      return g.value(bed_->scene.share_of(grid.phi(piece, snapshot_.state[i], z)));
+      return g.value(bed.share_of(piece, grid.phi(piece, snapshot_.state[i], z))) * solid;
     };
     if (level == 0 || rate.is_constant()) {
       sum += value(lo) * (hi - lo);
@@ -43,8 +46,8 @@ double CurvedField::integral(const ShareFunction& g) const {
     const double turn = grid.turning_height(piece, level);
     cut(turn);
     for (const double kink : g.kinks) {
-      const double u = (kink - bed_->scene.offset) / bed_->scene.slope;
-      if (u > 0 && u < 1) cut(rate.height_of(grid.capacity(level) / relative_flux(grid.flux(), u)));
+      const double u = bed.u_of(piece, kink);
+      if (u > 0 && u < 1) cut(rate.height_of(grid.capacity(level) / rate.carried(1, u)));
     }
     std::sort(cuts.begin(), cuts.end());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {

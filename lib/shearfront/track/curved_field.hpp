@@ -19,7 +19,7 @@ struct CurvedBed {
 
   CurvedBed(CurvedScene curved, LevelPlan plan, double largest_step)
       : scene(std::move(curved)),
-        grid(scene.problem.pieces, std::move(plan.capacities), plan.known, scene.problem.flux),
+        grid(scene.problem.pieces, std::move(plan.capacities), plan.known),
         is_plateau(std::move(plan.is_plateau)),
         resolution(largest_step) {}
 };

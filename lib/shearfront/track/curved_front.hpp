@@ -61,7 +61,7 @@ inline constexpr double kVeryCloseLevels = 1e-6;
 /// front_slope() for fluxes that are no parabola.
 [[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
                                          double q_below, double q_above) {
-  const FluxBranches& flux = *grid.flux();
+  const FluxBranches& flux = *grid.flux(f.layer);
   const double h_below = grid.capacity(grid.level(f.below)), h_above = grid.capacity(grid.level(f.above));
   const bool is_below_high = grid.is_high(f.below), is_above_high = grid.is_high(f.above);
   const auto lack = [&](bool is_high, double h, double q) {
@@ -85,7 +85,7 @@ inline constexpr double kVeryCloseLevels = 1e-6;
 [[nodiscard]] inline double front_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
                                         double q_below, double q_above) {
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
-  if (grid.flux()) return curved_front_detail::branch_slope(grid, f, rate, q_below, q_above);
+  if (grid.flux(f.layer)) return curved_front_detail::branch_slope(grid, f, rate, q_below, q_above);
   if (s_i == s_j && q_below > 0 && q_above > 0) return 2 * s_j / (rate * (q_below + q_above));
   return 2 * (s_j * q_above - s_i * q_below) /
          (grid.capacity(grid.level(f.below)) - grid.capacity(grid.level(f.above)));
@@ -178,7 +178,7 @@ namespace curved_front_detail {
   const bool is_far = spread < kCloseLevels * rate * least * least;
   if (!is_far && !(spread < kVeryCloseLevels * rate)) return std::nullopt;
   // A joint of a tabulated flux is no place for Gauss.
-  if (grid.flux() && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
+  if (grid.flux(f.layer) && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
   const bool is_from_turn = f.q_below == 0 && f.q_above == 0;
   const double least_before = std::min(f.q_below, f.q_above);
   if (!(spread <
@@ -188,7 +188,7 @@ namespace curved_front_detail {
   // Of the rate: how much it has grown, as a part of what it is then; and by its logarithm.
   const auto change_of = [&](double to_rate) { return (to_rate - f.rate) / to_rate; };
   double change_here = 0, log_here = 0;
-  if (!is_from_turn && !grid.flux()) {
+  if (!is_from_turn && !grid.flux(f.layer)) {
     const double along = piece.bend * (z - f.z);
     const bool is_linear = piece.curve == RateCurve::linear;
     change_here = is_linear ? along / rate : -shrink;
@@ -199,7 +199,7 @@ namespace curved_front_detail {
     const double share = (h - h_below) / (h_above - h_below);  // q^2 is linear in h
     const double square = f.q_below * f.q_below + share * ((f.q_above - f.q_below) * (f.q_above + f.q_below));
     const double before = is_from_turn ? 0 : std::sqrt(std::max(0.0, square));
-    if (grid.flux()) {
+    if (grid.flux(f.layer)) {
       const LevelCurves::Place origin{is_from_turn ? piece.height_of(h) : f.z, is_from_turn ? h : f.rate,
                                       before},
           here{to_rate == rate ? z : piece.height_of(to_rate), to_rate, q};
@@ -254,7 +254,7 @@ namespace curved_front_detail {
   const double h_i = grid.capacity(i), h_j = grid.capacity(j), factor = 2 / (h_i - h_j);
   const double s_i = grid.sign(f.below), s_j = grid.sign(f.above);
   const bool is_one_side = s_i == s_j;
-  if (piece.curve == RateCurve::exponential && !grid.flux()) {
+  if (piece.curve == RateCurve::exponential && !grid.flux(f.layer)) {
     const bool needs_rate = (i > 0 && f.q_below > 0) || (j > 0 && f.q_above > 0);
     const double shrink = needs_rate ? std::expm1(-piece.bend * d) : 0;
     if (curved_front_detail::is_far_from_turns(f, h_i, h_j, shrink))
@@ -377,7 +377,7 @@ template <class Evaluate>
     return at;
   };
   const bool is_curved = !grid.piece(f.layer).is_constant();
-  if (is_curved && !grid.flux() && grid.is_high(f.below) == grid.is_high(f.above)) {
+  if (is_curved && !grid.flux(f.layer) && grid.is_high(f.below) == grid.is_high(f.above)) {
     constexpr int kFewSteps = 4;
     constexpr double kLastStep = 1e-10;
     const double lo = std::min(f.z, f.end), hi = std::max(f.z, f.end);

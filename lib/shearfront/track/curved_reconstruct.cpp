@@ -20,7 +20,7 @@ struct Turned {
 };
 Turned characteristic_after_turn(const LevelCurves& grid, std::size_t p, double h, double t) {
   const RatePiece& piece = grid.piece(p);
-  if (const FluxBranches* flux = grid.flux()) {
+  if (const FluxBranches* flux = grid.flux(p)) {
     const bool is_high = (t > 0) != piece.falls();  // before the turn it comes from the other side
     t = std::abs(t);
     const double bend = std::abs(piece.bend), spread = flux->spread(is_high);
@@ -53,6 +53,36 @@ Turned characteristic_after_turn(const LevelCurves& grid, std::size_t p, double 
 
 }  // namespace
 
+/// The piece of a height: `p` if that has it.
+std::size_t CurvedReconstruction::piece_at(double z, std::size_t p) const {
+  while (p > 0 && z < bed_.grid.boundary(p)) --p;
+  while (p + 1 < bed_.grid.n_layers() && z > bed_.grid.boundary(p + 1)) ++p;
+  return p;
+}
+
+/// Calls each(piece, from, to) for the parts of an interval in the pieces, bottom to top.
+template <class Each>
+void CurvedReconstruction::in_pieces(double from, double to, const Each& each) const {
+  const auto& pieces = bed_.scene.problem.pieces;
+  const auto it = std::upper_bound(pieces.begin() + 1, pieces.end(), from,
+                                   [](double z, const RatePiece& piece) { return z < piece.z_low; });
+  for (auto p = static_cast<std::size_t>(it - pieces.begin()) - 1; from < to; ++p) {
+    const bool is_last = p + 1 == pieces.size() || !(pieces[p].z_high < to);
+    const double end = is_last ? to : pieces[p].z_high;
+    each(p, from, end);
+    from = end;
+  }
+}
+
+/// Node i of the snapshot.
+CurvedReconstruction::Node CurvedReconstruction::boundary(std::size_t i) const {
+  Node node;
+  if (i == 0 || i + 1 == snapshot_.z.size()) return node;
+  const std::size_t p = snapshot_.piece[i];
+  node.is_nothing = p > 0 && bed_.scene.problem.continues(p) && snapshot_.state[i - 1] == snapshot_.state[i];
+  return node;
+}
+
 CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front, double z) const {
   const LevelCurves& grid = bed_.grid;
   const std::size_t i = grid.level(front.below), j = grid.level(front.above), p = front.layer;
@@ -62,17 +92,19 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   const bool is_dead = !(grid.q(p, std::max(i, j), z, rate) > 0);
   if (!is_dead && grid.is_high(front.below) != grid.is_high(front.above)) return {};
   const double h = (grid.capacity(i) + grid.capacity(j)) / 2;
-  Node node{true, z, 0, 0, h};
+  Node node{true, false, z, 0, 0, h};
   const double below = grid.phi(p, front.below, z), above = grid.phi(p, front.above, z);
   double turned = front.turned;
   if (front.turns) turned = front.end_t;
-  if (std::isfinite(turned)) {
-    const Turned middle = characteristic_after_turn(grid, p, h, snapshot_.t - turned);
+  node.u = (below + above) / 2;
+  const bool has_turn = std::isfinite(turned);
+  const Turned middle =
+      has_turn ? characteristic_after_turn(grid, p, h, snapshot_.t - turned) : Turned{z, node.u};
+  if (has_turn && middle.z >= grid.boundary(p) && middle.z <= grid.boundary(p + 1)) {
     node.z = middle.z;
     node.u = middle.u;
   } else {
-    node.u = (below + above) / 2;
-    node.h = rate * relative_flux(grid.flux(), node.u);
+    node.h = grid.piece(p).carried(rate, node.u);
   }
   node.room = std::abs(above - below) / 2;
   return node;
@@ -84,7 +116,6 @@ std::vector<CurvedReconstruction::Node> CurvedReconstruction::end_of(std::size_t
                                                                      const Node& first,
                                                                      const Node& second) const {
   const LevelCurves& grid = bed_.grid;
-  const std::size_t p = snapshot_.piece[region];
   const State state = snapshot_.state[region];
   const std::size_t k = grid.level(state);
   const double dz = first.z - second.z;
@@ -103,9 +134,10 @@ std::vector<CurvedReconstruction::Node> CurvedReconstruction::end_of(std::size_t
     const double z = i == kLines ? end : end + (first.z - end) * x * x;  // at throats u is a square root
     const double h =
         std::clamp(first.h + slope * (z - first.z), std::max(0.0, at_level - reach), at_level + reach);
+    const std::size_t p = piece_at(z, snapshot_.piece[region]);
     const double rate = grid.piece(p).rate(z);
-    const double u = grid.u_of(grid.is_high(state), h, rate, std::sqrt(std::max(0.0, (rate - h) / rate)));
-    nodes.push_back({true, z, u, x * x * first.room, h});
+    const double u = grid.u_of(p, grid.is_high(state), h, rate, std::sqrt(std::max(0.0, (rate - h) / rate)));
+    nodes.push_back({true, false, z, u, x * x * first.room, h});
   }
   return nodes;
 }
@@ -139,7 +171,7 @@ std::vector<CurvedReconstruction::Node> CurvedReconstruction::joined(const std::
     const double n_lines = std::clamp(std::ceil(std::sqrt(bend / tolerance)), 1.0, kMostLines);
     for (double i = 1; i < n_lines; ++i) {
       const double x = i / n_lines, y = 1 - x;
-      all.push_back({true, nodes[k].z + x * width, nodes[k].u + x * step + x * y * (y * d0 + x * d1),
+      all.push_back({true, false, nodes[k].z + x * width, nodes[k].u + x * step + x * y * (y * d0 + x * d1),
                      y * nodes[k].room + x * nodes[k + 1].room, 0});
     }
   }
@@ -156,9 +188,10 @@ void CurvedReconstruction::add_steps(std::size_t low, std::size_t high) {
 /// Between the shocks or interfaces `low` and `high`.
 void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
   const double bottom = snapshot_.z[low], top = snapshot_.z[high];
-  if (high - low < 3 || !(top > bottom)) return add_steps(low, high);
-  std::vector<Node> nodes(nodes_.begin() + static_cast<std::ptrdiff_t>(low) + 1,
-                          nodes_.begin() + static_cast<std::ptrdiff_t>(high));
+  std::vector<Node> nodes;
+  for (std::size_t i = low + 1; i < high; ++i)
+    if (nodes_[i].is_smooth) nodes.push_back(nodes_[i]);
+  if (nodes.size() < 2 || !(top > bottom)) return add_steps(low, high);
   double last = bottom;
   for (Node& node : nodes) last = node.z = std::clamp(node.z, last, top);
   const std::size_t n = nodes.size();
@@ -171,8 +204,11 @@ void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
   const LevelCurves& grid = bed_.grid;
   CompensatedSum<double> excess;
   excess += snapshot_.below[low] - snapshot_.below[high];
-  excess += grid.amount(snapshot_.piece[low], snapshot_.state[low], bottom, all.front().z);
-  excess += grid.amount(snapshot_.piece[high - 1], snapshot_.state[high - 1], all.back().z, top);
+  const auto add_amount = [&](State state) {
+    return [&, state](std::size_t p, double from, double to) { excess += grid.amount(p, state, from, to); };
+  };
+  in_pieces(bottom, all.front().z, add_amount(snapshot_.state[low]));
+  in_pieces(all.back().z, top, add_amount(snapshot_.state[high - 1]));
   double room = 0;
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const double width = all[k + 1].z - all[k].z;
@@ -187,9 +223,12 @@ void CurvedReconstruction::add_stretch(std::size_t low, std::size_t high) {
     node.u = u;
   }
   const double tolerance = line_tolerance(bed_);
-  lines_.add_level(grid, snapshot_.piece[low], snapshot_.state[low], all.front().z, tolerance);
+  const auto add_level = [&](State state) {
+    return [&, state](std::size_t p, double, double to) { lines_.add_level(grid, p, state, to, tolerance); };
+  };
+  in_pieces(bottom, all.front().z, add_level(snapshot_.state[low]));
   for (std::size_t k = 0; k + 1 < all.size(); ++k) lines_.add(all[k + 1].z, all[k].u, all[k + 1].u);
-  lines_.add_level(grid, snapshot_.piece[high - 1], snapshot_.state[high - 1], top, tolerance);
+  in_pieces(all.back().z, top, add_level(snapshot_.state[high - 1]));
 }
 
 }  // namespace shearfront

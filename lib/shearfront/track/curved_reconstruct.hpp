@@ -24,11 +24,11 @@ class CurvedReconstruction {
     nodes_.reserve(snapshot.z.size());
     for (std::size_t i = 0; i < snapshot.z.size(); ++i) {
       const FrontIndex k = snapshot.node[i];
-      nodes_.push_back(fronts.is_boundary(k) ? Node{} : node_of(fronts[k], snapshot.z[i]));
+      nodes_.push_back(fronts.is_boundary(k) ? boundary(i) : node_of(fronts[k], snapshot.z[i]));
     }
     for (std::size_t low = 0; low + 1 < nodes_.size();) {
       std::size_t high = low + 1;
-      while (nodes_[high].is_smooth) ++high;
+      while (nodes_[high].is_smooth || nodes_[high].is_nothing) ++high;
       add_stretch(low, high);
       low = high;
     }
@@ -39,10 +39,15 @@ class CurvedReconstruction {
  private:
   struct Node {
     bool is_smooth = false;
+    bool is_nothing = false;  ///< a boundary with the same on both sides
     double z = 0, u = 0;
     double room = 0;  ///< distance of u from the nearer level
     double h = 0;     ///< 4 H of the characteristic
   };
+  [[nodiscard]] std::size_t piece_at(double z, std::size_t p) const;
+  template <class Each>
+  void in_pieces(double from, double to, const Each& each) const;
+  [[nodiscard]] Node boundary(std::size_t i) const;
   [[nodiscard]] Node node_of(const CurvedNode& front, double z) const;
   [[nodiscard]] std::vector<Node> joined(const std::vector<Node>& nodes) const;
   void add_stretch(std::size_t low, std::size_t high);

@@ -9,11 +9,17 @@
 #include <utility>
 #include <variant>
 
+#include "shearfront/scene/layer_stack.hpp"
+#include "shearfront/track/solid_profile.hpp"
+
 namespace shearfront {
 namespace {
 
-/// How a(z) runs between its knots; nothing if in another way.
-std::optional<RateCurve> curve_of(const DepthFunction<double>& function) {
+/// How a(z) runs between its knots; nothing if in another way, or if T or c varies there.
+std::optional<RateCurve> curve_of(const Scene<double>& scene) {
+  if (!is_constant_in_pieces<double>(scene.spec().temperature) ||
+      !is_constant_in_pieces<double>(scene.spec().solid_fraction))
+    return std::nullopt;
   return std::visit(
       [](const auto& model) -> std::optional<RateCurve> {
         if (model.kIsLayered) return RateCurve::constant;
@@ -21,49 +27,102 @@ std::optional<RateCurve> curve_of(const DepthFunction<double>& function) {
         if (is_exponential_between_knots(model)) return RateCurve::exponential;
         return std::nullopt;
       },
-      function);
+      scene.shear_rate());
 }
 
-EndValues<double> rates_of(const DepthFunction<double>& function, double lo, double hi) {
-  return std::visit(
-      [&](const auto& model) -> EndValues<double> {
-        if (model.kIsLayered) return {model.value(lo), model.value(lo)};
-        return end_values(model, lo, hi);
-      },
-      function);
+/// s a sqrt(T) c times `factor` at both ends of an interval without a knot inside, as seen from within.
+EndValues<double> rates_of(const Scene<double>& scene, double factor, double lo, double hi) {
+  const EndValues<double> a = end_values_of<double>(scene.shear_rate(), lo, hi);
+  EndValues<double> scale{scene.scale() * factor, scene.scale() * factor};
+  if (scene.spec().temperature) {
+    const EndValues<double> T = end_values_of<double>(*scene.spec().temperature, lo, hi);
+    scale = {scale.low * std::sqrt(T.low), scale.high * std::sqrt(T.high)};
+  }
+  if (scene.spec().solid_fraction) {
+    const EndValues<double> c = end_values_of<double>(*scene.spec().solid_fraction, lo, hi);
+    scale = {scale.low * c.low, scale.high * c.high};
+  }
+  return {scale.low * a.low, scale.high * a.high};
 }
 
-bool is_in_layers(const std::optional<DepthFunction<double>>& function) {
-  return !function || curve_of(*function) == RateCurve::constant;
+/// The rate in a layer of a smooth bed over y, by what it is at its ends: linear or exponential, whichever is nearer in its middle,
+/// where it leaves a part `error`. Towards a place where it is 0 such a curve would take for ever: there the mean.
+struct FittedCurve {
+  RateCurve curve;
+  double low, high, error;
+};
+FittedCurve fitted_curve(const Scene<double>& scene, const LayerStack<double>& layers, std::size_t k,
+                         double factor) {
+  const double lo = layers.boundary(k), hi = layers.boundary(k + 1);
+  const EndValues<double> rates = rates_of(scene, factor, lo, hi);
+  if (!(rates.low > 0 && rates.high > 0)) {
+    const double mean = layers.rate(k) * factor * layers.solid_fraction(k);
+    return {RateCurve::constant, mean, mean, 0};
+  }
+  const double half =
+                   has_smooth_solid_fraction(scene) ? height_holding(scene, lo, hi, 0.5) : lo + (hi - lo) / 2,
+               middle = rates_of(scene, factor, lo, half).high;
+  const double linear = rates.low + (rates.high - rates.low) / 2,
+               exponential = rates.low * std::sqrt(rates.high / rates.low);
+  const bool is_linear = std::abs(linear - middle) <= std::abs(exponential - middle);
+  return {is_linear ? RateCurve::linear : RateCurve::exponential, rates.low, rates.high,
+          std::abs((is_linear ? linear : exponential) / middle - 1)};
 }
 
-SolidHeights solid_heights(const Scene<double>& scene, const std::vector<double>& ends) {
-  if (!scene.spec().solid_fraction) return {};
-  std::vector<double> fractions;
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    fractions.push_back(rates_of(*scene.spec().solid_fraction, ends[k], ends[k + 1]).low);
-  return {ends, fractions};
+/// Layers so thin that curves through the rates at their ends are off by less than what the levels cost: R^2 / 10 of it.
+LayerStack<double> fitted_layers(const Scene<double>& scene, double resolution) {
+  constexpr std::size_t kFewest = 8, kMost = 100'000;
+  constexpr double kShare = 0.1;
+  const double tolerance = kShare * resolution * resolution;
+  for (std::size_t n = kFewest;;) {
+    LayerStack<double> layers = staircase(scene, n, true);
+    double error = 0;
+    for (std::size_t k = 0; k < layers.n_layers(); ++k)
+      error = std::max(error, fitted_curve(scene, layers, k, 1).error);
+    if (!(error > tolerance) || n == kMost) return layers;
+    constexpr double kLittleMore = 1.1;
+    const double wanted = kLittleMore * static_cast<double>(n) * std::sqrt(error / tolerance);
+    n = std::min(kMost, std::max(n + 1, static_cast<std::size_t>(std::min(wanted, 1e6))));
+  }
 }
 
-std::vector<RatePiece> pieces_of(const Scene<double>& scene, const std::vector<double>& ends,
-                                 const SolidHeights& heights, RateCurve curve, double factor) {
+/// 4 |f| of the extremum for a width of the flux of 1, in units of the lowest flux's: what makes r of s a sqrt(T) c.
+double rate_factor(const Scene<double>& scene, const Flux<double>& flux) {
+  const StateRange<double> first = scene.fluxes().front().range();
+  return 4 * std::abs(flux.value(flux.extrema().front())) / (first.highest - first.lowest);
+}
+
+std::vector<RatePiece> pieces_of(const Scene<double>& scene, const LayerStack<double>& layers,
+                                 const BedHeights& heights, std::optional<RateCurve> curve,
+                                 const std::vector<std::shared_ptr<const FluxBranches>>& fluxes) {
   std::vector<RatePiece> pieces;
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-    const double lo = ends[k], hi = ends[k + 1];
-    const EndValues<double> a = rates_of(scene.shear_rate(), lo, hi);
-    double scale = scene.scale() * factor;
-    if (scene.spec().temperature) scale *= std::sqrt(rates_of(*scene.spec().temperature, lo, hi).low);
-    if (scene.spec().solid_fraction) scale *= rates_of(*scene.spec().solid_fraction, lo, hi).low;
-    pieces.emplace_back(heights.y_of(lo), heights.y_of(hi), scale * a.low, scale * a.high, curve);
+  for (std::size_t k = 0; k < layers.n_layers(); ++k) {
+    const double lo = layers.boundary(k), hi = layers.boundary(k + 1),
+                 factor = rate_factor(scene, layers.flux(k));
+    const std::shared_ptr<const FluxBranches>& flux = fluxes[layers.flux_index(k)];
+    if (curve) {
+      const EndValues<double> rates = rates_of(scene, factor, lo, hi);
+      pieces.emplace_back(heights.y_of(lo), heights.y_of(hi), rates.low, rates.high, *curve, flux);
+    } else {
+      const FittedCurve fit = fitted_curve(scene, layers, k, factor);
+      pieces.emplace_back(heights.y_of(lo), heights.y_of(hi), fit.low, fit.high, fit.curve, flux);
+    }
   }
   return pieces;
 }
 
-template <class StateOf>
-std::vector<StartSegment> start_of(const Scene<double>& scene, const std::vector<RatePiece>& pieces,
-                                   const SolidHeights& heights, const StateOf& state_of) {
+/// u of a share of piece p; that of the largest flux to the bit.
+double state_of(const Scene<double>& scene, const CurvedScene& curved, std::size_t p, double share) {
+  const RatePiece& piece = curved.problem.pieces[p];
+  const Flux<double>& flux = scene.fluxes()[curved.flux_index[p]];
+  if (piece.flux && share == flux.extrema().front()) return piece.top();
+  return std::clamp(curved.heights.u_of(p, share), 0.0, 1.0);
+}
+
+std::vector<StartSegment> start_of(const Scene<double>& scene, const CurvedScene& curved) {
+  const std::vector<RatePiece>& pieces = curved.problem.pieces;
   std::vector<double> breaks;
-  for (const double z : scene.initial_breaks()) breaks.push_back(heights.y_of(z));
+  for (const double z : scene.initial_breaks()) breaks.push_back(curved.heights.y_of(z));
   const std::vector<double>& values = scene.initial_values();
   std::vector<StartSegment> start;
   std::size_t jump = 0;
@@ -71,131 +130,123 @@ std::vector<StartSegment> start_of(const Scene<double>& scene, const std::vector
     double from = pieces[p].z_low;
     for (; jump < breaks.size() && breaks[jump] < pieces[p].z_high; ++jump) {
       if (!(breaks[jump] > from)) continue;
-      start.push_back({p, from, breaks[jump], state_of(values[jump])});
+      start.push_back({p, from, breaks[jump], state_of(scene, curved, p, values[jump])});
       from = breaks[jump];
     }
-    start.push_back({p, from, pieces[p].z_high, state_of(values[jump])});
+    start.push_back({p, from, pieces[p].z_high, state_of(scene, curved, p, values[jump])});
   }
   return start;
 }
 
-/// phi / c = offset + slope u of a smooth start, y the height.
-std::shared_ptr<const StartShape> shape_of(const Scene<double>& scene, const CurvedScene& curved) {
+/// u of a smooth start in piece p over y.
+std::shared_ptr<const StartShape> shape_of(const Scene<double>& scene, const BedHeights& heights,
+                                           std::size_t p) {
   StartShape shape;
-  shape.u = [scene, heights = curved.heights, offset = curved.offset, slope = curved.slope](double y) {
-    return std::clamp((scene.initial_share(heights.z_of(y)) - offset) / slope, 0.0, 1.0);
+  shape.u = [scene, heights, p](double y) {
+    return std::clamp(heights.u_of(p, scene.initial_share(heights.z_of(y))), 0.0, 1.0);
   };
-  shape.amount = [scene, heights = curved.heights, offset = curved.offset, slope = curved.slope](double lo,
-                                                                                                 double hi) {
-    return (scene.initial_amount(heights.z_of(lo), heights.z_of(hi)) - offset * (hi - lo)) / slope;
+  shape.amount = [scene, heights](double lo, double hi) {
+    return heights.image_of(lo, hi, scene.initial_amount(heights.z_of(lo), heights.z_of(hi)));
   };
   return std::make_shared<const StartShape>(std::move(shape));
 }
 
-std::vector<StartSegment> smooth_start_of(const Scene<double>& scene, const CurvedScene& curved,
-                                          const FluxBranches* flux) {
-  const auto shape = shape_of(scene, curved);
+std::vector<StartSegment> smooth_start_of(const Scene<double>& scene, const CurvedScene& curved) {
   std::vector<double> knots;
   for (const double z : scene.initial_knots()) knots.push_back(curved.heights.y_of(z));
   std::vector<StartSegment> start;
+  std::shared_ptr<const StartShape> shape;
   auto knot = knots.begin();
   for (std::size_t p = 0; p < curved.problem.pieces.size(); ++p) {
     const RatePiece& piece = curved.problem.pieces[p];
+    if (p == 0 || curved.flux_index[p] != curved.flux_index[p - 1])
+      shape = shape_of(scene, curved.heights, p);
     double from = piece.z_low;
     for (; knot != knots.end() && *knot < piece.z_high; ++knot) {
       if (!(*knot > from)) continue;
-      add_smooth_segments(start, piece, p, from, *knot, shape, flux);
+      add_smooth_segments(start, piece, p, from, *knot, shape);
       from = *knot;
     }
-    add_smooth_segments(start, piece, p, from, piece.z_high, shape, flux);
+    add_smooth_segments(start, piece, p, from, piece.z_high, shape);
   }
   return start;
 }
 
-CurvedScene scene_with(const Scene<double>& scene, std::shared_ptr<const FluxBranches> branches) {
-  const Flux<double>& flux = scene.fluxes().front();
-  const StateRange<double> range = flux.range();
-  const double width = range.highest - range.lowest, top = flux.extrema().front(), extremum = flux.value(top);
-  const bool has_maximum = extremum > 0;
-  CurvedScene curved;
-  std::vector<double> ends{scene.bottom()};
-  for (const double z : scene.knots()) ends.push_back(z);
-  ends.push_back(scene.top());
-  curved.heights = solid_heights(scene, ends);
-  curved.bottom = scene.bottom();
-  curved.offset = has_maximum ? range.highest : range.lowest;
-  curved.slope = has_maximum ? -width : width;
-  const auto state_of = [&](double share) {
-    if (share == top && branches) return branches->top();
-    return std::clamp((share - curved.offset) / curved.slope, 0.0, 1.0);
-  };
+CurvedScene scene_with(const Scene<double>& scene, double resolution,
+                       const std::vector<std::shared_ptr<const FluxBranches>>& fluxes) {
+  const std::optional<RateCurve> curve = curve_of(scene);
+  const LayerStack<double> layers = curve ? pieces_between_knots(scene) : fitted_layers(scene, resolution);
+  CurvedScene curved{{}, BedHeights(scene, layers), {}};
   CurvedProblem& problem = curved.problem;
-  problem.pieces =
-      pieces_of(scene, ends, curved.heights, *curve_of(scene.shear_rate()), 4 * std::abs(extremum) / width);
-  problem.start = scene.has_smooth_start() ? smooth_start_of(scene, curved, branches.get())
-                                           : start_of(scene, problem.pieces, curved.heights, state_of);
+  problem.pieces = pieces_of(scene, layers, curved.heights, curve, fluxes);
+  const std::vector<double> knots = scene.knots();
+  for (std::size_t k = 0; !curve && k < layers.n_layers(); ++k)
+    problem.is_part.push_back(!std::binary_search(knots.begin(), knots.end(), layers.boundary(k)));
+  for (std::size_t k = 0; k < layers.n_layers(); ++k) curved.flux_index.push_back(layers.flux_index(k));
+  problem.start = scene.has_smooth_start() ? smooth_start_of(scene, curved) : start_of(scene, curved);
   problem.ends.is_periodic = scene.spec().is_periodic;
   const std::array outside{&scene.spec().outside_bottom, &scene.spec().outside_top};
   for (std::size_t end = 0; end < 2; ++end) {
     if (!*outside[end]) continue;
+    const std::size_t p = end == 0 ? 0 : layers.n_layers() - 1;
     problem.ends.changes[end] = (*outside[end])->breaks;
-    for (const double share : (*outside[end])->values) problem.ends.states[end].push_back(state_of(share));
+    for (const double share : (*outside[end])->values)
+      problem.ends.states[end].push_back(state_of(scene, curved, p, share));
   }
-  problem.flux = std::move(branches);
   return curved;
 }
 
+bool has_maximum(const Flux<double>& flux) { return flux.value(flux.extrema().front()) > 0; }
+
 }  // namespace
 
-SolidHeights::SolidHeights(std::vector<double> ends, std::vector<double> fractions)
-    : z_(std::move(ends)), y_{z_.front()}, c_(std::move(fractions)) {
-  for (std::size_t k = 0; k < c_.size(); ++k) y_.push_back(y_[k] + c_[k] * (z_[k + 1] - z_[k]));
-}
-std::size_t SolidHeights::layer_of(const std::vector<double>& ends, double height) {
-  const auto it = std::upper_bound(ends.begin() + 1, ends.end() - 1, height);
-  return static_cast<std::size_t>(it - ends.begin()) - 1;
-}
-double SolidHeights::y_of(double z) const {
-  if (c_.empty()) return z;
-  if (z == z_.back()) return y_.back();
-  const std::size_t k = layer_of(z_, z);
-  return y_[k] + c_[k] * (z - z_[k]);
-}
-double SolidHeights::z_of(double y) const {
-  if (c_.empty()) return y;
-  if (!(y < y_.back())) return z_.back();
-  const std::size_t k = layer_of(y_, y);
-  return std::min(z_[k + 1], z_[k] + (y - y_[k]) / c_[k]);
-}
-double SolidHeights::fraction(double y) const { return c_.empty() ? 1 : c_[layer_of(y_, y)]; }
-
 Profile<double> CurvedScene::profile_of(const Lines& lines) const {
-  std::vector<double> z = lines.ends(), below = lines.below(), above = lines.above();
-  for (std::size_t i = 0; i < below.size(); ++i) {
-    const double c = heights.fraction(z[i] + (z[i + 1] - z[i]) / 2);
-    below[i] = c * share_of(below[i]);
-    above[i] = c * share_of(above[i]);
+  const std::vector<double>& y = lines.ends();
+  std::vector<double> z{heights.z_of(y.front())}, below, above;
+  for (std::size_t i = 0; i < lines.below().size(); ++i) {
+    const std::size_t k = heights.layer_of(y[i] + (y[i + 1] - y[i]) / 2);
+    const double from = z.back(), to = heights.z_of(y[i + 1]);
+    z.push_back(to);
+    const double low = heights.share_of(k, lines.below()[i]), high = heights.share_of(k, lines.above()[i]);
+    const SolidLine c = heights.solid_line(k, from, to, y[i + 1] - y[i]);
+    below.push_back(c.low * low);
+    above.push_back(c.high * high);
+    if (c.low == c.high || low == high) continue;
+    // Two slopes make more than the line has in y; where there is room it is taken from one end or both.
+    const double excess = (c.high - c.low) * (high - low) / 4;
+    const auto fits = [&](double from_low, double from_high) {
+      const double a = (below.back() - from_low) / c.low, b = (above.back() - from_high) / c.high;
+      const double pure = heights.share_of(k, 0), other = heights.share_of(k, 1),
+                   least = std::min(pure, other), most = std::max(pure, other);
+      if (!(a >= least && a <= most && b >= least && b <= most)) return false;
+      below.back() -= from_low;
+      above.back() -= from_high;
+      return true;
+    };
+    if (!fits(excess, excess) && !fits(2 * excess, 0)) fits(0, 2 * excess);
   }
-  for (double& height : z) height = heights.z_of(height);
   return {std::move(z), std::move(below), std::move(above)};
 }
 
 bool has_curved_fronts(const Scene<double>& scene) {
-  if (scene.is_layered() || scene.fluxes().size() != 1 || scene.has_diffusion() || scene.spec().is_neumann)
-    return false;
-  const Flux<double>& flux = scene.fluxes().front();
-  const std::optional<RateCurve> curve = curve_of(scene.shear_rate());
-  return curve && *curve != RateCurve::constant && FluxBranches::suits(flux) &&
-         is_in_layers(scene.spec().temperature) && is_in_layers(scene.spec().solid_fraction);
+  if (scene.is_layered() || scene.has_diffusion() || scene.spec().is_neumann) return false;
+  const std::vector<Flux<double>>& fluxes = scene.fluxes();
+  return std::all_of(fluxes.begin(), fluxes.end(), [&](const Flux<double>& flux) {
+    return FluxBranches::suits(flux) && has_maximum(flux) == has_maximum(fluxes.front());
+  });
 }
 
-CurvedScene curved_scene(const Scene<double>& scene) {
-  const Flux<double>& flux = scene.fluxes().front();
-  return scene_with(scene, flux.is_parabola() ? nullptr : std::make_shared<const FluxBranches>(flux));
+CurvedScene curved_scene(const Scene<double>& scene, double resolution) {
+  std::vector<std::shared_ptr<const FluxBranches>> fluxes;
+  for (const Flux<double>& flux : scene.fluxes())
+    fluxes.push_back(flux.is_parabola() ? nullptr : std::make_shared<const FluxBranches>(flux));
+  return scene_with(scene, resolution, fluxes);
 }
 
-double count_curved_levels(const Scene<double>& scene, double resolution) {
-  return count_levels(scene_with(scene, nullptr).problem, resolution);
+double count_curved_entries(const Scene<double>& scene, double resolution) {
+  const std::vector<std::shared_ptr<const FluxBranches>> none(scene.fluxes().size());
+  const CurvedProblem problem = scene_with(scene, resolution, none).problem;
+  return count_levels(problem, resolution) * static_cast<double>(problem.pieces.size());
 }
 
 }  // namespace shearfront

@@ -14,20 +14,24 @@ namespace {
 /// Capacities so near to each other are one level.
 constexpr double kSameLevel = 64 * 0x1p-53;
 
-double capacity_of(const FluxBranches* flux, double rate, double u) { return rate * relative_flux(flux, u); }
-
-/// The flux, times 4, that the Riemann problem of l | r sends through a place of this rate.
-double sent(const FluxBranches* flux, double rate, double l, double r) {
-  const double top = top_of(flux), demand = l >= top ? capacity_of(flux, rate, l) : rate,
-               supply = r <= top ? capacity_of(flux, rate, r) : rate;
+/// The flux, times 4, that the Riemann problem at the upper end of one segment sends into the next.
+double sent(const CurvedProblem& problem, const StartSegment& from, const StartSegment& to) {
+  const RatePiece &below = problem.pieces[from.piece], &above = problem.pieces[to.piece];
+  const double r = below.rate(from.z_high), R = above.rate(to.z_low);
+  const double demand = from.u_high >= below.top() ? below.carried(r, from.u_high) : r,
+               supply = to.u_low <= above.top() ? above.carried(R, to.u_low) : R;
   return std::min(demand, supply);
+}
+
+/// Whether its states jump up, or touch, across the top of the flux of a piece.
+bool jumps_across_top(const CurvedProblem& problem, const StartSegment& from, const StartSegment& to) {
+  return from.u_high <= problem.pieces[from.piece].top() && to.u_low >= problem.pieces[to.piece].top();
 }
 
 /// Largest 4 H that the start excites: H falls with time.
 double largest_capacity(const CurvedProblem& problem) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
-  const FluxBranches* flux = problem.flux.get();
   double most = 0;
   const double low = pieces.front().low, high = pieces.back().high;
   if (!problem.ends.states[0].empty()) most = low;
@@ -36,12 +40,9 @@ double largest_capacity(const CurvedProblem& problem) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
-    most = std::max({most, capacity_of(flux, piece.rate(s.z_low), s.u_low),
-                     capacity_of(flux, piece.rate(s.z_high), s.u_high)});
-    if (i + 1 == start.size()) break;
-    const double rate =
-        std::min(pieces[s.piece].rate(s.z_high), pieces[start[i + 1].piece].rate(start[i + 1].z_low));
-    most = std::max(most, sent(flux, rate, s.u_high, start[i + 1].u_low));
+    most = std::max(
+        {most, piece.carried(piece.rate(s.z_low), s.u_low), piece.carried(piece.rate(s.z_high), s.u_high)});
+    if (i + 1 < start.size()) most = std::max(most, sent(problem, s, start[i + 1]));
   }
   return most;
 }
@@ -55,20 +56,27 @@ struct Spacing {
 struct StepStretch {
   double far, near;
 };
-StepStretch step_stretch_of(const FluxBranches* flux) {
-  if (!flux) return {1, 1};
+StepStretch step_stretch_of(const std::vector<RatePiece>& pieces) {
   constexpr double kFar = 0.5, kNear = 0.02;
   StepStretch stretch{0, 0};
-  for (const bool is_high : {false, true}) {
-    stretch.far = std::max(stretch.far, flux->lack_slope(is_high, kFar, 1 - kFar * kFar));
-    stretch.near = std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
+  const FluxBranches* last = nullptr;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const FluxBranches* flux = pieces[p].flux.get();
+    if (!flux) stretch = {std::max(stretch.far, 1.0), std::max(stretch.near, 1.0)};
+    if (!flux || (p > 0 && flux == last)) continue;
+    last = flux;
+    for (const bool is_high : {false, true}) {
+      stretch.far = std::max(stretch.far, flux->lack_slope(is_high, kFar, 1 - kFar * kFar));
+      stretch.near =
+          std::max(stretch.near, flux->lack_slope(is_high, kNear, 1 - kNear * kNear) * (2 * kNear));
+    }
   }
   return stretch;
 }
 
 Spacing spacing_of(const CurvedProblem& problem, double most, double resolution) {
   const std::vector<RatePiece>& pieces = problem.pieces;
-  const StepStretch stretch = step_stretch_of(problem.flux.get());
+  const StepStretch stretch = step_stretch_of(pieces);
   double least_rate = INFINITY;
   for (const RatePiece& piece : pieces) least_rate = std::min({least_rate, piece.low, piece.high});
   const double offset = std::min(0.1 * most, least_rate);
@@ -93,31 +101,32 @@ struct Special {
 std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
-  const FluxBranches* flux = problem.flux.get();
-  const double top = top_of(flux);
   std::vector<Special> all;
   const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
     if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
   };
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
-    add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
+    if (p == 0 || !problem.continues(p)) add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
+    if (p + 1 == pieces.size() || !problem.continues(p + 1))
+      add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
     const RatePiece& piece = pieces[s.piece];
     for (const auto& [z, u] : {std::pair(s.z_low, s.u_low), std::pair(s.z_high, s.u_high)}) {
       if (piece.is_constant())
-        add(capacity_of(flux, piece.low, u), s.piece, flux ? flux->root_of(u) : std::abs(2 * u - 1), true);
+        add(piece.carried(piece.low, u), s.piece, piece.flux ? piece.flux->root_of(u) : std::abs(2 * u - 1),
+            true);
       else
-        add(capacity_of(flux, piece.rate(z), u), s.piece, z, u == top);
+        add(piece.carried(piece.rate(z), u), s.piece, z, u == piece.top());
     }
-    if (i + 1 < start.size() && start[i + 1].piece == s.piece && s.u_high <= top && start[i + 1].u_low >= top)
+    if (i + 1 < start.size() && start[i + 1].piece == s.piece && jumps_across_top(problem, s, start[i + 1]))
       add(piece.rate(s.z_high), s.piece, s.z_high, !piece.is_constant());
   }
-  for (std::size_t end = 0; end < 2; ++end)
-    for (const double u : problem.ends.states[end])
-      add(capacity_of(flux, end == 0 ? pieces.front().low : pieces.back().high, u), 0, 0, false);
+  for (const double u : problem.ends.states[0])
+    add(pieces.front().carried(pieces.front().low, u), 0, 0, false);
+  for (const double u : problem.ends.states[1])
+    add(pieces.back().carried(pieces.back().high, u), 0, 0, false);
   std::stable_sort(all.begin(), all.end(),
                    [](const Special& a, const Special& b) { return a.capacity < b.capacity; });
   return all;
@@ -127,7 +136,6 @@ std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
 std::vector<double> refined_capacities(const CurvedProblem& problem, const Spacing& spacing, double most) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
-  const double top = top_of(problem.flux.get());
   std::vector<double> all;
   const auto add = [&](double capacity) {
     if (capacity <= most * (1 + kSameLevel)) all.push_back(capacity);
@@ -136,18 +144,24 @@ std::vector<double> refined_capacities(const CurvedProblem& problem, const Spaci
     const RatePiece& piece = pieces[p];
     constexpr double kFewLevels = 4;
     const double least = std::min(piece.low, piece.high), rise = std::abs(piece.high - piece.low);
-    if (rise <= kFewLevels * spacing.ratio * (least + spacing.offset)) add(least);
+    const bool is_flat = !problem.is_part.empty()
+                             ? piece.is_constant()
+                             : rise <= kFewLevels * spacing.ratio * (least + spacing.offset);
+    if (is_flat) add(least);
     if (p + 1 == pieces.size()) break;
     const RatePiece& next = pieces[p + 1];
     const bool is_throat =
         (piece.high > next.low || piece.bend <= 0) && (piece.high < next.low || next.bend >= 0);
     if (is_throat) add(std::min(piece.high, next.low));
   }
-  for (std::size_t i = 0; i + 1 < start.size(); ++i)
-    if ((start[i].shape && start[i].u_high == top) || (start[i].u_high <= top && start[i + 1].u_low >= top &&
-                                                       (start[i].u_low < top || start[i + 1].u_high > top)))
+  for (std::size_t i = 0; i + 1 < start.size(); ++i) {
+    const StartSegment &s = start[i], &next = start[i + 1];
+    const double top = pieces[s.piece].top();
+    if ((s.shape && s.u_high == top) ||
+        (jumps_across_top(problem, s, next) && (s.u_low < top || next.u_high > pieces[next.piece].top())))
       add(std::min(pieces[start[i].piece].rate(start[i].z_high),
                    pieces[start[i + 1].piece].rate(start[i + 1].z_low)));
+  }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x <= kSameLevel * y; }),
             all.end());
@@ -193,8 +207,8 @@ double step_height(const LevelCurves& grid, std::size_t p, State below, State ab
   const auto excess = [&](double z) -> Passage {
     const LevelCurves::Place one = grid.place(p, first, z), other = grid.place(p, second, z);
     const double slope =
-        grid.flux() ? 2 * std::abs(grid.phi(p, below, z) - grid.phi(p, above, z)) * (first < second ? -1 : 1)
-                    : other.q - one.q;
+        grid.flux(p) ? 2 * std::abs(grid.phi(p, below, z) - grid.phi(p, above, z)) * (first < second ? -1 : 1)
+                     : other.q - one.q;
     return {grid.deficit(p, below, at_a, one) + grid.deficit(p, above, other, at_b) - wanted, slope};
   };
   const bool falls = first < second;  // then q_first > q_second
@@ -241,22 +255,22 @@ double count_levels(const CurvedProblem& problem, double resolution) {
 }
 
 State outside_state(const LevelCurves& grid, std::size_t end, double u) {
-  const double rate = end == 0 ? grid.piece(0).low : grid.piece(grid.n_layers() - 1).high;
-  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(capacity_of(grid.flux(), rate, u));
-  return u > grid.top() ? grid.high(level) : grid.low(level);
+  const RatePiece& piece = grid.piece(end == 0 ? 0 : grid.n_layers() - 1);
+  const double rate = end == 0 ? piece.low : piece.high;
+  const std::size_t level = u == 0 || u == 1 ? 0 : grid.cap(piece.carried(rate, u));
+  return u > piece.top() ? grid.high(level) : grid.low(level);
 }
 
 void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& rate, std::size_t piece,
-                         double low, double high, const std::shared_ptr<const StartShape>& course,
-                         const FluxBranches* flux) {
-  const double top = top_of(flux), above_low = course->u(low) - top, above_high = course->u(high) - top;
+                         double low, double high, const std::shared_ptr<const StartShape>& course) {
+  const double top = rate.top(), above_low = course->u(low) - top, above_high = course->u(high) - top;
   std::vector<double> cuts{low, high};
   double at_top = low;
   if (above_low * above_high < 0) {
     at_top = height_of_zero(low, high, above_low < 0, [&](double z) { return course->u(z) - top; });
     cuts.push_back(at_top);
   }
-  const auto carried = [&](double z) { return capacity_of(flux, rate.rate(z), course->u(z)); };
+  const auto carried = [&](double z) { return rate.carried(rate.rate(z), course->u(z)); };
   // Extrema next to the ends too: what is missed at 1e-6 of the stretch holds 1e-18 of it.
   std::vector<double> parts{0, 1e-6, 1e-4, 1e-2};
   constexpr int kHeights = 32;
@@ -337,11 +351,11 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
   const StartShape* shape = segment.shape.get();
   const double inside =
       shape ? shape->u(segment.z_low + (segment.z_high - segment.z_low) / 2) : segment.u_low;
-  const bool is_top = !shape && inside == grid.top();
-  const bool is_high = inside > grid.top() || (is_top && !piece.is_constant() && !piece.falls());
+  const bool is_top = !shape && inside == piece.top();
+  const bool is_high = inside > piece.top() || (is_top && !piece.is_constant() && !piece.falls());
   const auto state = [&](std::size_t k) { return is_high ? grid.high(k) : grid.low(k); };
   const auto level_at = [&](double z, double u) {
-    return u == 0 || u == 1 ? 0 : grid.cap(capacity_of(grid.flux(), piece.rate(z), u));
+    return u == 0 || u == 1 ? 0 : grid.cap(piece.carried(piece.rate(z), u));
   };
   const std::size_t from = level_at(segment.z_low, segment.u_low),
                     to = level_at(segment.z_high, segment.u_high);
@@ -359,11 +373,11 @@ StartSegmentLevels in_levels(const LevelCurves& grid, const StartSegment& segmen
       levels.steps.push_back({grid.turning_height(p, k), state(s > 0 ? k : k + 1), state(s > 0 ? k + 1 : k)});
     return levels;
   }
-  const double spread = relative_flux(grid.flux(), segment.u_low);
+  const double spread = piece.carried(1, segment.u_low);
   const auto height_of = [&](double h, double lo) {
     if (!shape) return piece.height_of(h / spread);
     return height_of_zero(lo, segment.z_high, s > 0,
-                          [&](double z) { return capacity_of(grid.flux(), piece.rate(z), shape->u(z)) - h; });
+                          [&](double z) { return piece.carried(piece.rate(z), shape->u(z)) - h; });
   };
   const auto lack = [&](double lo, double hi) {
     const double width = hi - lo;

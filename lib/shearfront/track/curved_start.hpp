@@ -42,9 +42,15 @@ struct CurvedEnds {
 /// All that is to be tracked but the levels.
 struct CurvedProblem {
   std::vector<RatePiece> pieces;
+  std::vector<bool>
+      is_part{};  ///< whether a piece and the one below it are parts of a smooth rate; empty: none
   std::vector<StartSegment> start;  ///< bottom to top
   CurvedEnds ends{};
-  std::shared_ptr<const FluxBranches> flux{};  ///< g; none for 4 u (1 - u)
+
+  /// Whether the rate only goes on, rising or falling, from piece p - 1 to piece p: there is nothing in the bed.
+  [[nodiscard]] bool continues(std::size_t p) const {
+    return !is_part.empty() && is_part[p] && pieces[p - 1].bend * pieces[p].bend > 0;
+  }
 };
 
 /// The initial state in levels: from one segment to the next a jump to be solved, inside a segment steps.
@@ -60,8 +66,7 @@ struct StartSegmentLevels {
 /// Appends [low, high] of a piece, where `course` and its slope are monotone, cut where it passes the top of the flux and where
 /// r g(u) has its extrema, which are looked for between 38 heights.
 void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& rate, std::size_t piece,
-                         double low, double high, const std::shared_ptr<const StartShape>& course,
-                         const FluxBranches* flux);
+                         double low, double high, const std::shared_ptr<const StartShape>& course);
 
 /// What the levels must know of a start: which capacities are met exactly, and where levels turn.
 struct LevelPlan {

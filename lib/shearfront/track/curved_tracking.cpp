@@ -55,9 +55,10 @@ class CurvedTracking final : public AnyTracking {
       const double tolerance = kPicture * (scene_->top() - scene_->bottom());
       const auto add = [&](FrontSegment<double> segment) {
         const double middle = segment.z_begin + (segment.z_end - segment.z_begin) / 2;
-        segment.phi_below = bed_->scene.phi_of(middle, segment.phi_below);
-        segment.phi_above = bed_->scene.phi_of(middle, segment.phi_above);
-        for (double* z : {&segment.z_begin, &segment.z_end}) *z = bed_->scene.heights.z_of(*z);
+        const BedHeights& heights = bed_->scene.heights;
+        for (double* phi : {&segment.phi_below, &segment.phi_above})
+          *phi = heights.phi_of(segment.layer, heights.z_of(middle), *phi);
+        for (double* z : {&segment.z_begin, &segment.z_end}) *z = heights.z_of(*z);
         segments.push_back(segment);
       };
       for (const CurvedTrace& trace : tracker_.observer().traces())
@@ -102,9 +103,11 @@ class CurvedTracking final : public AnyTracking {
     timeline.t0 = first(0);
     timeline.t1 = first(n);
     if (tracker_.is_steady()) timeline.t_star = tracker_.last_collision();
-    const std::vector<double> knots = scene_->knots();  // between the pieces
-    for (std::size_t k = 1; k < n; ++k)
-      timeline.interfaces.push_back({knots[k - 1], first(k), tracker_.last_wave(k)});
+    const std::vector<double> knots = scene_->knots();
+    auto knot = knots.begin();
+    for (std::size_t k = 1; k < n && knot != knots.end(); ++k)
+      if (bed_->scene.heights.y_of(*knot) == bed_->grid.boundary(k))
+        timeline.interfaces.push_back({*knot++, first(k), tracker_.last_wave(k)});
     return timeline;
   }
   [[nodiscard]] Summary summary() const override {
@@ -147,8 +150,8 @@ class CurvedTracking final : public AnyTracking {
   [[nodiscard]] CurvedSnapshot watched_snapshot() const {
     CurvedSnapshot snapshot = snapshot_of(tracker_.system(), time());
     if (scene_->has_walls() || tracker_.is_periodic()) {
-      const double amount = bed_->scene.amount_of(snapshot.z.back(), snapshot.below.back());
-      const double room = std::abs(bed_->scene.slope) * (snapshot.z.back() - snapshot.z.front());
+      const double amount = bed_->scene.heights.amount_of(snapshot.z.back(), snapshot.below.back());
+      const double room = bed_->scene.heights.room() * (snapshot.z.back() - snapshot.z.front());
       lost_ = std::max(lost_, std::abs(amount - scene_->mass()) / room);
     }
     return snapshot;
@@ -191,22 +194,22 @@ class CurvedTracking final : public AnyTracking {
 }  // namespace
 
 bool wants_curves(const Scene<double>& scene, const TrackOptions& options) {
-  return options.grid == GridKind::levels && options.layers == 0 && has_curved_fronts(scene);
+  return options.grid == GridKind::levels && has_curved_fronts(scene);
 }
 
 std::string refusal_of_curves(const Scene<double>& scene, const TrackOptions& options) {
-  const double n = count_curved_levels(scene, options.resolution);
-  if (n * static_cast<double>(scene.knots().size() + 1) > kMostLevelEntries)
-    return "the grid would need " + number_text(n) + " levels; use a coarser resolution";
+  if (const double n = count_curved_entries(scene, options.resolution); n > kMostLevelEntries)
+    return "the grid would need " + number_text(n) +
+           " numbers, one for each level and piece of the bed; use a coarser resolution";
   return {};
 }
 
 std::unique_ptr<AnyTracking> track_curves(const Scene<double>& scene, const TrackOptions& options,
                                           Progress progress) {
   if (options.fronts || options.history)
-    return std::make_unique<CurvedTracking<CurvedRecord>>(scene, curved_scene(scene), options,
-                                                          std::move(progress));
-  return std::make_unique<CurvedTracking<NoObserver>>(scene, curved_scene(scene), options,
+    return std::make_unique<CurvedTracking<CurvedRecord>>(scene, curved_scene(scene, options.resolution),
+                                                          options, std::move(progress));
+  return std::make_unique<CurvedTracking<NoObserver>>(scene, curved_scene(scene, options.resolution), options,
                                                       std::move(progress));
 }
 

@@ -22,7 +22,7 @@ class FluxBranches {
   /// Precondition: suits(flux).
   explicit FluxBranches(const Flux<double>& flux);
   /// Whether a flux is convex or concave and nowhere straight, with one extremum inside its range and 0 at both ends. (Along a
-  /// straight piece all characteristics run in parallel, and which of them meet would be decided by rounding.)
+  /// straight piece all characteristics run in parallel, and one contact carries them: layers are exact there.)
   [[nodiscard]] static bool suits(const Flux<double>& flux);
 
   /// u = (phi - end) / slope, such that g has a maximum: the pure state u = 0 is phi = `end`.

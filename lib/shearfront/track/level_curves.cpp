@@ -50,11 +50,8 @@ double log_of_level_rates(const LevelCurves::Place& a, const LevelCurves::Place&
 }  // namespace
 
 LevelCurves::LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capacities,
-                         const std::vector<KnownTurn>& known, std::shared_ptr<const FluxBranches> flux)
-    : pieces_(std::move(pieces)),
-      h_(std::move(capacities)),
-      flux_(std::move(flux)),
-      top_(top_of(flux_.get())) {
+                         const std::vector<KnownTurn>& known)
+    : pieces_(std::move(pieces)), h_(std::move(capacities)) {
   SHEARFRONT_EXPECTS(!pieces_.empty() && !h_.empty() && h_.front() == 0, "pieces, and levels from 0 on");
   for (const RatePiece& piece : pieces_) {
     std::vector<double>& turning = turning_.emplace_back(h_.size(), 0.0);
@@ -133,9 +130,10 @@ double LevelCurves::branch_deficit(std::size_t p, State s, Place a, Place b) con
   const std::size_t k = level(s);
   if (k == 0) return 0;
   const RatePiece& piece = pieces_[p];
+  const FluxBranches& flux = *piece.flux;
   const bool is_upper = is_high(s);
-  const double h = h_[k], spread = flux_->spread(is_upper);
-  if (piece.is_constant()) return (b.z - a.z) * (a.q > 0 ? flux_->lack(is_upper, a.q, h / a.rate) : spread);
+  const double h = h_[k], spread = flux.spread(is_upper);
+  if (piece.is_constant()) return (b.z - a.z) * (a.q > 0 ? flux.lack(is_upper, a.q, h / a.rate) : spread);
   if (!(a.q + b.q > 0)) return spread * (b.z - a.z);
   double dead = 0;  // the part beyond the turning height
   if (!(a.q > 0)) {
@@ -151,11 +149,11 @@ double LevelCurves::branch_deficit(std::size_t p, State s, Place a, Place b) con
   // dz = -dx / (bend x) with x = h / r, or -h dx / (bend x^2).
   if (piece.curve == RateCurve::exponential) {
     const double dx = -(h / a.rate) * std::expm1(-piece.bend * d);
-    live = flux_->shape_integral(is_upper, a.q, b.q, dx) / piece.bend;
+    live = flux.shape_integral(is_upper, a.q, b.q, dx) / piece.bend;
   } else {
     const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
-    live = (flux_->pure_shape(is_upper) * log_of_level_rates(a, b, rise) +
-            flux_->rest_integral(is_upper, a.q, b.q, dx)) *
+    live = (flux.pure_shape(is_upper) * log_of_level_rates(a, b, rise) +
+            flux.rest_integral(is_upper, a.q, b.q, dx)) *
            (h / piece.bend);
   }
   return live + spread * dead;
@@ -170,23 +168,23 @@ double LevelCurves::characteristic_time(std::size_t p, State s, double from, dou
 double LevelCurves::characteristic_time(std::size_t p, bool is_high, double h, const Place& a,
                                         const Place& b) const {
   const RatePiece& piece = pieces_[p];
+  const FluxBranches* flux = piece.flux.get();
   const double d = b.z - a.z;
   if (!(d > 0)) return 0;
   const double x_a = h / a.rate, x_b = h / b.rate;
-  if (flux_ && h > 0) {
+  if (flux && h > 0) {
     // 2 int dlack/dx / r dz, the lack being x shape(q).
-    if (piece.is_constant()) return 2 * d / a.rate * flux_->lack_slope(is_high, a.q, x_a);
+    if (piece.is_constant()) return 2 * d / a.rate * flux->lack_slope(is_high, a.q, x_a);
     if (piece.curve == RateCurve::exponential)
-      return 2 * (flux_->lack(is_high, a.q, x_a) - flux_->lack(is_high, b.q, x_b)) / (piece.bend * h);
+      return 2 * (flux->lack(is_high, a.q, x_a) - flux->lack(is_high, b.q, x_b)) / (piece.bend * h);
     const double rise = piece.bend * d, dx = h * rise / (a.rate * b.rate);
     return 2 *
-           (flux_->pure_shape(is_high) * log_of_level_rates(a, b, rise) +
-            flux_->rest_integral(is_high, a.q, b.q, dx) + flux_->shape(is_high, a.q) -
-            flux_->shape(is_high, b.q)) /
+           (flux->pure_shape(is_high) * log_of_level_rates(a, b, rise) +
+            flux->rest_integral(is_high, a.q, b.q, dx) + flux->shape(is_high, a.q) -
+            flux->shape(is_high, b.q)) /
            piece.bend;
   }
-  const double share =
-      flux_ ? 2 * flux_->pure_shape(is_high) : 1;  // of pure states, whose speed is that of g'
+  const double share = flux ? 2 * flux->pure_shape(is_high) : 1;  // of pure states, whose speed is that of g'
   if (piece.is_constant()) return share * d / (a.rate * a.q);
   // q' = h r' / (2 q r^2): int dz / (r q) is 2 q / (h bend), and 2 artanh q / bend in a linear piece.
   if (piece.curve == RateCurve::exponential)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "shearfront/riemann/state.hpp"
@@ -21,7 +20,7 @@ struct KnownTurn {
 };
 
 /// Levels of the flux H = r(z) g(u) / 4 of u_t - H_z = 0 in a bed of pieces, and the states at rest that belong to them;
-/// g(u) = 4 u (1 - u), or another flux with one maximum 1 (FluxBranches).
+/// g(u) = 4 u (1 - u), or another flux with one maximum 1 (FluxBranches), one in each piece.
 ///
 /// Level k has the flux H_k; h_k = 4 H_k is the rate that can just carry it, 0 = h_0 < h_1 < ... < h_N. Its two states are
 /// steady profiles: u = (1 -+ q_k) / 2, q_k(z) = sqrt(1 - h_k / r(z)) where r > h_k, on the live side of its turning height
@@ -37,12 +36,12 @@ class LevelCurves {
   using Scalar = double;
 
   LevelCurves(std::vector<RatePiece> pieces, std::vector<double> capacities,
-              const std::vector<KnownTurn>& known, std::shared_ptr<const FluxBranches> flux = nullptr);
+              const std::vector<KnownTurn>& known);
 
   /// None for the parabola.
-  [[nodiscard]] const FluxBranches* flux() const { return flux_.get(); }
+  [[nodiscard]] const FluxBranches* flux(std::size_t p) const { return pieces_[p].flux.get(); }
   /// u of the largest flux.
-  [[nodiscard]] double top() const { return top_; }
+  [[nodiscard]] double top(std::size_t p) const { return top_of(flux(p)); }
 
   [[nodiscard]] std::size_t n_layers() const { return pieces_.size(); }
   [[nodiscard]] double boundary(std::size_t k) const {
@@ -95,12 +94,13 @@ class LevelCurves {
     const std::size_t k = level(s);
     if (k == 0) return is_high(s) ? 1 : 0;
     const double rate = pieces_[p].rate(z);
-    return u_of(is_high(s), h_[k], rate, q(p, k, z, rate));
+    return u_of(p, is_high(s), h_[k], rate, q(p, k, z, rate));
   }
   /// u on one side where the rate r carries h / 4 and q = sqrt(1 - h / r).
-  [[nodiscard]] double u_of(bool is_high, double h, double rate, double root) const {
-    if (!(root > 0)) return top_;
-    const double x = h / rate, lack = flux_ ? flux_->lack(is_high, root, x) : x / (1 + root);
+  [[nodiscard]] double u_of(std::size_t p, bool is_high, double h, double rate, double root) const {
+    const FluxBranches* g = flux(p);
+    if (!(root > 0)) return top_of(g);
+    const double x = h / rate, lack = g ? g->lack(is_high, root, x) : x / (1 + root);
     return is_high ? 1 - lack / 2 : lack / 2;
   }
 
@@ -120,7 +120,7 @@ class LevelCurves {
   /// Twice int |u - pure state of its side| dz of a state, from a to b: small ones, of levels far below the capacity, to all their
   /// digits.
   [[nodiscard]] double deficit(std::size_t p, State s, const Place& a, const Place& b) const {
-    return flux_ ? branch_deficit(p, s, a, b) : parabola_deficit(p, level(s), a, b);
+    return flux(p) ? branch_deficit(p, s, a, b) : parabola_deficit(p, level(s), a, b);
   }
   /// int u dz of a state.
   [[nodiscard]] double amount(std::size_t p, State s, double from, double to) const {
@@ -148,8 +148,6 @@ class LevelCurves {
   std::vector<double> h_;
   std::vector<std::vector<double>> turning_;  ///< per piece and level: z_k, in constant pieces q_k
   std::vector<std::size_t> cap_low_, cap_high_;
-  std::shared_ptr<const FluxBranches> flux_;
-  double top_;
 };
 
 }  // namespace shearfront

@@ -19,7 +19,7 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
   // From the turning height on it is a square root: cut there, the rest by halving.
   std::vector<Point> ends{at(top)};
   const double turn = grid.turning_height(piece, k);
-  if (turn > bottom && turn < top) ends.push_back({turn, grid.top()});
+  if (turn > bottom && turn < top) ends.push_back({turn, grid.top(piece)});
   Point low = at(bottom);
   constexpr double kThinnest = 1e-12;
   while (!ends.empty()) {

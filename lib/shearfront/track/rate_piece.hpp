@@ -2,6 +2,10 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "shearfront/track/flux_branches.hpp"
 
 namespace shearfront {
 
@@ -9,16 +13,18 @@ namespace shearfront {
 enum class RateCurve : std::uint8_t { constant, linear, exponential };
 
 /// A part of the bed in which the rate r(z) = s a(z) has one formula: constant, r_low + bend (z - z_low), or
-/// r_low exp(bend (z - z_low)). The sign of the bend is that of the slope.
+/// r_low exp(bend (z - z_low)), and one flux. The sign of the bend is that of the slope.
 struct RatePiece {
   double z_low, z_high;
   double low, high;  ///< r at the ends, > 0
   RateCurve curve;
   double bend;
+  std::shared_ptr<const FluxBranches> flux;  ///< g; none for 4 u (1 - u)
 
   /// A rate that hardly changes is constant: it moves fronts by less than rounding of the heights does.
-  RatePiece(double from, double to, double rate_from, double rate_to, RateCurve how)
-      : z_low(from), z_high(to), low(rate_from), high(rate_to), curve(how), bend(0) {
+  RatePiece(double from, double to, double rate_from, double rate_to, RateCurve how,
+            std::shared_ptr<const FluxBranches> g = nullptr)
+      : z_low(from), z_high(to), low(rate_from), high(rate_to), curve(how), bend(0), flux(std::move(g)) {
     constexpr double kLeastChange = 1e-12;
     const double rise = high - low;
     if (curve == RateCurve::constant || std::abs(rise) < kLeastChange * low) {
@@ -41,6 +47,9 @@ struct RatePiece {
     // From the smaller end: there it would cancel.
     return high < low ? high + bend * (z - z_high) : low + bend * (z - z_low);
   }
+  /// 4 H of u where the rate is `rate`, and u of the largest flux.
+  [[nodiscard]] double carried(double rate, double u) const { return rate * relative_flux(flux.get(), u); }
+  [[nodiscard]] double top() const { return top_of(flux.get()); }
   /// Where the rate, continued beyond the ends, is `r`. Precondition: it is not constant, r > 0.
   [[nodiscard]] double height_of(double r) const {
     if (curve == RateCurve::linear)

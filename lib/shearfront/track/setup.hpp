@@ -49,13 +49,11 @@ template <Real Scalar>
   return static_cast<std::size_t>(std::clamp(layers, 1.0, kMaxLayers));
 }
 
-/// The layers a scene is tracked in: its own, or a staircase of `layers` (0: as many as the resolution asks
-/// for).
+/// The layers a scene is tracked in: its own, or a staircase as fine as the resolution asks for.
 template <Real Scalar>
-[[nodiscard]] LayerStack<Scalar> tracking_layers(const Scene<Scalar>& scene, const Scalar& resolution,
-                                                 std::size_t layers) {
+[[nodiscard]] LayerStack<Scalar> tracking_layers(const Scene<Scalar>& scene, const Scalar& resolution) {
   if (scene.is_layered()) return exact_layers(scene);
-  return staircase(scene, layers > 0 ? layers : staircase_layers(scene, resolution));
+  return staircase(scene, staircase_layers(scene, resolution));
 }
 
 /// Cuts the initial data of `scene` by the layers of `stack`. A jump on an interface makes one cut, not two.
@@ -103,9 +101,8 @@ struct TrackingSetup {
   Ends<Scalar> ends;
   Scalar start_distance{0};  ///< L1 distance of a smooth start from the steps that stand for it
 
-  TrackingSetup(const Scene<Scalar>& scene, const Scalar& resolution, GridKind kind = GridKind::levels,
-                std::size_t layers = 0)
-      : TrackingSetup(scene, tracking_layers(scene, resolution, layers), resolution, kind) {}
+  TrackingSetup(const Scene<Scalar>& scene, const Scalar& resolution, GridKind kind = GridKind::levels)
+      : TrackingSetup(scene, tracking_layers(scene, resolution), resolution, kind) {}
 
   TrackingSetup(const Scene<Scalar>& scene, LayerStack<Scalar> layers, const Scalar& resolution,
                 GridKind kind)

@@ -14,8 +14,7 @@ namespace shearfront {
 /// Whether c varies inside the layers that stand for it.
 template <Real Scalar>
 [[nodiscard]] bool has_smooth_solid_fraction(const Scene<Scalar>& scene) {
-  return scene.spec().solid_fraction &&
-         !std::visit([](const auto& model) { return model.kIsLayered; }, *scene.spec().solid_fraction);
+  return !is_constant_in_pieces<Scalar>(scene.spec().solid_fraction);
 }
 
 /// Height in [lo, hi], where c is smooth, below which the bed holds as much as `share` of [lo, hi] holds.

@@ -88,7 +88,7 @@ bool separates(const Flux<double>& flux) {
 }
 
 LayerStack<double> layers_of(const Scene<double>& scene, const TrackOptions& options) {
-  return tracking_layers(scene, std::min(options.resolution, 1.0), static_cast<std::size_t>(options.layers));
+  return tracking_layers(scene, std::min(options.resolution, 1.0));
 }
 
 std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
@@ -196,7 +196,7 @@ class TrackingOn final : public AnyTracking {
   [[nodiscard]] std::string message() const {
     if (tracker_.has_too_many_fronts())
       return "stopped at " + std::to_string(tracker_.n_fronts_max()) +
-             " fronts, more than allowed; use a coarser resolution or fewer layers, or allow more, at 64 "
+             " fronts, more than allowed; use a coarser resolution, or allow more, at 64 "
              "bytes "
              "each and as much again while their list grows";
     if (rests_never_)

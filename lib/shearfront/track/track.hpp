@@ -33,7 +33,6 @@ struct TrackOptions {
   GridKind grid = GridKind::levels;
   Reconstruction reconstruct = Reconstruction::constant;
   FanEdges edges = FanEdges::characteristic;
-  std::uint64_t layers = 0;
   std::uint64_t max_collisions = 4'000'000'000;
   std::uint64_t max_fronts =
       50'000'000;        ///< alive at one time; 3 GB, and as much again while their list grows
@@ -50,12 +49,6 @@ struct TrackOptions {
     visit(OptionInfo{"grid", "grid of states", {}, kGridNames}, self.grid);
     visit(OptionInfo{"reconstruct", "phi between fronts", {}, kReconstructionNames}, self.reconstruct);
     visit(OptionInfo{"edges", "first arrivals of fans", {}, kFanEdgeNames, {}, true}, self.edges);
-    visit(OptionInfo{"layers",
-                     "smooth shear rates: number of layers of the staircase",
-                     {1, 1e6},
-                     {},
-                     "none with curved fronts, else as many as the resolution asks for"},
-          self.layers);
     visit(OptionInfo{"max-collisions", "stop after so many collisions", {1, 1e15}, {}, {}, true},
           self.max_collisions);
     visit(
