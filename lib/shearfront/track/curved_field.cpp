@@ -17,7 +17,7 @@ Sample CurvedField::at(double height) const {
   const LevelCurves& grid = bed_->grid;
   const std::size_t piece = snapshot_.piece[i];
   const double amount = snapshot_.below[i] + grid.amount(piece, snapshot_.state[i], heights[i], z);
-  const BedHeights& bed = bed_->scene.heights;
+  const FlowCoordinate& bed = bed_->scene.heights;
   return {bed.phi_of(piece, height, grid.phi(piece, snapshot_.state[i], z)), bed.amount_of(z, amount)};
 }
 
@@ -30,7 +30,7 @@ double CurvedField::integral(const ShareFunction& g) const {
     if (!(hi > lo)) continue;
     const std::size_t piece = snapshot_.piece[i], level = grid.level(snapshot_.state[i]);
     const RatePiece& rate = grid.piece(piece);
-    const BedHeights& bed = bed_->scene.heights;
+    const FlowCoordinate& bed = bed_->scene.heights;
     const double solid = bed.solid_per_height(piece);
     const auto value = [&](double z) {
       return g.value(bed.share_of(piece, grid.phi(piece, snapshot_.state[i], z))) * solid;

@@ -93,7 +93,7 @@ double rate_factor(const Scene<double>& scene, const Flux<double>& flux) {
 }
 
 std::vector<RatePiece> pieces_of(const Scene<double>& scene, const LayerStack<double>& layers,
-                                 const BedHeights& heights, std::optional<RateCurve> curve,
+                                 const FlowCoordinate& heights, std::optional<RateCurve> curve,
                                  const std::vector<std::shared_ptr<const FluxBranches>>& fluxes) {
   std::vector<RatePiece> pieces;
   for (std::size_t k = 0; k < layers.n_layers(); ++k) {
@@ -139,7 +139,7 @@ std::vector<StartSegment> start_of(const Scene<double>& scene, const CurvedScene
 }
 
 /// u of a smooth start in piece p over y.
-std::shared_ptr<const StartShape> shape_of(const Scene<double>& scene, const BedHeights& heights,
+std::shared_ptr<const StartShape> shape_of(const Scene<double>& scene, const FlowCoordinate& heights,
                                            std::size_t p) {
   StartShape shape;
   shape.u = [scene, heights, p](double y) {
@@ -176,7 +176,7 @@ CurvedScene scene_with(const Scene<double>& scene, double resolution,
                        const std::vector<std::shared_ptr<const FluxBranches>>& fluxes) {
   const std::optional<RateCurve> curve = curve_of(scene);
   const LayerStack<double> layers = curve ? pieces_between_knots(scene) : fitted_layers(scene, resolution);
-  CurvedScene curved{{}, BedHeights(scene, layers), {}};
+  CurvedScene curved{{}, FlowCoordinate(scene, layers), {}};
   CurvedProblem& problem = curved.problem;
   problem.pieces = pieces_of(scene, layers, curved.heights, curve, fluxes);
   const std::vector<double> knots = scene.knots();

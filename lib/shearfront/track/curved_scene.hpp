@@ -5,8 +5,8 @@
 
 #include "shearfront/scene/scene.hpp"
 #include "shearfront/solution/profile.hpp"
-#include "shearfront/track/bed_heights.hpp"
 #include "shearfront/track/curved_start.hpp"
+#include "shearfront/track/flow_coordinate.hpp"
 #include "shearfront/track/level_lines.hpp"
 
 namespace shearfront {
@@ -14,7 +14,7 @@ namespace shearfront {
 /// A scene as u_t - (r g(u) / 4)_y = 0 in pieces.
 struct CurvedScene {
   CurvedProblem problem;
-  BedHeights heights;
+  FlowCoordinate heights;
   std::vector<std::size_t> flux_index;  ///< of the scene, per piece
 
   /// Of lines in y and u; each holds what it does in y.

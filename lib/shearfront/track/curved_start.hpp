@@ -42,10 +42,9 @@ struct CurvedEnds {
 /// All that is to be tracked but the levels.
 struct CurvedProblem {
   std::vector<RatePiece> pieces;
-  std::vector<bool>
-      is_part{};  ///< whether a piece and the one below it are parts of a smooth rate; empty: none
   std::vector<StartSegment> start;  ///< bottom to top
   CurvedEnds ends{};
+  std::vector<bool> is_part{};  ///< a piece and the one below it are parts of a smooth rate; empty: none
 
   /// Whether the rate only goes on, rising or falling, from piece p - 1 to piece p: there is nothing in the bed.
   [[nodiscard]] bool continues(std::size_t p) const {

@@ -55,7 +55,7 @@ class CurvedTracking final : public AnyTracking {
       const double tolerance = kPicture * (scene_->top() - scene_->bottom());
       const auto add = [&](FrontSegment<double> segment) {
         const double middle = segment.z_begin + (segment.z_end - segment.z_begin) / 2;
-        const BedHeights& heights = bed_->scene.heights;
+        const FlowCoordinate& heights = bed_->scene.heights;
         for (double* phi : {&segment.phi_below, &segment.phi_above})
           *phi = heights.phi_of(segment.layer, heights.z_of(middle), *phi);
         for (double* z : {&segment.z_begin, &segment.z_end}) *z = heights.z_of(*z);

@@ -16,10 +16,10 @@ struct SolidLine {
 /// of flux in a bed of c = 1. Where the flux has a minimum phi / c = lowest + width u, where it has a maximum highest - width u;
 /// w is the width over that of the lowest flux. Where c varies within layers y is an integral by Gauss's rule (Scene::mean_solid_fraction),
 /// z by Newton's method.
-class BedHeights {
+class FlowCoordinate {
  public:
   /// Precondition: the fluxes all have a minimum, or all a maximum, and one only.
-  BedHeights(const Scene<double>& scene, const LayerStack<double>& layers);
+  FlowCoordinate(const Scene<double>& scene, const LayerStack<double>& layers);
 
   [[nodiscard]] double y_of(double z) const;
   [[nodiscard]] double z_of(double y) const;

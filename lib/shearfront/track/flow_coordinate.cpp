@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/track/bed_heights.hpp"
+#include "shearfront/track/flow_coordinate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace shearfront {
 
-BedHeights::BedHeights(const Scene<double>& scene, const LayerStack<double>& layers)
+FlowCoordinate::FlowCoordinate(const Scene<double>& scene, const LayerStack<double>& layers)
     : z_top_(layers.top()), is_identity_(!scene.spec().solid_fraction && scene.fluxes().size() == 1) {
   if (!is_constant_in_pieces<double>(scene.spec().solid_fraction))
     bed_ = std::make_shared<const Scene<double>>(scene);
@@ -36,13 +36,13 @@ BedHeights::BedHeights(const Scene<double>& scene, const LayerStack<double>& lay
   y_top_ = is_identity_ ? z_top_ : y.value();
 }
 
-std::size_t BedHeights::layer_of(double y) const {
+std::size_t FlowCoordinate::layer_of(double y) const {
   const auto above = [](double height, const Layer& layer) { return height < layer.y; };
   const auto it = std::upper_bound(layers_.begin() + 1, layers_.end(), y, above);
   return static_cast<std::size_t>(it - layers_.begin()) - 1;
 }
 
-double BedHeights::y_of(double z) const {
+double FlowCoordinate::y_of(double z) const {
   if (is_identity_) return z;
   if (!(z < z_top_)) return y_top_;
   const auto above = [](double height, const Layer& layer) { return height < layer.z; };
@@ -51,7 +51,7 @@ double BedHeights::y_of(double z) const {
   return std::min(y_end(static_cast<std::size_t>(it - layers_.begin())), it->y + it->width * c * (z - it->z));
 }
 
-double BedHeights::z_of(double y) const {
+double FlowCoordinate::z_of(double y) const {
   if (is_identity_) return y;
   if (!(y < y_top_)) return z_top_;
   const std::size_t k = layer_of(y);
@@ -61,17 +61,17 @@ double BedHeights::z_of(double y) const {
   return std::min(end, layer.z + (y - layer.y) / (layer.width * layer.c));
 }
 
-double BedHeights::fraction(std::size_t k, double z) const {
+double FlowCoordinate::fraction(std::size_t k, double z) const {
   return bed_ ? bed_->solid_fraction_at(z) : layer(k).c;
 }
 
-SolidLine BedHeights::solid_line(std::size_t k, double from, double to, double dy) const {
+SolidLine FlowCoordinate::solid_line(std::size_t k, double from, double to, double dy) const {
   const double low = fraction(k, from), high = fraction(k, to);
   if (!bed_ || !(to > from)) return {low, high};
   const double mean = solid_per_height(k) * dy / (to - from), half = (high - low) / 2;
   return {std::min(low, mean - half), std::min(high, mean + half)};
 }
 
-double BedHeights::room() const { return std::abs(layers_.front().slope); }
+double FlowCoordinate::room() const { return std::abs(layers_.front().slope); }
 
 }  // namespace shearfront
