@@ -242,11 +242,10 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     zero.T = time;
     const auto at = [&](const Scalar& w) { return fan_sample(route, w); };
     // Right then both are the path, of the same cost, and rounding must not drop both.
-    if (top.T < t_ && !is_end_close(top, zero, at, Scalar(Scalar(256) * unit_roundoff<Scalar>() * t_)))
-      return;
+    if (top.T < t_ && !is_end_close(route, top, false)) return;
     roots(
-        1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); }, kSure,
-        never_dear);
+        route, false, 1, zero, top, at, [&](const Sample& s) { offer_fan(route, node, base, s, false, 0); },
+        kSure, never_dear);
   }
   void turned_fan(const Route& route, std::size_t node, std::size_t j, const Scalar& lo, const Scalar& hi,
                   const Scalar& top) {
@@ -260,7 +259,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     };
     if (is_dear(a)) return;
     roots(
-        -1, a, fan_sample_of(route, hi), at,
+        route, false, -1, a, fan_sample_of(route, hi), at,
         [&](const Sample& s) { offer_fan(route, node, base, s, true, j); }, 0, is_dear);
   }
 
@@ -320,7 +319,7 @@ class LawCandidates : protected SlopedStarts<Scalar> {
       offer(value, s.h, PathKind::constant, !turned, turned, k, s.y, turn, route.least, s.qm);
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
-    roots(sign, a, b, at, found, 0, never_dear);
+    roots(route, true, sign, a, b, at, found, 0, never_dear);
   }
   void search_curved(const Route& route, std::size_t k, bool leaves_up, const Scalar& h_low,
                      const Scalar& top, bool turned, std::size_t turn) {
@@ -367,12 +366,12 @@ class LawCandidates : protected SlopedStarts<Scalar> {
   /// Calls found() next to every root of T = t between samples a and b, a.h < b.h, where T rises with h for `sign` 1 and falls for -1.
   /// An interval is left out where its lower end says that it `is_dear`.
   template <class At, class Found, class IsDear>
-  void roots(int sign, const Sample& a, const Sample& b, const At& at, const Found& found, int depth,
-             const IsDear& is_dear) {
+  void roots(const Route& route, bool is_state, int sign, const Sample& a, const Sample& b, const At& at,
+             const Found& found, int depth, const IsDear& is_dear) {
     int left = kMostSamples;
     const Scalar tolerance = Scalar(256) * unit_roundoff<Scalar>() * t_;
-    if (is_end_close(a, b, at, tolerance)) found(a);
-    if (is_end_close(b, a, at, tolerance)) found(b);
+    for (const Sample* s : {&a, &b})
+      if (is_end_close(route, *s, is_state)) found(*s);
     halve(sign, a, b, at, found, is_dear, tolerance, depth, left);
   }
   template <class At, class Found, class IsDear>
@@ -397,20 +396,42 @@ class LawCandidates : protected SlopedStarts<Scalar> {
     halve(sign, m, b, at, found, is_dear, tolerance, depth + 1, left);
     if (!is_a_nearer) halve(sign, a, m, at, found, is_dear, tolerance, depth + 1, left);
   }
-  /// Whether T is t at the end `s` of an interval, but for rounding: of T, and of h, as in SlopedRootSearch, by what T is beside it.
-  template <class At>
-  [[nodiscard]] bool is_end_close(const Sample& s, const Sample& other, const At& at,
-                                  const Scalar& tolerance) const {
-    using std::sqrt;
-    if (is_close(s.T, tolerance)) return true;
-    const Scalar few = Scalar(32) * unit_roundoff<Scalar>();
-    if (!is_close(s.T, Scalar(sqrt(few) * t_))) return false;
-    // h is of second order in v where q_m = 0.
-    const Scalar apart = s.h < other.h ? Scalar(other.h - s.h) : Scalar(s.h - other.h);
-    const Scalar part = s.qm * s.qm > few ? Scalar(few * s.h / apart) : Scalar(sqrt(few));
-    if (!(part < Scalar(1))) return true;
-    const Scalar T = at(Scalar(s.v + part * (other.v - s.v))).T;
-    return is_close(s.T, Scalar(tolerance + (T < s.T ? Scalar(s.T - T) : Scalar(T - s.T))));
+  [[nodiscard]] bool is_end_close(const Route& route, const Sample& s, bool is_state) const {
+    const Scalar gap = s.T < t_ ? Scalar(t_ - s.T) : Scalar(s.T - t_);
+    return is_within_rounding(gap, t_, [&] { return rounding(route, s, is_state); });
+  }
+  /// Next to the peak distances from it go as q = the root of what is lacking.
+  [[nodiscard]] Scalar rounding(const Route& route, const Sample& s, bool is_state) const {
+    const auto state = [&](std::size_t cell, bool is_up, const Scalar& r) {
+      return state_at(cell, is_up, r, route.least, s.lost, s.h);
+    };
+    Scalar turn(0);
+    if (route.turn_bend > 0) {
+      const std::size_t j = route.turn_cell;
+      const Scalar& r = route.turn_rate;
+      const Scalar q = q_at(r, route.least, s.lost),
+                   least = Scalar(8) * unit_roundoff<Scalar>() * r;  // lacking: of a q that is not resolved
+      const bool is_small = q * q * r < least;
+      const Scalar lost = is_small ? Scalar(least - (r - route.least)) : s.lost,
+                   h = is_small ? Scalar(r - least) : s.h;
+      const LawTurn<Scalar> law(view_.side(j, true), view_.side(j, false), route.turn_form, route.turn_bend,
+                                r, state_at(j, true, r, route.least, lost, h),
+                                state_at(j, false, r, route.least, lost, h), h);
+      using std::sqrt;
+      turn = law.T / (is_small ? Scalar(sqrt(Scalar(least / r))) : q);
+    }
+    return this->rounding_at_place(
+        route, s, is_state, turn, [&](const auto& leg, const Scalar&, const Scalar&) {
+          const RunEnds<Scalar>& run = *leg.first;
+          const Scalar bend = leg.is_upwards ? view_.bend[leg.cell] : Scalar(-view_.bend[leg.cell]);
+          Scalar most(0);
+          for (const bool is_up : {true, false})
+            most = std::max(most, LawRun<Scalar>(view_.side(leg.cell, is_up), run.form, bend, run.d, run.r1,
+                                                 state(leg.cell, is_up, run.r1), run.r2,
+                                                 state(leg.cell, is_up, run.r2), s.h)
+                                      .T);
+          return most;
+        });
   }
   [[nodiscard]] static bool never_dear(const Sample&) { return false; }
   [[nodiscard]] bool is_close(const Scalar& T, const Scalar& tolerance) const {

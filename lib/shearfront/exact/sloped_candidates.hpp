@@ -50,6 +50,22 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     add_route(view_, route, s);
     return s;
   }
+  [[nodiscard]] Scalar rounding(const Route& route, const Sample& s, bool is_state = false) const {
+    const Scalar turn =
+        route.turn_bend > 0
+            ? Scalar(Scalar(4) / route.turn_bend / (route.turn_form == RateForm::linear ? Scalar(1) : s.h))
+            : Scalar(0);
+    return this->rounding_at_place(route, s, is_state, turn,
+                                   [&](const auto& leg, const Scalar& q1, const Scalar& q2) {
+                                     return Crossing<Scalar>(*leg.first, q1, q2, s.h).T;
+                                   });
+  }
+  template <class At, class Slope, class Found>
+  [[nodiscard]] auto search(int sign, const At& at, const Slope& slope, const Found& found,
+                            const Route& route, bool is_state = false) const {
+    const auto of = [this, &route, is_state](const Sample& s) { return rounding(route, s, is_state); };
+    return SlopedRootSearch<Scalar, At, Slope, Found, decltype(of)>(t_, sign, at, slope, found, of);
+  }
   /// t dw/dT.
   [[nodiscard]] Scalar fan_slope(const Sample& s) const { return t_ / s.F() * s.v; }
 
@@ -69,7 +85,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const Sample top = fan_sample(route, Scalar(1));
     if (is_finite(top.T)) {
       // Later it rests at the least rate on its way. Right then both are the path, of the same cost, and rounding must not drop both.
-      if (top.T < t_ && top.T < t_ - rounding_of_time(top, t_)) return;
+      if (!is_within_rounding(Scalar(t_ - top.T), t_, [&] { return rounding(route, top); })) return;
       if (base + top.X + top.h / Scalar(4) * (t_ - top.T) > limit()) return;
     }
     Sample zero;
@@ -85,8 +101,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
       zero = at(Scalar(0));
       return finish_fan(route, node, base, zero, Scalar(0), false, 0);
     }
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, 1, at, slope, found)
-        .solve(zero, top);
+    search(1, at, slope, found, route).solve(zero, top);
   }
 
   void turned_fan(const Route& route, std::size_t node, std::size_t j, const Scalar& lo, const Scalar& hi,
@@ -101,8 +116,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     const auto found = [&](const Sample& s, const Scalar& by) {
       finish_fan(route, node, base, s, by, true, j);
     };
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, -1, at, slope, found)
-        .run(a, b);
+    search(-1, at, slope, found, route).run(a, b);
   }
   /// No path along the route with h above that of the sample costs less: H' t + int p dz at a smaller H'.
   [[nodiscard]] Scalar bound(const Scalar& base, const Sample& s) const {
@@ -237,8 +251,7 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
             sqrt(Scalar(range.qa2 + range.kappa * start.lost)));
     };
     const Sample b = at(Scalar(0)), a = at(Scalar(1));
-    SlopedRootSearch<Scalar, decltype(at), decltype(slope), decltype(found)>(t_, sign, at, slope, found)
-        .run(a, b);
+    search(sign, at, slope, found, route, true).run(a, b);
   }
 
   /// Where r is constant in cell k: h is given and the time linear in the start.

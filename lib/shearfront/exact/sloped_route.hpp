@@ -144,31 +144,34 @@ void add_route(const SlopedView<Scalar>& view, const SlopedRoute<Scalar>& route,
   s.T = s.T_rising + s.T_falling;
 }
 
-/// What rounding of T and of h makes of T, a part of t. At the ends of an interval of h paths of another kind begin, right at a node,
-/// and rounding must not drop both: next to a turn q has the root of an error of h, and T, known less well than h, has it too.
-template <Real Scalar>
-[[nodiscard]] Scalar rounding_of_time(const SlopedSample<Scalar>& s, const Scalar& t) {
+/// Whether times of a path and t are the same but for rounding, which at the ends of an interval of h, right at a node, paths of
+/// another kind have as well: it must not drop both. Of T some u; and what `of_place()` says, which the rate at z makes, where q may be
+/// the root of an error.
+template <Real Scalar, class OfPlace>
+[[nodiscard]] bool is_within_rounding(const Scalar& gap, const Scalar& t, const OfPlace& of_place) {
   using std::sqrt;
-  const Scalar &u = unit_roundoff<Scalar>(), few = Scalar(32) * u, signed_F = s.F(),
-               F = signed_F < 0 ? Scalar(-signed_F) : signed_F;
-  const Scalar by_h = s.qm * s.qm > few ? Scalar(F * (few / s.qm)) : Scalar(F * sqrt(few));
-  return Scalar(256) * u * t + (is_finite(by_h) ? by_h : Scalar(0));
+  const Scalar &u = unit_roundoff<Scalar>(), little = Scalar(256) * u * t;
+  if (gap <= little) return true;
+  return gap <= Scalar(8) * sqrt(u) * t && gap <= little + of_place();
 }
 
 /// All roots of T = t on [a, b], a.h < b.h, at which dT/dh has the sign `sign`: calls found(sample, change of v) with a
 /// sample next to the root and what is missing to it. `at` makes the sample of a v, `slope` is t dv/dT there: dv/dT itself may be no number.
 /// Rigorous: an interval is dropped only where T cannot be t or dT/dh cannot have the sign. A minimising path has no conjugate
 /// point before t, so the sign is known: + for straight fans, - for turned ones.
-template <Real Scalar, class At, class Slope, class Found>
+/// `rounding` is what the rate at z makes of the T of a sample.
+template <Real Scalar, class At, class Slope, class Found, class Rounding>
 class SlopedRootSearch {
  public:
-  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found)
-      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found) {}
+  SlopedRootSearch(const Scalar& t, int sign, const At& at, const Slope& slope, const Found& found,
+                   const Rounding& rounding)
+      : t_(t), sign_(sign), at_(at), slope_(slope), found_(found), rounding_(rounding) {}
 
   void run(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b, int depth = 0) {
     // T between the values of its rising and its falling part.
-    if (a.T_rising + b.T_falling > t_ && a.T_rising + b.T_falling > t_ + tolerance(a, b)) return;
-    if (b.T_rising + a.T_falling < t_ && b.T_rising + a.T_falling < t_ - tolerance(a, b)) return;
+    const auto rounding = [&] { return std::max(rounding_(a), rounding_(b)); };
+    if (!is_within_rounding(Scalar(a.T_rising + b.T_falling - t_), t_, rounding)) return;
+    if (!is_within_rounding(Scalar(t_ - (b.T_rising + a.T_falling)), t_, rounding)) return;
     const Scalar ratio = a.h / b.h;  // both times the h of a
     const Scalar low = a.rising + b.qm * a.steep + b.up * ratio - a.down;
     const Scalar high = (b.rising + a.qm * b.steep - b.down) * ratio + a.up;
@@ -188,11 +191,13 @@ class SlopedRootSearch {
     const SlopedSample<Scalar>& less = sign_ > 0 ? a : b;  // T <= t there
     const SlopedSample<Scalar>& more = sign_ > 0 ? b : a;
     if (less.T >= t_) {
-      if (less.T <= t_ + tolerance(less)) found_(less, Scalar(0));
+      if (is_within_rounding(Scalar(less.T - t_), t_, [&] { return rounding_(less); }))
+        found_(less, Scalar(0));
       return;
     }
     if (more.T <= t_) {
-      if (more.T >= t_ - tolerance(more)) found_(more, Scalar(0));
+      if (is_within_rounding(Scalar(t_ - more.T), t_, [&] { return rounding_(more); }))
+        found_(more, Scalar(0));
       return;
     }
     Scalar lo = less.v, hi = more.v, lo_T = less.T, hi_T = more.T;
@@ -223,10 +228,6 @@ class SlopedRootSearch {
   struct Place {
     Scalar v{0}, T{0}, slope{0};  ///< t dv/dT
   };
-  [[nodiscard]] Scalar tolerance(const SlopedSample<Scalar>& s) const { return rounding_of_time(s, t_); }
-  [[nodiscard]] Scalar tolerance(const SlopedSample<Scalar>& a, const SlopedSample<Scalar>& b) const {
-    return std::max(tolerance(a), tolerance(b));
-  }
   static Scalar size(const Scalar& x) { return x < 0 ? Scalar(-x) : x; }
   /// So small that its square is rounding.
   [[nodiscard]] static bool is_small(const Scalar& step, const Scalar& v) {
@@ -272,6 +273,7 @@ class SlopedRootSearch {
   const At& at_;
   const Slope& slope_;
   const Found& found_;
+  Rounding rounding_;
 };
 
 }  // namespace shearfront::exact

@@ -73,6 +73,33 @@ class SlopedStarts {
     if (path.better_than(best_)) best_ = path;
   }
 
+  /// What rounding of z and of the rate there makes of the time of a route, whose runs from z `time_of` gives and whose turn there is
+  /// `turn` times a change of q: T is that of a change of q over the sum of both q, and 1 / (r q) for each height. The h of a
+  /// state is known to rounding, that of a fan exactly.
+  template <class TimeOf>
+  [[nodiscard]] Scalar rounding_at_place(const Route& route, const Sample& s, bool is_state,
+                                         const Scalar& turn, const TimeOf& time_of) const {
+    using std::sqrt;
+    const Scalar few = Scalar(128) * unit_roundoff<Scalar>();
+    const auto change = [&](const Scalar& q) { return q * q > few ? Scalar(few / q) : Scalar(sqrt(few)); };
+    const Scalar& rate = std::min(rate_below_, rate_above_);
+    const Scalar q_here = std::max(q_at(rate, route.least, s.lost), Scalar(sqrt(few)));
+    Scalar all = few * (z_ < 0 ? Scalar(-z_) : z_) / (rate * q_here);
+    if (is_state && is_finite(s.T)) {
+      const Scalar q = std::min(q_here, std::max(s.qm, Scalar(sqrt(few))));
+      all += Scalar(2) * s.T * change(q) / q;
+    }
+    for (const auto* leg : {&route.once, &route.twice}) {
+      if (leg->n_cells == 0 || (leg->first != &up_ && leg->first != &down_)) continue;
+      const Scalar q1 = q_at(leg->first->r1, route.least, s.lost),
+                   q2 = q_at(leg->first->r2, route.least, s.lost);
+      if (q1 + q2 > 0) all += Scalar(2) * time_of(*leg, q1, q2) * change(q1) / (q1 + q2);
+    }
+    if (route.turn_bend > 0 && route.twice.n_cells == 0 && route.twice.first == &up_)
+      all += turn * change(q_at(route.turn_rate, route.least, s.lost));
+    return all;
+  }
+
   // Fans: h = 4 least w / (1 + w)^2, q_m = (1 - w) / (1 + w).
   [[nodiscard]] static Scalar w_of(const Scalar& h, const Scalar& least) {
     using std::sqrt;
