@@ -15,9 +15,7 @@ class Options(TypedDict, total=False):
 
     aim for the error that time steps make in phi; cells make another, > 0 and <= 1 (crank-nicolson)."""
     layers: int
-    """so many pieces for a smooth bed, or parts of a smooth start in one of pieces, instead of the tolerance, from 1 to 1000000 (exact)
-
-    smooth shear rates: number of layers of the staircase, from 1 to 1000000 (front-tracking)."""
+    """so many pieces for a smooth bed, or parts of a smooth start in one of pieces, instead of the tolerance, from 1 to 1000000 (exact)."""
     resolution: float
     """largest step of phi in a fan, or delta of the singular mapping, > 0 and <= 1 (front-tracking)."""
     grid: Literal["levels", "singular-mapping"]

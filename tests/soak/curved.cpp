@@ -163,12 +163,13 @@ class CurvedLaws {
     spec.scale *= 2;
     CurvedRun twice(spec, trial_.resolution);
     twice.advance(infinity<double>());
-    found_.expect(2 * twice.tracker.last_collision() == direct.tracker.last_collision() &&
-                      twice.tracker.n_collisions() == direct.tracker.n_collisions(),
-                  "twice the scale halves all times", [&] {
-                    return number_text(2 * twice.tracker.last_collision()) + " for " +
-                           number_text(direct.tracker.last_collision());
-                  });
+    const auto last = [](const CurvedRun& run) {
+      return run.tracker.last_collision() * run.bed->scene.time_unit;
+    };
+    found_.expect(
+        2 * last(twice) == last(direct) && twice.tracker.n_collisions() == direct.tracker.n_collisions(),
+        "twice the scale halves all times",
+        [&] { return number_text(2 * last(twice)) + " for " + number_text(last(direct)); });
   }
 
   /// u(z, t) of a bed is 1 - u(1 - z, t) of the bed upside down. Levels are chosen alike, so what differs is rounding.

@@ -51,6 +51,15 @@ struct RefinedMethod {
 
 /// What is promised for a scene; 0 where nothing is, or all is exact.
 struct PromisedOrders {
+  /// Whether a state of the start is within a quarter of the range of the flux from its top, but not there.
+  [[nodiscard]] static bool starts_near_top(const Scene<double>& scene) {
+    for (const Flux<double>& flux : scene.fluxes())
+      for (const double share : scene.initial_values())
+        for (const double top : flux.extrema())
+          if (share != top && std::abs(share - top) < (flux.range().highest - flux.range().lowest) / 4)
+            return true;
+    return false;
+  }
   double phi = 0, M = 0, first_wave = 0, last_wave = 0;
 
   PromisedOrders(const RefinedMethod& method, const Scene<double>& scene) {
@@ -69,6 +78,10 @@ struct PromisedOrders {
         std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
                     [](const Flux<double>& flux) { return flux.curvature() == Curvature::mixed; });
     if (bends_both_ways) last_wave = std::min(first_wave, M);
+    // Levels of H are wide in phi next to the top of the flux: a start that stays there is of order 1/2 until R is less than
+    // the square of its distance.
+    const bool has_levels = method.solver == "front-tracking" && !scene.is_layered();
+    if (has_levels && starts_near_top(scene)) phi = std::min(phi, 0.5);
   }
 };
 

@@ -104,10 +104,9 @@ TEST_F(FitFiles, EveryEntryIsTaken) {
   EXPECT_EQ(spec.unknown.lower, (std::vector<double>{0.01, 0.01}));
   EXPECT_EQ(spec.unknown.upper, (std::vector<double>{20, std::numeric_limits<double>::infinity()}));
   EXPECT_EQ(spec.unknown.shape, Shape::convex);
-  EXPECT_EQ(
-      settings(spec.forward.method),
-      "--method front-tracking --resolution 0.02 --grid singular-mapping --reconstruct linear --layers 50 "
-      "--max-collisions 1000");
+  EXPECT_EQ(settings(spec.forward.method),
+            "--method front-tracking --resolution 0.02 --grid singular-mapping --reconstruct linear "
+            "--max-collisions 1000");
   EXPECT_EQ(quantity_of(spec), "bin");
   EXPECT_EQ(loss_of(spec), "cauchy");
   EXPECT_EQ(spec.misfit.loss_scale, 3);

@@ -154,7 +154,7 @@ TEST(OptionsOfSolvers, AreListedWithTheValuesOfEachSolver) {
   EXPECT_EQ(values_for("cells", "crank-nicolson")[0],
             "from 2 to 10000000, default 400, or 800 or 1600 where fronts are narrower");
   EXPECT_EQ(values_for("cells", "upwind")[0], "from 1 to 100000000, default 400");
-  EXPECT_NE(values_for("layers", "exact"), values_for("layers", "front-tracking"));
+  EXPECT_NE(values_for("tolerance", "exact"), values_for("tolerance", "crank-nicolson"));
 }
 
 // The default is allowed, or it says what it stands for.
@@ -236,8 +236,8 @@ TEST(OptionsOfSolvers, RefuseWhatIsNotAllowedByTheirKey) {
   EXPECT_EQ(refusal("resolution", "0"), "--resolution = 0; must be > 0 and <= 1");
   EXPECT_EQ(refusal("resolution", "nan"), "--resolution = \"nan\"; must be a number > 0 and <= 1");
   EXPECT_EQ(refusal("resolution", "fine"), "--resolution = \"fine\"; must be a number > 0 and <= 1");
-  EXPECT_EQ(refusal("layers", "0"), "--layers = 0; must be a whole number from 1 to 1000000");
-  EXPECT_EQ(refusal("layers", "2.5"), "--layers = 2.5; must be a whole number from 1 to 1000000");
+  EXPECT_EQ(refusal("max-fronts", "0"), "--max-fronts = 0; must be a whole number from 1 to 2000000000");
+  EXPECT_EQ(refusal("max-fronts", "2.5"), "--max-fronts = 2.5; must be a whole number from 1 to 2000000000");
   EXPECT_EQ(refusal("grid", "fine"), "--grid = \"fine\"; must be one of: levels, singular-mapping");
   method = Method("crank-nicolson");
   EXPECT_EQ(refusal("monotone", "yes"), "--monotone = \"yes\"; must be true or false");

@@ -179,6 +179,13 @@ CurvedScene scene_with(const Scene<double>& scene, double resolution,
   CurvedScene curved{{}, FlowCoordinate(scene, layers), {}};
   CurvedProblem& problem = curved.problem;
   problem.pieces = pieces_of(scene, layers, curved.heights, curve, fluxes);
+  double fastest = 0;
+  for (const RatePiece& piece : problem.pieces) fastest = std::max({fastest, piece.low, piece.high});
+  const int exponent = std::ilogb(fastest);
+  curved.time_unit = std::ldexp(1.0, -exponent);
+  for (RatePiece& piece : problem.pieces)
+    piece = {piece.z_low, piece.z_high, std::ldexp(piece.low, -exponent), std::ldexp(piece.high, -exponent),
+             piece.curve, piece.flux};
   const std::vector<double> knots = scene.knots();
   for (std::size_t k = 0; !curve && k < layers.n_layers(); ++k)
     problem.is_part.push_back(!std::binary_search(knots.begin(), knots.end(), layers.boundary(k)));
@@ -189,7 +196,7 @@ CurvedScene scene_with(const Scene<double>& scene, double resolution,
   for (std::size_t end = 0; end < 2; ++end) {
     if (!*outside[end]) continue;
     const std::size_t p = end == 0 ? 0 : layers.n_layers() - 1;
-    problem.ends.changes[end] = (*outside[end])->breaks;
+    for (const double t : (*outside[end])->breaks) problem.ends.changes[end].push_back(t / curved.time_unit);
     for (const double share : (*outside[end])->values)
       problem.ends.states[end].push_back(state_of(scene, curved, p, share));
   }

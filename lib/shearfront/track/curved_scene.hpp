@@ -11,11 +11,13 @@
 
 namespace shearfront {
 
-/// A scene as u_t - (r g(u) / 4)_y = 0 in pieces.
+/// A scene as u_t - (r g(u) / 4)_y = 0 in pieces, its time in a power of two of the scene's such that the largest rate is about 1:
+/// products of rates neither overflow nor vanish, and nothing is rounded.
 struct CurvedScene {
   CurvedProblem problem;
   FlowCoordinate heights;
   std::vector<std::size_t> flux_index;  ///< of the scene, per piece
+  double time_unit = 1;                 ///< of the scene's time over that of the problem
 
   /// Of lines in y and u; each holds what it does in y.
   [[nodiscard]] Profile<double> profile_of(const Lines& lines) const;

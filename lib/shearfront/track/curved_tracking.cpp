@@ -39,9 +39,9 @@ class CurvedTracking final : public AnyTracking {
       refused_ = "a periodic bed has no steady state; ask for a finite time";
       return status_ = Status::unsupported;
     }
-    return status_ = tracker_.advance_to(t, limits_);
+    return status_ = tracker_.advance_to(t / unit(), limits_);
   }
-  [[nodiscard]] double time() const override { return tracker_.time(); }
+  [[nodiscard]] double time() const override { return tracker_.time() * unit(); }
   [[nodiscard]] Profile<double> profile() const override {
     return reconstruct_ == Reconstruction::linear ? lines() : *steps().profile();
   }
@@ -59,14 +59,16 @@ class CurvedTracking final : public AnyTracking {
         for (double* phi : {&segment.phi_below, &segment.phi_above})
           *phi = heights.phi_of(segment.layer, heights.z_of(middle), *phi);
         for (double* z : {&segment.z_begin, &segment.z_end}) *z = heights.z_of(*z);
+        for (double* t : {&segment.t_begin, &segment.t_end}) *t *= unit();
         segments.push_back(segment);
       };
       for (const CurvedTrace& trace : tracker_.observer().traces())
         add_segments(bed_->grid, trace, tolerance, add);
       const auto& fronts = tracker_.system().fronts();
       fronts.for_each([&](FrontIndex i, const CurvedNode& node) {
-        if (!fronts.is_boundary(i) && time() > node.t)
-          add_segments(bed_->grid, {node, time(), position_of(bed_->grid, node, time())}, tolerance, add);
+        const double now = tracker_.time();
+        if (!fronts.is_boundary(i) && now > node.t)
+          add_segments(bed_->grid, {node, now, position_of(bed_->grid, node, now)}, tolerance, add);
       });
       sort_by_begin(segments);
     }
@@ -76,7 +78,10 @@ class CurvedTracking final : public AnyTracking {
   [[nodiscard]] std::vector<Collision> collisions() const override {
     if constexpr (Observer::kActive) {
       std::vector<Collision> events = tracker_.observer().events();
-      for (Collision& event : events) event.z = bed_->scene.heights.z_of(event.z);
+      for (Collision& event : events) {
+        event.z = bed_->scene.heights.z_of(event.z);
+        event.t *= unit();
+      }
       return events;
     }
     SHEARFRONT_EXPECTS(Observer::kActive, "a tracking that keeps its history");
@@ -96,18 +101,22 @@ class CurvedTracking final : public AnyTracking {
     timeline.mass = scene_->mass();
     timeline.steady_height = scene_->steady_height();
     const std::size_t n = bed_->grid.n_layers();
+    const auto in_scene = [&](std::optional<double> t) {
+      if (t) *t *= unit();
+      return t;
+    };
     const auto first = [&](std::size_t k) {
       const auto& waves = tracker_.system().waves(k);
-      return edges_ == FanEdges::characteristic ? waves.first_edge : waves.first;
+      return in_scene(edges_ == FanEdges::characteristic ? waves.first_edge : waves.first);
     };
     timeline.t0 = first(0);
     timeline.t1 = first(n);
-    if (tracker_.is_steady()) timeline.t_star = tracker_.last_collision();
+    if (tracker_.is_steady()) timeline.t_star = in_scene(tracker_.last_collision());
     const std::vector<double> knots = scene_->knots();
     auto knot = knots.begin();
     for (std::size_t k = 1; k < n && knot != knots.end(); ++k)
       if (bed_->scene.heights.y_of(*knot) == bed_->grid.boundary(k))
-        timeline.interfaces.push_back({*knot++, first(k), tracker_.last_wave(k)});
+        timeline.interfaces.push_back({*knot++, first(k), in_scene(tracker_.last_wave(k))});
     return timeline;
   }
   [[nodiscard]] Summary summary() const override {
@@ -122,6 +131,7 @@ class CurvedTracking final : public AnyTracking {
   }
 
  private:
+  [[nodiscard]] double unit() const { return bed_->scene.time_unit; }
   /// Largest distance in y of the segments of a picture from the curves, as a part of the bed.
   static constexpr double kPicture = 1e-4;
   /// Of what the bed holds, before its numbers are no longer used.
@@ -148,7 +158,7 @@ class CurvedTracking final : public AnyTracking {
   }
   /// Nothing is lost but by rounding: where a front was not found or met at the wrong time, it shows here.
   [[nodiscard]] CurvedSnapshot watched_snapshot() const {
-    CurvedSnapshot snapshot = snapshot_of(tracker_.system(), time());
+    CurvedSnapshot snapshot = snapshot_of(tracker_.system(), tracker_.time());
     if (scene_->has_walls() || tracker_.is_periodic()) {
       const double amount = bed_->scene.heights.amount_of(snapshot.z.back(), snapshot.below.back());
       const double room = bed_->scene.heights.room() * (snapshot.z.back() - snapshot.z.front());
