@@ -106,11 +106,11 @@ struct Convergence {
     const std::size_t half = (errors.size() + 1) / 2;
     return most(half, errors.size()) <= std::max(usual, slack * most(0, half));
   }
-  /// Most of the order over the last three halvings: what begins late (next to an inflection of the flux, behind a fan that
+  /// Most of the order over the last halvings, three, or two of times of events, which go down in steps: what begins late (next to an inflection of the flux, behind a fan that
   /// is narrower than a cell) is on its way, and what has half the order is not.
-  [[nodiscard]] bool comes_to_order() const {
+  [[nodiscard]] bool comes_to_order(std::size_t halvings = 3) const {
     constexpr double kMost = 0.55;
-    return observed(errors.size() - 4) >= kMost * order;
+    return observed(errors.size() - 1 - halvings) >= kMost * order;
   }
   /// Observed between the level `first` and the last; `rounding` for errors below it.
   [[nodiscard]] double observed(std::size_t first = 0) const {
