@@ -59,10 +59,13 @@ class RefinementLaw : public testing::TestWithParam<SceneKind> {
         for (const auto& [what, convergence] : few) {
           const bool is_slow = !convergence.shows_order(kSlack);
           Convergence all = is_slow ? refinement.errors(kLevels + 2)[what] : convergence;
-          const auto is_shown = [&] { return all.shows_order(kSlack) || (is_slow && all.comes_to_order()); };
+          const bool is_time = what.front() == 't';
+          const auto is_shown = [&] {
+            return all.shows_order(kSlack) || (is_slow && all.comes_to_order(is_time ? 2 : 3));
+          };
           for (int levels = kLevels + 3;
-               what.front() == 't' && levels <= kLevelsOfTimes && !is_shown() &&
-               refinement.collisions() > 0 && refinement.collisions() < kManyCollisions;
+               is_time && levels <= kLevelsOfTimes && !is_shown() && refinement.collisions() > 0 &&
+               refinement.collisions() < kManyCollisions;
                ++levels)
             all = refinement.errors(levels)[what];
           if (all.errors.front() > all.rounding) {  // else right by chance: says nothing about orders

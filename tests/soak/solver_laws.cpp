@@ -143,18 +143,23 @@ class SolverLaws {
     }
   }
 
-  /// Whether phi is that of a profile at z: to the bit, but where lines stand for what is curved between fronts, a thousandth of R from
-  /// it, and a front at z may lie on either side.
+  /// How far phi of a profile may be from that of the solution: not at all, but where lines stand for what is curved between fronts, a
+  /// thousandth of R.
+  [[nodiscard]] double line_slack(double z) const {
+    if (!Solver::guarantees().has_fronts || bed_.scene.is_layered()) return 0;
+    constexpr double kShareOfResolution = 1e-3;
+    return kShareOfResolution * bed_.trial.options.at("resolution") *
+           std::max(1.0, bed_.scene.range_at(z).highest);
+  }
+  /// Whether phi is that of a profile at z; with lines a front at z may lie on either side.
   [[nodiscard]] bool is_of(const Profile<double>& profile, double z, double phi) const {
-    if (profile.at(z).phi == phi) return true;
-    if (!Solver::guarantees().has_fronts || bed_.scene.is_layered()) return false;
-    constexpr double kShareOfResolution = 1e-3, kRoundings = 16;
-    const double tolerance = kShareOfResolution * bed_.trial.options.at("resolution") *
-                             std::max(1.0, bed_.scene.range_at(z).highest),
-                 beside = kRoundings * 0x1p-53 * bed_.trial.largest_height();
+    const double slack = line_slack(z);
+    if (slack == 0) return profile.at(z).phi == phi;
+    constexpr double kRoundings = 16;
+    const double beside = kRoundings * 0x1p-53 * bed_.trial.largest_height();
     return std::any_of(std::begin(kSides), std::end(kSides), [&](double side) {
       const double at = std::clamp(z + side * beside, bed_.scene.bottom(), bed_.scene.top());
-      return std::abs(profile.at(at).phi - phi) <= tolerance;
+      return std::abs(profile.at(at).phi - phi) <= slack;
     });
   }
   static constexpr double kSides[] = {0, -1, 1};
@@ -166,7 +171,8 @@ class SolverLaws {
         const Sample& s = result.samples[index(i, j)];
         findings_.expect(
             is_of(result.profiles[i], request_.heights[j], s.phi) &&
-                std::abs(value.M - s.M) <= kMassSlack * bed_.trial.largest_height() + bed_.M_rounding(),
+                std::abs(value.M - s.M) <= kMassSlack * bed_.trial.largest_height() + bed_.M_rounding() +
+                                               line_slack(request_.heights[j]) * bed_.trial.height(),
             name("samples are values of the profile"),
             [&] { return at(request_.heights[j], request_.times[i]); });
       }
