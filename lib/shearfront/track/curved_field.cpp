@@ -13,7 +13,9 @@ Sample CurvedField::at(double height) const {
   const double z = bed_->scene.heights.y_of(height);
   const auto& heights = snapshot_.z;
   const auto it = std::upper_bound(heights.begin() + 1, heights.end() - 1, z);
-  const auto i = static_cast<std::size_t>(it - heights.begin()) - 1;
+  auto i = static_cast<std::size_t>(it - heights.begin()) - 1;
+  while (i > 0 && !(heights[i] < heights.back()))
+    --i;  // at the top the value below it, also of fronts that begin there
   const LevelCurves& grid = bed_->grid;
   const std::size_t piece = snapshot_.piece[i];
   const double amount = snapshot_.below[i] + grid.amount(piece, snapshot_.state[i], heights[i], z);
