@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shearfront/exact/events.hpp"
@@ -225,6 +226,69 @@ TEST(CurvedFronts, OtherFluxes) {
       }
   EXPECT_EQ(n, 12);
   EXPECT_GE((coarse - fine) / n / 3, 1.7);
+}
+
+struct SmoothBedErrors {
+  double steps = 0, lines = 0, M = 0, mass = 0, arrival = 0;
+};
+SmoothBedErrors smooth_bed_errors(const Scene<double>& scene, const ExactSolution<double>& exact,
+                                  double resolution, double t) {
+  Tracking steps(scene, {.resolution = resolution}),
+      lines(scene, {.resolution = resolution, .reconstruct = Reconstruction::linear});
+  steps.advance(t);
+  lines.advance(t);
+  SmoothBedErrors errors;
+  const auto field = steps.field(scene);
+  for (int i = 1; i < 40; ++i)
+    errors.M = std::max(errors.M, std::abs(field->at(i / 40.0).M - exact.M(i / 40.0, t)));
+  const Profile<double> of_steps = steps.profile(), of_lines = lines.profile();
+  errors.steps = errors_against(exact, of_steps, t).l1;
+  errors.lines = errors_against(exact, of_lines, t).l1;
+  errors.mass = std::max(std::abs(of_steps.mass() - scene.mass()), std::abs(of_lines.mass() - scene.mass()));
+  errors.arrival = std::abs(*steps.timeline()->t1 / *exact_timeline(exact).t1 - 1);
+  return errors;
+}
+
+/// Beds that pieces stand for: T, c and a vary as tables and exponentials and in ways of their own; and two fluxes in a bed of one piece.
+std::vector<std::pair<std::string, SceneSpec<double>>> smooth_beds() {
+  SceneSpec<double> base;
+  base.shear_rate = Exponential<double>{2, 0.4};
+  base.initial_breaks = {0.5};
+  base.initial_values = {0, 1};
+  SceneSpec<double> T = base, c = base, both = base, own = base, fluxes = base;
+  T.temperature = Table<double>{{0, 1}, {1, 1.5}};
+  c.solid_fraction = Table<double>{{0, 0.5, 1}, {0.62, 0.55, 0.4}};
+  both.temperature = T.temperature;
+  both.solid_fraction = Exponential<double>{0.6, 3};
+  Kinetic<double> kinetic;
+  kinetic.amplitude = 2, kinetic.length = 0.3, kinetic.load = 0.5, kinetic.lid = 1.2;
+  own.shear_rate = kinetic;
+  fluxes.fluxes = {Cubic<double>{0.3}, Quadratic<double>{}};
+  fluxes.flux_breaks = {0.55};
+  return {{"T", T}, {"c", c}, {"c and T", both}, {"kinetic", own}, {"two fluxes", fluxes}};
+}
+
+// No stairs where a, c or T vary in any way: what stands for the bed costs no more than the levels do. Lines are of order 3/2, for they
+// know less of the cell in which characteristics turn just now.
+TEST(CurvedFronts, AnySmoothBed) {
+  constexpr double kCoarse = 0.02, kFine = 0.0025, kTime = 0.4;
+  for (const auto& [name, spec] : smooth_beds()) {
+    SCOPED_TRACE(name);
+    const Scene<double> scene(spec);
+    const ExactSolution<double> exact(scene);
+    const SmoothBedErrors coarse = smooth_bed_errors(scene, exact, kCoarse, kTime),
+                          fine = smooth_bed_errors(scene, exact, kFine, kTime);
+    std::printf("%s: steps %.2g -> %.2g, lines %.2g -> %.2g, M %.2g -> %.2g\n", name.c_str(), coarse.steps,
+                fine.steps, coarse.lines, fine.lines, coarse.M, fine.M);
+    for (const SmoothBedErrors& errors : {coarse, fine}) EXPECT_LE(errors.mass, 1e-13);
+    EXPECT_LE(coarse.arrival, kCoarse * kCoarse / 4);
+    EXPECT_LE(fine.arrival, kFine * kFine);  // the exact one has pieces as well
+    EXPECT_LE(fine.steps, coarse.steps / 5);
+    EXPECT_LE(coarse.lines, coarse.steps / 2);
+    EXPECT_LE(fine.lines, fine.steps / 2);
+    EXPECT_LE(coarse.M, kCoarse * kCoarse / 2);
+    EXPECT_LE(fine.M, kFine * kFine);
+  }
 }
 
 // A flux with straight branches has contacts instead of fans: layers carry them.

@@ -10,7 +10,7 @@
 namespace shearfront::soak {
 
 /// Of tests/support/curved_scenes.hpp.
-enum class CurvedKind { parabola, any_flux, hostile };
+enum class CurvedKind { parabola, any_flux, smooth, hostile };
 
 struct CurvedTrial {
   CurvedKind kind;
@@ -18,7 +18,7 @@ struct CurvedTrial {
   SceneSpec<double> spec;
   double resolution;
 };
-/// A bed of one kind, or of the first two in turn; R from 0.01 to 0.5. Hostile beds may lose mass where heights do not resolve their
+/// A bed of one kind, or of the first three in turn; R from 0.01 to 0.5. Hostile beds may lose mass where heights do not resolve their
 /// rate (docs/theory/curved-fronts.md).
 [[nodiscard]] CurvedTrial draw_curved(CurvedKind kind, std::uint64_t seed);
 [[nodiscard]] CurvedTrial draw_curved(std::uint64_t seed);

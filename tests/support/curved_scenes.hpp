@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -81,6 +82,40 @@ inline SceneSpec<double> random_curved_flux_spec(std::uint64_t seed) {
     value = value == 0.5 ? flux.extrema().front() : value * flux.range().highest;
   if (maker.integer(0, 1) == 0)
     spec.solid_fraction = Piecewise<double>{maker.heights(1, 0.1, 0.9), {maker.uniform(0.4, 0.7), 0.6}};
+  return spec;
+}
+
+/// The same where pieces have to stand for the rate: a, c or T vary in another way than it can follow, or all of them; half of them with
+/// two fluxes.
+inline SceneSpec<double> random_smooth_spec(std::uint64_t seed) {
+  SceneMaker maker(seed ^ 0x5eedULL);
+  SceneSpec<double> spec = random_curved_spec(seed);
+  const auto table = [&](double least, double most) {
+    Table<double> points{{0}, {maker.uniform(least, most)}};
+    for (const double z : maker.heights(maker.integer(0, 2), 0.1, 0.9)) {
+      points.z.push_back(z);
+      points.values.push_back(maker.uniform(least, most));
+    }
+    points.z.push_back(1);
+    points.values.push_back(maker.uniform(least, most));
+    return points;
+  };
+  const int what = maker.integer(0, 3);
+  if (what == 0) {
+    Kinetic<double> kinetic;
+    kinetic.amplitude = maker.uniform(0.5, 2);
+    kinetic.length = maker.uniform(0.3, 1);
+    kinetic.load = maker.uniform(0.3, 1);
+    kinetic.lid = 1.2;
+    spec.shear_rate = kinetic;
+  }
+  if (what == 1 || what == 3) spec.temperature = table(0.5, 2);
+  if (what == 2) spec.solid_fraction = Exponential<double>{0.6, maker.uniform(1, 4)};
+  if (what == 3) spec.solid_fraction = table(0.4, 0.7);
+  if (maker.integer(0, 1) == 0) return spec;
+  spec.fluxes = {Cubic<double>{maker.uniform(0.01, 0.5)}, Quadratic<double>{}};
+  if (maker.integer(0, 1) == 0) std::swap(spec.fluxes[0], spec.fluxes[1]);
+  spec.flux_breaks = maker.heights(1, 0.1, 0.9);
   return spec;
 }
 

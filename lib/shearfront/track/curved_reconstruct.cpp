@@ -74,6 +74,21 @@ void CurvedReconstruction::in_pieces(double from, double to, const Each& each) c
   }
 }
 
+/// When a front turns in one of the next parts of a smooth rate; infinite if it does not.
+double CurvedReconstruction::later_turn(CurvedNode front) const {
+  constexpr int kParts = 3;  // the turn of one that is farther away does not show
+  const LevelCurves& grid = bed_.grid;
+  for (int n = 0; n < kParts && front.direction != 0 && !front.turns; ++n) {
+    const std::size_t next = front.direction > 0 ? front.layer + 1 : front.layer;
+    if (next == 0 || next == grid.n_layers() || !bed_.scene.problem.continues(next)) break;
+    const double z = front.end, t = passage(grid, front, z).t;
+    if (z != grid.boundary(next)) break;
+    front.layer = static_cast<std::uint32_t>(front.direction > 0 ? next : next - 1);
+    set_course(grid, front, z, t);
+  }
+  return front.turns ? front.end_t : CurvedNode::kNever;
+}
+
 /// Node i of the snapshot.
 CurvedReconstruction::Node CurvedReconstruction::boundary(std::size_t i) const {
   Node node;
@@ -95,12 +110,19 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   Node node{true, false, z, 0, 0, h};
   const double below = grid.phi(p, front.below, z), above = grid.phi(p, front.above, z);
   double turned = front.turned;
-  if (front.turns) turned = front.end_t;
+  if (front.turns)
+    turned = front.end_t;
+  else if (!std::isfinite(turned))
+    turned = later_turn(front);
   node.u = (below + above) / 2;
   const bool has_turn = std::isfinite(turned);
   const Turned middle =
       has_turn ? characteristic_after_turn(grid, p, h, snapshot_.t - turned) : Turned{z, node.u};
-  if (has_turn && middle.z >= grid.boundary(p) && middle.z <= grid.boundary(p + 1)) {
+  // The parts of a smooth rate go on beyond their ends nearly as they are.
+  const auto& problem = bed_.scene.problem;
+  const double lowest = grid.boundary(p > 0 && problem.continues(p) ? p - 1 : p),
+               highest = grid.boundary(p + 1 < grid.n_layers() && problem.continues(p + 1) ? p + 2 : p + 1);
+  if (has_turn && middle.z >= lowest && middle.z <= highest) {
     node.z = middle.z;
     node.u = middle.u;
   } else {
