@@ -256,14 +256,8 @@ void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
               r = is_from_below ? fronts_[b].above : fronts_[mover].above;
   const double edge_t = fronts_[mover].is_edge ? arrival_of_edge(fronts_[mover], fronts_[b].z) : now_;
   end_course(fronts_[mover], fronts_[b].z);
-  const State below = fronts_[mover].below, above = fronts_[mover].above;
-  const double turned = fronts_[mover].turned;
   remove(mover);
   solve_boundary(b, l, r, edge_t, 1);
-  // Where it goes on as it was, it has turned when it had.
-  const FrontIndex on = is_from_below ? fronts_[b].next : fronts_[b].prev;
-  if (on == kNoFront || is_boundary(on) || fronts_[on].t != now_) return;
-  if (fronts_[on].below == below && fronts_[on].above == above) fronts_[on].turned = turned;
 }
 
 /// The Riemann problem at boundary b at any time after the start.
