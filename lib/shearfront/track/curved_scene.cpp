@@ -69,10 +69,10 @@ FittedCurve fitted_curve(const Scene<double>& scene, const LayerStack<double>& l
           std::abs((is_linear ? linear : exponential) / middle - 1)};
 }
 
-/// Layers so thin that curves through the rates at their ends are off by less than what the levels cost: R^2 / 10 of it.
+/// Layers so thin that curves through the rates at their ends are off by less than what the levels cost: R^2 / 2 of it.
 LayerStack<double> fitted_layers(const Scene<double>& scene, double resolution) {
   constexpr std::size_t kFewest = 8, kMost = 100'000;
-  constexpr double kShare = 0.1;
+  constexpr double kShare = 0.5;
   const double tolerance = kShare * resolution * resolution;
   for (std::size_t n = kFewest;;) {
     LayerStack<double> layers = staircase(scene, n, true);

@@ -27,7 +27,7 @@ struct CurvedScene {
 /// for it.
 [[nodiscard]] bool has_curved_fronts(const Scene<double>& scene);
 /// Where the rate is constant, linear or exponential between knots, as the models say, these are the pieces. For any other rate curves
-/// of these kinds through its values at the ends of layers, so thin that they leave it by less than R^2 / 10 of itself, R the
+/// of these kinds through its values at the ends of layers, so thin that they leave it by less than R^2 / 2 of itself, R the
 /// resolution; so does M then, by t times that. Precondition: has_curved_fronts().
 [[nodiscard]] CurvedScene curved_scene(const Scene<double>& scene, double resolution);
 /// About as many levels as it would have, times its pieces; without tables of its flux. Precondition: the same.

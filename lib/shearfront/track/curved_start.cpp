@@ -106,9 +106,8 @@ std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
     if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
   };
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (p == 0 || !problem.continues(p)) add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
-    if (p + 1 == pieces.size() || !problem.continues(p + 1))
-      add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
+    add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
+    add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
