@@ -45,45 +45,61 @@ EndValues<double> rates_of(const Scene<double>& scene, double factor, double lo,
   return {scale.low * a.low, scale.high * a.high};
 }
 
-/// The rate in a layer of a smooth bed over y, by what it is at its ends: linear or exponential, whichever is nearer in its middle,
-/// where it leaves a part `error`. Towards a place where it is 0 such a curve would take for ever: there the mean.
+/// The rate between two heights of a smooth bed over y, by what it is there: linear or exponential, whichever is nearer in its middle;
+/// `error`: what it leaves at three places between, as a part. Towards a place where it is 0 such a curve would take for ever: there
+/// the mean.
 struct FittedCurve {
   RateCurve curve;
   double low, high, error;
 };
-FittedCurve fitted_curve(const Scene<double>& scene, const LayerStack<double>& layers, std::size_t k,
-                         double factor) {
-  const double lo = layers.boundary(k), hi = layers.boundary(k + 1);
+FittedCurve fitted_curve(const Scene<double>& scene, double factor, double lo, double hi) {
   const EndValues<double> rates = rates_of(scene, factor, lo, hi);
   if (!(rates.low > 0 && rates.high > 0)) {
-    const double mean = layers.rate(k) * factor * layers.solid_fraction(k);
-    return {RateCurve::constant, mean, mean, 0};
+    const double mean = scene.scale() * factor * scene.mean_rate(lo, hi) * scene.mean_solid_fraction(lo, hi);
+    return {RateCurve::constant, mean, mean, 1};
   }
-  const double half =
-                   has_smooth_solid_fraction(scene) ? height_holding(scene, lo, hi, 0.5) : lo + (hi - lo) / 2,
-               middle = rates_of(scene, factor, lo, half).high;
-  const double linear = rates.low + (rates.high - rates.low) / 2,
-               exponential = rates.low * std::sqrt(rates.high / rates.low);
-  const bool is_linear = std::abs(linear - middle) <= std::abs(exponential - middle);
-  return {is_linear ? RateCurve::linear : RateCurve::exponential, rates.low, rates.high,
-          std::abs((is_linear ? linear : exponential) / middle - 1)};
+  const auto rate_at = [&](double part) {
+    const double z =
+        has_smooth_solid_fraction(scene) ? height_holding(scene, lo, hi, part) : lo + part * (hi - lo);
+    return rates_of(scene, factor, lo, z).high;
+  };
+  const auto linear = [&](double part) { return rates.low + part * (rates.high - rates.low); };
+  const auto exponential = [&](double part) { return rates.low * std::pow(rates.high / rates.low, part); };
+  const double middle = rate_at(0.5);
+  const bool is_linear = std::abs(linear(0.5) - middle) <= std::abs(exponential(0.5) - middle);
+  double error = 0;
+  for (const double part : {0.25, 0.5, 0.75})
+    error = std::max(error, std::abs((is_linear ? linear(part) : exponential(part)) / rate_at(part) - 1));
+  return {is_linear ? RateCurve::linear : RateCurve::exponential, rates.low, rates.high, error};
 }
 
-/// Layers so thin that curves through the rates at their ends are off by less than what the levels cost: R^2 / 2 of it.
+/// Layers between the knots, halved until curves through the rates at their ends are off by less than what the levels cost, R^2 / 2 of
+/// it; next to a place where the rate is 0 until they are R^2 of the bed high.
 LayerStack<double> fitted_layers(const Scene<double>& scene, double resolution) {
-  constexpr std::size_t kFewest = 8, kMost = 100'000;
-  constexpr double kShare = 0.5;
-  const double tolerance = kShare * resolution * resolution;
-  for (std::size_t n = kFewest;;) {
-    LayerStack<double> layers = staircase(scene, n, true);
-    double error = 0;
-    for (std::size_t k = 0; k < layers.n_layers(); ++k)
-      error = std::max(error, fitted_curve(scene, layers, k, 1).error);
-    if (!(error > tolerance) || n == kMost) return layers;
-    constexpr double kLittleMore = 1.1;
-    const double wanted = kLittleMore * static_cast<double>(n) * std::sqrt(error / tolerance);
-    n = std::min(kMost, std::max(n + 1, static_cast<std::size_t>(std::min(wanted, 1e6))));
+  constexpr double kShare = 0.5, kThinnest = 1e-12;
+  const double square = resolution * resolution, height = scene.top() - scene.bottom();
+  const std::vector<double> knots = scene.knots();
+  std::vector<double> boundaries{scene.bottom()}, ends{scene.top()}, rates;
+  ends.insert(ends.end(), knots.rbegin(), knots.rend());
+  while (!ends.empty()) {
+    const double lo = boundaries.back(), hi = ends.back(), middle = lo + (hi - lo) / 2;
+    const FittedCurve fit = fitted_curve(scene, 1, lo, hi);
+    const bool is_fine =
+        fit.curve == RateCurve::constant ? hi - lo <= square * height : fit.error <= kShare * square;
+    if (!is_fine && hi - lo > kThinnest * height && middle > lo && middle < hi) {
+      ends.push_back(middle);
+      continue;
+    }
+    boundaries.push_back(hi);
+    ends.pop_back();
   }
+  std::vector<bool> is_break;
+  for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
+    rates.push_back(scene.mean_rate(boundaries[k], boundaries[k + 1]));
+    if (k > 0) is_break.push_back(scene.jumps_at(boundaries[k]));
+  }
+  LayerMaterial<double> material = material_of(scene, boundaries);
+  return {std::move(boundaries), std::move(rates), scene.scale(), std::move(is_break), std::move(material)};
 }
 
 /// 4 |f| of the extremum for a width of the flux of 1, in units of the lowest flux's: what makes r of s a sqrt(T) c.
@@ -104,7 +120,7 @@ std::vector<RatePiece> pieces_of(const Scene<double>& scene, const LayerStack<do
       const EndValues<double> rates = rates_of(scene, factor, lo, hi);
       pieces.emplace_back(heights.y_of(lo), heights.y_of(hi), rates.low, rates.high, *curve, flux);
     } else {
-      const FittedCurve fit = fitted_curve(scene, layers, k, factor);
+      const FittedCurve fit = fitted_curve(scene, factor, lo, hi);
       pieces.emplace_back(heights.y_of(lo), heights.y_of(hi), fit.low, fit.high, fit.curve, flux);
     }
   }
