@@ -283,9 +283,9 @@ TEST(CurvedFronts, AnySmoothBed) {
     for (const SmoothBedErrors& errors : {coarse, fine}) EXPECT_LE(errors.mass, 1e-13);
     EXPECT_LE(coarse.arrival, kCoarse * kCoarse / 4);
     EXPECT_LE(fine.arrival, kFine * kFine);  // the exact one has pieces as well
-    EXPECT_LE(fine.steps, coarse.steps / 5);
-    EXPECT_LE(coarse.lines, coarse.steps / 2);
-    EXPECT_LE(fine.lines, fine.steps / 2);
+    EXPECT_LE(fine.steps, coarse.steps / 4);
+    EXPECT_LE(coarse.lines, 0.6 * coarse.steps);
+    EXPECT_LE(fine.lines, 0.6 * fine.steps);
     EXPECT_LE(coarse.M, kCoarse * kCoarse / 2);
     EXPECT_LE(fine.M, kFine * kFine);
   }
