@@ -162,7 +162,7 @@ class SolverLaws {
       return std::abs(profile.at(at).phi - phi) <= slack;
     });
   }
-  static constexpr double kSides[] = {0, -1, 1};
+  static constexpr double kSides[] = {0, -0.125, 0.125, -1, 1};
 
   void check_profiles(const SolverResult& result) {
     for (std::size_t i = 0; i < result.profiles.size(); ++i)

@@ -21,7 +21,7 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
   const double turn = grid.turning_height(piece, k);
   if (turn > bottom && turn < top) ends.push_back({turn, grid.top(piece)});
   Point low = at(bottom);
-  constexpr double kThinnest = 1e-12;
+  constexpr double kThinnest = 8 * 0x1p-53;  // of the heights
   while (!ends.empty()) {
     const Point high = ends.back();
     const double width = high.z - low.z;
@@ -29,7 +29,8 @@ void Lines::add_level(const LevelCurves& grid, std::size_t piece, State state, d
     const auto is_near = [&](const Point& p) {
       return std::abs(p.u - (low.u + (high.u - low.u) * ((p.z - low.z) / width))) <= tolerance;
     };
-    if (width > kThinnest && !(is_near(middle) && is_near(at(low.z + width / 4)))) {
+    const bool is_thin = !(width > kThinnest * std::max(std::abs(low.z), std::abs(high.z)));
+    if (!is_thin && !(is_near(middle) && is_near(at(low.z + width / 4)))) {
       ends.push_back(middle);
       continue;
     }
