@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -151,18 +150,21 @@ class SolverLaws {
     return kShareOfResolution * bed_.trial.options.at("resolution") *
            std::max(1.0, bed_.scene.range_at(z).highest);
   }
-  /// Whether phi is that of a profile at z; with lines a front at z may lie on either side.
+  /// Whether phi is that of a profile at z; with lines a front at z may lie on either side, and a piece be a few roundings high.
   [[nodiscard]] bool is_of(const Profile<double>& profile, double z, double phi) const {
     const double slack = line_slack(z);
     if (slack == 0) return profile.at(z).phi == phi;
     constexpr double kRoundings = 16;
     const double beside = kRoundings * 0x1p-53 * bed_.trial.largest_height();
-    return std::any_of(std::begin(kSides), std::end(kSides), [&](double side) {
-      const double at = std::clamp(z + side * beside, bed_.scene.bottom(), bed_.scene.top());
-      return std::abs(profile.at(at).phi - phi) <= slack;
-    });
+    double least = profile.at(z).phi, most = least;
+    for (const double side : {-1.0, 1.0}) {
+      const double there =
+          profile.at(std::clamp(z + side * beside, bed_.scene.bottom(), bed_.scene.top())).phi;
+      least = std::min(least, there);
+      most = std::max(most, there);
+    }
+    return phi >= least - slack && phi <= most + slack;
   }
-  static constexpr double kSides[] = {0, -0.125, 0.125, -1, 1};
 
   void check_profiles(const SolverResult& result) {
     for (std::size_t i = 0; i < result.profiles.size(); ++i)
