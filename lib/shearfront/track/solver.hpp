@@ -25,7 +25,7 @@ struct FrontTrackingSolver {
     g.order_phi = 1;
     g.order_M = 2;
     g.least_order_M = 1;
-    g.where_least = "where a staircase stands for a, c or T";
+    g.where_least = "where a, c or T vary and the flux is not convex";
     return g;
   }
   /// Where fronts cannot be curved (curved_scene.hpp) a staircase stands for what varies inside a layer, with steps as large as
