@@ -94,20 +94,23 @@ double count(const Spacing& spacing, double most) {
 struct Special {
   double capacity;
   std::size_t piece;
-  double value;   ///< of KnownTurn
-  bool is_known;  ///< whether it has one
+  double value;            ///< of KnownTurn
+  bool is_known;           ///< whether it has one
+  bool is_plateau = true;  ///< not where a rate only goes on
 };
 
 std::vector<Special> specials_of(const CurvedProblem& problem, double most) {
   const std::vector<RatePiece>& pieces = problem.pieces;
   const std::vector<StartSegment>& start = problem.start;
   std::vector<Special> all;
-  const auto add = [&](double capacity, std::size_t p, double value, bool is_known) {
-    if (capacity > 0 && capacity <= most * (1 + kSameLevel)) all.push_back({capacity, p, value, is_known});
+  const auto add = [&](double capacity, std::size_t p, double value, bool is_known, bool is_plateau = true) {
+    if (capacity > 0 && capacity <= most * (1 + kSameLevel))
+      all.push_back({capacity, p, value, is_known, is_plateau});
   };
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    add(pieces[p].low, p, pieces[p].z_low, !pieces[p].is_constant());
-    add(pieces[p].high, p, pieces[p].z_high, !pieces[p].is_constant());
+    const bool is_curve = !pieces[p].is_constant();
+    add(pieces[p].low, p, pieces[p].z_low, is_curve, p == 0 || !problem.continues(p));
+    add(pieces[p].high, p, pieces[p].z_high, is_curve, p + 1 == pieces.size() || !problem.continues(p + 1));
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     const StartSegment& s = start[i];
@@ -303,6 +306,7 @@ void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& r
 
 LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
   LevelPlan plan{{0}, {true}, {}};
+  bool is_last_fixed = true;
   const double most = largest_capacity(problem);
   if (!(most > 0)) return plan;
   const std::vector<Special> specials = specials_of(problem, most);
@@ -320,20 +324,23 @@ LevelPlan plan_levels(const CurvedProblem& problem, double resolution) {
       const double below = next == ordinary.begin() ? *next : *next - *std::prev(next);
       const double above = next + 1 == ordinary.end() ? INFINITY : *std::next(next) - *next;
       if (h - *next <= room(h, below)) continue;
-      if (*next <= plan.capacities.back() + (plan.is_plateau.back() ? room(*next, above) : 0)) continue;
+      if (*next <= plan.capacities.back() + (is_last_fixed ? room(*next, above) : 0)) continue;
       plan.capacities.push_back(*next);
       plan.is_plateau.push_back(false);
+      is_last_fixed = false;
     }
   };
   for (const Special& special : specials) {
     const double h = special.capacity;
-    const bool is_known = plan.is_plateau.back() && plan.capacities.size() > 1 &&
-                          h <= plan.capacities.back() * (1 + kSameLevel);
+    const bool is_known =
+        is_last_fixed && plan.capacities.size() > 1 && h <= plan.capacities.back() * (1 + kSameLevel);
     if (!is_known) {
       add_up_to(h);
       plan.capacities.push_back(h);
-      plan.is_plateau.push_back(true);
+      plan.is_plateau.push_back(false);
+      is_last_fixed = true;
     }
+    if (special.is_plateau) plan.is_plateau.back() = true;
     if (special.is_known) plan.known.push_back({special.piece, plan.capacities.size() - 1, special.value});
   }
   if (plan.capacities.back() < most * (1 - kSameLevel)) {
