@@ -70,7 +70,8 @@ void add_smooth_segments(std::vector<StartSegment>& segments, const RatePiece& r
 /// What the levels must know of a start: which capacities are met exactly, and where levels turn.
 struct LevelPlan {
   std::vector<double> capacities;  ///< 4 H, ascending from 0
-  std::vector<bool> is_plateau;    ///< whether a level is that of an initial state or of a jump or kink of the rate
+  std::vector<bool>
+      is_plateau;  ///< whether a level is that of an initial state or of a jump or kink of the rate
   std::vector<KnownTurn> known;
 };
 
