@@ -7,7 +7,7 @@
 namespace shearfront {
 
 /// The scalar a source file of the library is compiled for. shearfront::core compiles it for double; shearfront::digits
-/// compiles some of the same files again for 110 digits, so that nobody else has to read Boost.Multiprecision.
+/// compiles some of the same files again for 110 digits.
 #ifdef SHEARFRONT_DIGITS
 using Instantiated = Real110;
 #else
