@@ -28,7 +28,7 @@ struct CurvedNode {
   double end = 0;                   ///< height at which it ends or turns
   double end_t = 0;                 ///< when it turns there
   double meets = 0, meeting_z = 0;  ///< next event: when, and where
-  double turned = kNever;           ///< when a mean characteristic of its levels turned there
+  double turned = kNever;           ///< when a mean characteristic of its levels turned there; kEarlier
   State below = 0, above = 0;
   FrontIndex prev = kNoFront, next = kNoFront;
   std::uint32_t layer = 0;  ///< piece of a front; of a boundary the piece above it
@@ -40,6 +40,7 @@ struct CurvedNode {
   double edge_t = 0;          ///< of an edge: when the characteristic of that state was at z
 
   static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kEarlier = -kNever;  ///< it did in an earlier part of a smooth rate
   /// At its next event.
   [[nodiscard]] double position(double /*time*/) const { return meeting_z; }
 };

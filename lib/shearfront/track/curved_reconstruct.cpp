@@ -74,19 +74,30 @@ void CurvedReconstruction::in_pieces(double from, double to, const Each& each) c
   }
 }
 
-/// When a front turns in one of the next parts of a smooth rate; infinite if it does not.
-double CurvedReconstruction::later_turn(CurvedNode front) const {
-  constexpr int kParts = 3;  // the turn of one that is farther away does not show
+/// When a front that turned in an earlier part of a smooth rate, or will in a later one, did or would as if its part went on to
+/// there: what a turn leaves of the times of its levels is what it would leave in that, up to what parts differ by. A time that is
+/// not finite if it does not, or so far away that it does not show.
+double CurvedReconstruction::turn_beyond(const CurvedNode& front) const {
+  constexpr double kParts = 3;
   const LevelCurves& grid = bed_.grid;
-  for (int n = 0; n < kParts && front.direction != 0 && !front.turns; ++n) {
-    const std::size_t next = front.direction > 0 ? front.layer + 1 : front.layer;
-    if (next == 0 || next == grid.n_layers() || !bed_.scene.problem.continues(next)) break;
-    const double z = front.end, t = passage(grid, front, z).t;
-    if (z != grid.boundary(next)) break;
-    front.layer = static_cast<std::uint32_t>(front.direction > 0 ? next : next - 1);
-    set_course(grid, front, z, t);
+  const std::size_t p = front.layer;
+  const bool was_before = front.turned == CurvedNode::kEarlier;
+  const std::size_t boundary = (front.direction > 0) != was_before ? p + 1 : p;  // on the way to the turn
+  if (front.direction == 0 || boundary == 0 || boundary == grid.n_layers()) return CurvedNode::kNever;
+  if (!bed_.scene.problem.continues(boundary)) return CurvedNode::kNever;
+  const RatePiece& piece = grid.piece(p);
+  if ((boundary > p) != piece.falls()) return CurvedNode::kNever;
+  const std::size_t most = std::max(grid.level(front.below), grid.level(front.above));
+  if (most < 2) return CurvedNode::kNever;
+  const double z = grid.turning_height(p, most - 1);
+  if (!(std::abs(z - grid.boundary(boundary)) < kParts * (piece.z_high - piece.z_low))) return CurvedNode::kNever;
+  if (!was_before) {
+    const bool turns = most == grid.level(front.direction > 0 ? front.below : front.above);
+    return turns ? passage(grid, front, z).t : CurvedNode::kNever;
   }
-  return front.turns ? front.end_t : CurvedNode::kNever;
+  CurvedNode turned = front;
+  set_origin(grid, turned, z, 0);
+  return front.t - passage(grid, turned, front.z).t;
 }
 
 /// Node i of the snapshot.
@@ -94,7 +105,13 @@ CurvedReconstruction::Node CurvedReconstruction::boundary(std::size_t i) const {
   Node node;
   if (i == 0 || i + 1 == snapshot_.z.size()) return node;
   const std::size_t p = snapshot_.piece[i];
-  node.is_nothing = p > 0 && bed_.scene.problem.continues(p) && snapshot_.state[i - 1] == snapshot_.state[i];
+  if (p == 0 || !bed_.scene.problem.continues(p)) return node;
+  const LevelCurves& grid = bed_.grid;
+  const State below = snapshot_.state[i - 1], above = snapshot_.state[i];
+  const std::size_t level = grid.level(below);
+  const double z = grid.boundary(p);
+  const bool is_dead = !(grid.q(p - 1, level, z) > 0) && !(grid.q(p, level, z) > 0);
+  node.is_nothing = below == above || (is_dead && level == grid.level(above));  // then both are 1/2
   return node;
 }
 
@@ -113,7 +130,7 @@ CurvedReconstruction::Node CurvedReconstruction::node_of(const CurvedNode& front
   if (front.turns)
     turned = front.end_t;
   else if (!std::isfinite(turned))
-    turned = later_turn(front);
+    turned = turn_beyond(front);
   node.u = (below + above) / 2;
   const bool has_turn = std::isfinite(turned);
   const Turned middle =

@@ -47,7 +47,7 @@ class CurvedReconstruction {
   [[nodiscard]] std::size_t piece_at(double z, std::size_t p) const;
   template <class Each>
   void in_pieces(double from, double to, const Each& each) const;
-  [[nodiscard]] double later_turn(CurvedNode front) const;
+  [[nodiscard]] double turn_beyond(const CurvedNode& front) const;
   [[nodiscard]] Node boundary(std::size_t i) const;
   [[nodiscard]] Node node_of(const CurvedNode& front, double z) const;
   [[nodiscard]] std::vector<Node> joined(const std::vector<Node>& nodes) const;

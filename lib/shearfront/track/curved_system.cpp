@@ -21,6 +21,8 @@ CurvedSystem<Observer>::CurvedSystem(const LevelCurves& grid, const CurvedProble
   for (std::size_t end = 0; end < 2; ++end)
     if (!problem.ends.states[end].empty())
       outside_[end] = outside_state(grid, end, problem.ends.states[end].front());
+  for (std::size_t b = 0; b <= grid.n_layers(); ++b)
+    continues_.push_back(b > 0 && b < grid.n_layers() && problem.continues(b));
   start(problem.start);
 }
 
@@ -256,8 +258,14 @@ void CurvedSystem<Observer>::reach_boundary(FrontIndex mover, FrontIndex b) {
               r = is_from_below ? fronts_[b].above : fronts_[mover].above;
   const double edge_t = fronts_[mover].is_edge ? arrival_of_edge(fronts_[mover], fronts_[b].z) : now_;
   end_course(fronts_[mover], fronts_[b].z);
+  const bool has_turned = fronts_[mover].turned != Node::kNever;
+  const State below = fronts_[mover].below, above = fronts_[mover].above;
   remove(mover);
   solve_boundary(b, l, r, edge_t, 1);
+  if (!has_turned || !continues_[b]) return;
+  const FrontIndex beyond = is_from_below ? fronts_[b].next : fronts_[b].prev;
+  Node& n = fronts_[beyond];
+  if (!is_boundary(beyond) && n.t == now_ && n.below == below && n.above == above) n.turned = Node::kEarlier;
 }
 
 /// The Riemann problem at boundary b at any time after the start.

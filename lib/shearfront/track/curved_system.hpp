@@ -93,6 +93,7 @@ class CurvedSystem {
   EventAgenda<Fronts> agenda_;
   std::vector<Waves> waves_;
   std::array<std::optional<State>, 2> outside_;
+  std::vector<bool> continues_;  ///< whether a boundary is between parts of a rate that goes on
   bool is_periodic_;
   double now_ = 0, last_collision_ = 0;
   std::size_t n_fronts_max_ = 0;
