@@ -291,6 +291,15 @@ Scalar CanonicalForm<Scalar>::amount_of(const Scalar& z, const Scalar& amount) c
   return std::min(most, std::max(least, M));
 }
 
+/// c at both ends of a part of layer k: where it is smooth itself, not the layer's mean.
+template <Real Scalar>
+EndValues<Scalar> CanonicalForm<Scalar>::solid_fractions(std::size_t k, const Scalar& lo,
+                                                         const Scalar& hi) const {
+  const auto& c = scene_->spec().solid_fraction;
+  if (is_constant_in_pieces<Scalar>(c)) return {layers_.solid_fraction(k), layers_.solid_fraction(k)};
+  return end_values_of<Scalar>(*c, lo, hi);
+}
+
 template <Real Scalar>
 Profile<Scalar> CanonicalForm<Scalar>::image_of(const Profile<Scalar>& profile) const {
   if (is_identity_) return profile;
@@ -304,8 +313,9 @@ Profile<Scalar> CanonicalForm<Scalar>::image_of(const Profile<Scalar>& profile) 
                        : Scalar(profile.below()[cell] + rise * ((z - from) / (to - from)));
     };
     const auto add = [&](const Scalar& lo, const Scalar& hi) {
-      below.push_back(state_of(phi(lo) / layers_.solid_fraction(k), k));
-      above.push_back(state_of(phi(hi) / layers_.solid_fraction(k), k));
+      const EndValues<Scalar> c = solid_fractions(k, lo, hi);
+      below.push_back(state_of(phi(lo) / c.low, k));
+      above.push_back(state_of(phi(hi) / c.high, k));
       y.push_back(std::max(y.back(), image_of(hi)));
     };
     Scalar lo = from;

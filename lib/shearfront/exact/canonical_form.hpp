@@ -122,6 +122,7 @@ class CanonicalForm {
   void set_initial_data();
   void set_start();
   [[nodiscard]] Scalar image_mass() const;
+  [[nodiscard]] EndValues<Scalar> solid_fractions(std::size_t k, const Scalar& lo, const Scalar& hi) const;
 
   std::shared_ptr<const Scene<Scalar>> scene_;
   bool is_identity_, is_concave_, is_parabolic_, has_pieces_, is_exponential_, is_root_, is_exact_;
