@@ -126,7 +126,7 @@ int print_models(const FittedModels& models, bool json) {
   std::vector<std::string> names;
   for (const fit::FitSpec& spec : models.all.specs) names.push_back(spec.name);
   OutputFile out("-");
-  const auto compared = fit::compare_models(names, estimates, models.is_by_bic);
+  const auto compared = fit::compare_models(names, estimates, models.criterion, models.n_searched);
   if (json) {
     detail::Json all{{"fits", detail::Json::array()}, {"comparison", comparison_json(compared)}};
     all["best"] = models.best ? detail::Json(names[*models.best]) : detail::Json();

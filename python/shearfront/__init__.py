@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from ._posterior import Posterior
     from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
     from ._profile import MisfitProfile
+    from ._smooth import SmoothFit
     from ._study import Study, study
     from ._tracking import Profile, Tracking
     from ._umbridge import umbridge
@@ -49,6 +50,7 @@ _LAZY = {
     "_posterior": ("Posterior",),
     "_priors": ("HalfNormal", "LogNormal", "Normal", "Prior", "Uniform"),
     "_profile": ("MisfitProfile",),
+    "_smooth": ("SmoothFit",),
     "_study": ("Study", "study"),
     "_tracking": ("Profile", "Tracking"),
     "_umbridge": ("umbridge",),
@@ -78,6 +80,7 @@ __all__ = [
     "RateBand",
     "Sampled",
     "Scene",
+    "SmoothFit",
     "Solution",
     "Study",
     "Tracking",

@@ -24,6 +24,7 @@ from ._toml import toml_text
 if TYPE_CHECKING:
     from ._posterior import Posterior
     from ._priors import Prior
+    from ._smooth import SmoothFit
 
 
 @with_examples
@@ -84,6 +85,39 @@ class Problem:
         from ._posterior import Posterior
 
         return Posterior(self, priors)
+
+    def smooth(self, *, weight: float | None = None) -> SmoothFit:
+        """A table of a(z) with many points, as smooth as the data let it be.
+
+        Minimises sum r^2 / 2 + w / 2 int (d^2 log a / dx^2)^2 dx, x the height over that of the table: the prior of a bed that is
+        all but an exponential. Unknowns beside the values of the table have no prior. w is where the probability of the data, by
+        Laplace's method, is largest (MacKay 1992, Neural Computation 4, 415-447), looked for from the stiffest on, of which there
+        is one valley only. Data without sigma have it integrated out. The loss of the fit plays no part. Bands are those of a
+        Gaussian at the peak, and right on average over the heights of a smooth a(z). Needs scipy. Cost: some 100 evaluations.
+
+        Parameters
+        ----------
+        weight : float, optional
+            w, if it is known.
+
+        Returns
+        -------
+        SmoothFit
+
+        Raises
+        ------
+        InputError
+            If the unknowns do not include all values of a table of at least 3 points.
+
+        Examples
+        --------
+        >>> bed = scene.with_(shear_rate=sf.Table([0, 0.25, 0.5, 0.75, 1], [2, 1.2, 0.7, 0.4, 0.25]))
+        >>> sf.problem(bed, seen, "shear_rate.values").smooth().names[0]
+        'shear_rate.values[0]'
+        """
+        from ._smooth import smooth_fit
+
+        return smooth_fit(self, weight)
 
     def run(self) -> Fit:
         """Finds the unknowns.

@@ -74,7 +74,7 @@ TEST(FitModelChoice, FinerLayersFitNoWorseAndTheTruthIsChosen) {
 }
 
 // A search for many breaks at once ended in wrong valleys: eight layers of ten fitted 8 times worse than now. The least misfit is no more than
-// that of the truth, whose layers BIC finds.
+// that of the truth, whose layers BIC and mBIC find.
 TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
   const std::vector<double> breaks{0.2, 0.35, 0.55, 0.8}, values{2, 0.9, 1.6, 0.5, 0.25};
   const SceneSpec<double> truth = small_above_large(breaks, values);
@@ -84,7 +84,7 @@ TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
   FitSpec base = fit_of(truth, observed(truth, filled, 0.003, 11, true), {});
   const FitSpec true_fit = fit_of(truth, base.observations, {"shear_rate.breaks", "shear_rate.values"});
   base.scene = Scene<double>(small_above_large({}, {1}));
-  ModelChoice choice{{}, true, true};
+  ModelChoice choice{{}, true, Criterion::mbic};
   for (std::size_t n = 1; n <= 6; ++n) choice.models.push_back({"piecewise", n});
   const ChosenModels models = fit_models(base, choice);
   ASSERT_EQ(models.estimates.size(), 6U);
@@ -97,6 +97,16 @@ TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
     if (*models.estimates[i].bic < *models.estimates[best].bic) best = i;
   }
   EXPECT_EQ(best, 4U);
+  std::vector<std::string> names;
+  std::vector<std::size_t> searched;
+  for (const ModelChoice::Model& model : choice.models) {
+    names.push_back(ModelChoice::text(model));
+    searched.push_back(n_searched(choice, model));
+  }
+  EXPECT_EQ(searched, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+  const auto compared = compare_models(names, models.estimates, choice.criterion, searched);
+  EXPECT_EQ(compared.front().model, "5 layers");
+  EXPECT_NEAR(*compared.front().mbic, *models.estimates[4].bic + 4 * std::log(6 * 19), 1e-9);
   EXPECT_LE(models.estimates[4].misfit, at_truth.misfit * (1 + 1e-6));
   for (std::size_t i = 0; i < breaks.size(); ++i)
     EXPECT_NEAR(models.estimates[4].parameters[i].estimate, breaks[i], 0.02) << i;

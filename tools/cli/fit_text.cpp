@@ -119,11 +119,19 @@ void write_residuals_csv(OutputFile& file, const Observations& observations, con
 }
 
 std::string comparison_text(const std::vector<fit::ComparedModel>& models) {
-  TextTable table({"model", "parameters", "misfit", "AIC", "dAIC", "weight", "BIC", "dBIC"});
-  for (const fit::ComparedModel& m : models)
-    table.add({printable(m.model, 100), std::to_string(m.parameters), shown(m.misfit, "{:.6g}"),
-               shown(m.aic, "{:.2f}"), shown(m.daic, "{:.2f}"), shown(m.aic_weight, "{:.3g}"),
-               shown(m.bic, "{:.2f}"), shown(m.dbic, "{:.2f}")});
+  const bool are_searched =
+      std::any_of(models.begin(), models.end(), [](const fit::ComparedModel& m) { return m.mbic != m.bic; });
+  std::vector<std::string> heads{"model", "parameters", "misfit", "AIC", "dAIC", "weight", "BIC", "dBIC"};
+  if (are_searched) heads.insert(heads.end(), {"mBIC", "dmBIC"});
+  TextTable table(heads);
+  for (const fit::ComparedModel& m : models) {
+    std::vector<std::string> row{printable(m.model, 100),   std::to_string(m.parameters),
+                                 shown(m.misfit, "{:.6g}"), shown(m.aic, "{:.2f}"),
+                                 shown(m.daic, "{:.2f}"),   shown(m.aic_weight, "{:.3g}"),
+                                 shown(m.bic, "{:.2f}"),    shown(m.dbic, "{:.2f}")};
+    if (are_searched) row.insert(row.end(), {shown(m.mbic, "{:.2f}"), shown(m.dmbic, "{:.2f}")});
+    table.add(std::move(row));
+  }
   return table.text();
 }
 
@@ -138,7 +146,9 @@ detail::Json comparison_json(const std::vector<fit::ComparedModel>& models) {
                     {"daic", json_or_null(m.daic)},
                     {"aic_weight", json_or_null(m.aic_weight)},
                     {"bic", json_or_null(m.bic)},
-                    {"dbic", json_or_null(m.dbic)}});
+                    {"dbic", json_or_null(m.dbic)},
+                    {"mbic", json_or_null(m.mbic)},
+                    {"dmbic", json_or_null(m.dmbic)}});
   return rows;
 }
 

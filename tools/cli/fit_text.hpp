@@ -22,7 +22,7 @@ void write_residuals_csv(OutputFile& file, const Observations& observations, con
                          const SceneUnits& units = {});
 
 [[nodiscard]] std::string comparison_text(const std::vector<fit::ComparedModel>& models);
-/// [{"model","parameters","misfit","aic","daic","aic_weight","bic","dbic"}]
+/// [{"model","parameters","misfit","aic","daic","aic_weight","bic","dbic","mbic","dmbic"}]
 [[nodiscard]] detail::Json comparison_json(const std::vector<fit::ComparedModel>& models);
 
 /// A row of CSV; what is not finite is left empty.

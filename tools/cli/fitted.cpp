@@ -52,11 +52,13 @@ FittedModels run_models(const fit::FitFile& file, const std::string& path) {
                                        [&](const fit::Progress& progress) {
                                          return fit::fit_models(file.spec, *file.choice, progress);
                                        }),
-                      std::nullopt, file.choice->is_by_bic};
+                      std::nullopt, file.choice->criterion};
+  for (std::size_t i = 0; i < result.all.estimates.size(); ++i)
+    result.n_searched.push_back(fit::n_searched(*file.choice, file.choice->models[i]));
   const std::vector<fit::Estimate>& estimates = result.all.estimates;
   const auto key = [&](std::size_t i) {
     const fit::Estimate& e = estimates[i];
-    return std::pair((file.choice->is_by_bic ? e.bic : e.aic).value_or(HUGE_VAL), e.misfit);
+    return std::pair(fit::value_of(result.criterion, e, result.n_searched[i]).value_or(HUGE_VAL), e.misfit);
   };
   for (std::size_t i = 0; i < estimates.size(); ++i)
     if (estimates[i].usable() && (!result.best || key(i) < key(*result.best))) result.best = i;

@@ -37,7 +37,8 @@ struct Fitted {
 struct FittedModels {
   fit::ChosenModels all;
   std::optional<std::size_t> best;  ///< by the criterion of the file
-  bool is_by_bic = false;
+  fit::Criterion criterion = fit::Criterion::aic;
+  std::vector<std::size_t> n_searched = {};  ///< of each model
 };
 /// The same for every model of a file. Precondition: file.choice. Errors: FileError.
 [[nodiscard]] FittedModels run_models(const fit::FitFile& file, const std::string& path);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/fit/model_comparison.hpp"
 #include "shearfront/io/file_error.hpp"
 #include "shearfront/io/scene_file.hpp"
 
@@ -23,7 +24,7 @@ struct ModelChoice {
   };
   std::vector<Model> models;
   bool has_free_breaks = false;  ///< of layers whose breaks are not known; else they are equally thick
-  bool is_by_bic = false;        ///< the best has the least BIC; else the least AIC
+  Criterion criterion = Criterion::aic;  ///< by which the best is chosen
 
   /// "1 layer", "3 layers", "3 known layers", "exponential", "table:6".
   [[nodiscard]] static std::string text(const Model& model);

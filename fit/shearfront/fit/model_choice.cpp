@@ -230,6 +230,10 @@ FitSpec with_model(const FitSpec& base, const ModelChoice& choice, const ModelCh
   return spec;
 }
 
+std::size_t n_searched(const ModelChoice& choice, const ModelChoice::Model& model) {
+  return has_unknown_breaks(choice, model) ? model.n - 1 : 0;
+}
+
 ChosenModels fit_models(const FitSpec& base, const ModelChoice& choice, const Progress& progress) {
   ChosenModels result;
   std::optional<std::size_t> best;

@@ -16,6 +16,9 @@ namespace shearfront::fit {
 /// The depth function that consists of layers.
 [[nodiscard]] std::string layered_name();
 
+/// Breaks of a model that are looked for wherever the data may want them.
+[[nodiscard]] std::size_t n_searched(const ModelChoice& choice, const ModelChoice::Model& model);
+
 /// The fit with this shear rate in place of the scene's, which it resembles at the start: layers have its harmonic means,
 /// a table its values, entries that are single numbers those that come closest in log a(z). Layers are equally thick if their breaks are not known, the
 /// points of a table equally far from each other. With a shape the start is constant, which has every shape. `first_breaks`: where unknown

@@ -52,28 +52,40 @@ std::string incomparable(const FitSpec& a, const FitSpec& b) {
   return a.misfit.loss_scale != b.misfit.loss_scale ? "its loss_scale differs" : "";
 }
 
+std::optional<double> value_of(Criterion criterion, const Estimate& estimate, std::size_t n_searched) {
+  if (criterion == Criterion::aic) return estimate.aic;
+  if (criterion == Criterion::bic || !estimate.bic) return estimate.bic;
+  return *estimate.bic +
+         static_cast<double>(n_searched) * std::log(static_cast<double>(estimate.predicted.size()));
+}
+
 std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
-                                          const std::vector<Estimate>& estimates, bool is_by_bic) {
+                                          const std::vector<Estimate>& estimates, Criterion criterion,
+                                          const std::vector<std::size_t>& n_searched) {
   std::vector<ComparedModel> models;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const Estimate& e = estimates[i];
-    ComparedModel& model =
-        models.emplace_back(ComparedModel{names[i], e.parameters.size(), {}, {}, {}, {}, {}, {}});
+    ComparedModel& model = models.emplace_back();
+    model.model = names[i];
+    model.parameters = e.parameters.size();
     if (!e.usable()) continue;
     model.misfit = e.misfit;
     model.aic = e.aic;
     model.bic = e.bic;
+    model.mbic = value_of(Criterion::mbic, e, n_searched.empty() ? 0 : n_searched[i]);
   }
   set_differences(models, &ComparedModel::aic, &ComparedModel::daic);
   set_differences(models, &ComparedModel::bic, &ComparedModel::dbic);
+  set_differences(models, &ComparedModel::mbic, &ComparedModel::dmbic);
   double sum = 0;
   for (ComparedModel& m : models)
     if (m.daic) sum += *(m.aic_weight = std::exp(-*m.daic / 2));
   for (ComparedModel& m : models)
     if (m.aic_weight) *m.aic_weight /= sum;
-  const ModelColumn criterion = is_by_bic ? &ComparedModel::bic : &ComparedModel::aic;
+  constexpr ModelColumn kColumns[] = {&ComparedModel::aic, &ComparedModel::bic, &ComparedModel::mbic};
+  const ModelColumn column = kColumns[static_cast<std::size_t>(criterion)];
   std::stable_sort(models.begin(), models.end(), [&](const ComparedModel& a, const ComparedModel& b) {
-    return (a.*criterion).value_or(HUGE_VAL) < (b.*criterion).value_or(HUGE_VAL);
+    return (a.*column).value_or(HUGE_VAL) < (b.*column).value_or(HUGE_VAL);
   });
   return models;
 }
