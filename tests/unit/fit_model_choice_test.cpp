@@ -84,7 +84,7 @@ TEST(FitModelChoice, LayersWithUnknownBreaksAreBuiltFromTheData) {
   FitSpec base = fit_of(truth, observed(truth, filled, 0.003, 11, true), {});
   const FitSpec true_fit = fit_of(truth, base.observations, {"shear_rate.breaks", "shear_rate.values"});
   base.scene = Scene<double>(small_above_large({}, {1}));
-  ModelChoice choice{{}, true, Criterion::mbic};
+  ModelChoice choice{{}, true, ModelCriterion::mbic};
   for (std::size_t n = 1; n <= 6; ++n) choice.models.push_back({"piecewise", n});
   const ChosenModels models = fit_models(base, choice);
   ASSERT_EQ(models.estimates.size(), 6U);

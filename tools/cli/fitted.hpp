@@ -37,7 +37,7 @@ struct Fitted {
 struct FittedModels {
   fit::ChosenModels all;
   std::optional<std::size_t> best;  ///< by the criterion of the file
-  fit::Criterion criterion = fit::Criterion::aic;
+  fit::ModelCriterion criterion = fit::ModelCriterion::aic;
   std::vector<std::size_t> n_searched = {};  ///< of each model
 };
 /// The same for every model of a file. Precondition: file.choice. Errors: FileError.

@@ -24,7 +24,7 @@ struct ModelChoice {
   };
   std::vector<Model> models;
   bool has_free_breaks = false;  ///< of layers whose breaks are not known; else they are equally thick
-  Criterion criterion = Criterion::aic;  ///< by which the best is chosen
+  ModelCriterion criterion = ModelCriterion::aic;  ///< by which the best is chosen
 
   /// "1 layer", "3 layers", "3 known layers", "exponential", "table:6".
   [[nodiscard]] static std::string text(const Model& model);

@@ -67,10 +67,10 @@ ModelChoice read_model_choice(TableReader& table, const std::function<void(Compl
   } else {
     choice.has_free_breaks = table.choice("breaks", Need::optional, {"equal", "free"}).value_or("") == "free";
   }
-  const std::vector<std::string> criteria{"AIC", "BIC", "mBIC"};  // in the order of Criterion
+  const std::vector<std::string> criteria{"AIC", "BIC", "mBIC"};  // in the order of ModelCriterion
   const std::string criterion = table.choice("criterion", Need::optional, criteria).value_or("AIC");
   choice.criterion =
-      static_cast<Criterion>(std::find(criteria.begin(), criteria.end(), criterion) - criteria.begin());
+      static_cast<ModelCriterion>(std::find(criteria.begin(), criteria.end(), criterion) - criteria.begin());
   const auto is_fine = [&](const char* key) { return !table.node(key) || table.is_good(key); };
   if (choice.models.empty() && !is_refused && is_fine("layers") && is_fine("models") && is_fine("breaks"))
     add({"compare", "", "must have layers, models or known breaks"});

@@ -52,15 +52,15 @@ std::string incomparable(const FitSpec& a, const FitSpec& b) {
   return a.misfit.loss_scale != b.misfit.loss_scale ? "its loss_scale differs" : "";
 }
 
-std::optional<double> value_of(Criterion criterion, const Estimate& estimate, std::size_t n_searched) {
-  if (criterion == Criterion::aic) return estimate.aic;
-  if (criterion == Criterion::bic || !estimate.bic) return estimate.bic;
+std::optional<double> value_of(ModelCriterion criterion, const Estimate& estimate, std::size_t n_searched) {
+  if (criterion == ModelCriterion::aic) return estimate.aic;
+  if (criterion == ModelCriterion::bic || !estimate.bic) return estimate.bic;
   return *estimate.bic +
          static_cast<double>(n_searched) * std::log(static_cast<double>(estimate.predicted.size()));
 }
 
 std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
-                                          const std::vector<Estimate>& estimates, Criterion criterion,
+                                          const std::vector<Estimate>& estimates, ModelCriterion criterion,
                                           const std::vector<std::size_t>& n_searched) {
   std::vector<ComparedModel> models;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -72,7 +72,7 @@ std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
     model.misfit = e.misfit;
     model.aic = e.aic;
     model.bic = e.bic;
-    model.mbic = value_of(Criterion::mbic, e, n_searched.empty() ? 0 : n_searched[i]);
+    model.mbic = value_of(ModelCriterion::mbic, e, n_searched.empty() ? 0 : n_searched[i]);
   }
   set_differences(models, &ComparedModel::aic, &ComparedModel::daic);
   set_differences(models, &ComparedModel::bic, &ComparedModel::dbic);

@@ -21,10 +21,10 @@ namespace shearfront::fit {
 ///
 /// A break that fits noise best of all places gains more than a parameter does, about as much as two. Source of mBIC: Zhang &
 /// Siegmund (2007), Biometrics 63, 22-32, but for its term in the lengths of the segments, which has no meaning for layers.
-enum class Criterion { aic, bic, mbic };
+enum class ModelCriterion { aic, bic, mbic };
 
 /// Nothing if the fit has none.
-[[nodiscard]] std::optional<double> value_of(Criterion criterion, const Estimate& estimate,
+[[nodiscard]] std::optional<double> value_of(ModelCriterion criterion, const Estimate& estimate,
                                              std::size_t n_searched);
 
 /// One model among several, with the weight exp(-dAIC/2) / sum exp(-dAIC/2) (Burnham & Anderson, Model
@@ -38,7 +38,7 @@ struct ComparedModel {
 /// The best by the criterion first, then those without. `n_searched`: of each model; empty: none.
 [[nodiscard]] std::vector<ComparedModel> compare_models(const std::vector<std::string>& names,
                                                         const std::vector<Estimate>& estimates,
-                                                        Criterion criterion = Criterion::aic,
+                                                        ModelCriterion criterion = ModelCriterion::aic,
                                                         const std::vector<std::size_t>& n_searched = {});
 
 }  // namespace shearfront::fit
