@@ -54,7 +54,7 @@ class SmoothFit:
     >>> import shearfront as sf
     >>> z = np.linspace(0, 1, 11)
     >>> scene = sf.Scene(shear_rate=sf.Table(z, 4 * np.exp(-3 * z)), initial=sf.Step(0.5))
-    >>> seen = scene.observe([0.3, 0.6, 1.0], np.linspace(0.05, 0.95, 19), quantity="bin", noise=0.01)
+    >>> seen = scene.observe([0.3, 0.6, 1.0], np.linspace(0.05, 0.95, 19), quantity="bin", width=0.05, noise=0.01)
     >>> found = sf.problem(scene, seen, "shear_rate.values").smooth()
     >>> bool(2 <= found.effective < 6), found.rate_band().z.size
     (True, 11)

@@ -26,6 +26,8 @@ def test_examples(name: str) -> None:
         pytest.importorskip("matplotlib").use("Agg")
     needs = {
         "_misfit": ["scipy"],
+        "_fit": ["scipy"],
+        "_smooth": ["scipy"],
         "_scene": ["matplotlib"],
         "_tracking": ["matplotlib"],
         "_data": ["pandas"],

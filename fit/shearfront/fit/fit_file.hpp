@@ -7,12 +7,20 @@
 #include <vector>
 
 #include "shearfront/fit/fit_spec.hpp"
-#include "shearfront/fit/model_comparison.hpp"
 #include "shearfront/io/file_error.hpp"
 #include "shearfront/io/scene_file.hpp"
 
 /// Fit files (TOML; the format is described in docs/reference/formats).
 namespace shearfront::fit {
+
+/// By which the best of several models is chosen; the least is the best. With p parameters, of which b are places that were looked
+/// for among all there are, n data and their Gaussian likelihood L:
+///
+///     AIC = -2 log L + 2 p,   BIC = -2 log L + p log n,   mBIC = BIC + b log n.
+///
+/// A break that fits noise best of all places gains more than a parameter does, about as much as two. Source of mBIC: Zhang &
+/// Siegmund (2007), Biometrics 63, 22-32, but for its term in the lengths of the segments, which has no meaning for layers.
+enum class ModelCriterion { aic, bic, mbic };
 
 /// [compare]: shear rates that are fitted to the same observations in place of the scene's own. The entries of each are
 /// unknown, beside those of [unknown]; the scene's a(z) is where all of them start.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shearfront/fit/estimate.hpp"
+#include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/fit_spec.hpp"
 
 /// Several models for the same observations.
@@ -13,15 +14,6 @@ namespace shearfront::fit {
 /// Why misfits and information criteria of two fits mean different things: other observations (place, value,
 /// width or sigma), another quantity, another loss; what b has instead of a. Empty if they mean the same.
 [[nodiscard]] std::string incomparable(const FitSpec& a, const FitSpec& b);
-
-/// By which the best of several models is chosen; the least is the best. With p parameters, of which b are places that were looked
-/// for among all there are, n data and their Gaussian likelihood L:
-///
-///     AIC = -2 log L + 2 p,   BIC = -2 log L + p log n,   mBIC = BIC + b log n.
-///
-/// A break that fits noise best of all places gains more than a parameter does, about as much as two. Source of mBIC: Zhang &
-/// Siegmund (2007), Biometrics 63, 22-32, but for its term in the lengths of the segments, which has no meaning for layers.
-enum class ModelCriterion { aic, bic, mbic };
 
 /// Nothing if the fit has none.
 [[nodiscard]] std::optional<double> value_of(ModelCriterion criterion, const Estimate& estimate,
