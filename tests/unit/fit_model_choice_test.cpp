@@ -5,6 +5,7 @@
 
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/model_choice.hpp"
+#include "shearfront/fit/model_comparison.hpp"
 #include "shearfront/fit/parameters.hpp"
 #include "support/fit_scenes.hpp"
 
