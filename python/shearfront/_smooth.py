@@ -27,7 +27,7 @@ _DECADES = np.arange(4.0, -6.5, -1.0)
 
 
 @with_examples
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SmoothFit:
     """A table of a(z) found under a prior of smoothness whose weight the data have chosen; made by :meth:`Problem.smooth`.
 
@@ -70,6 +70,9 @@ class SmoothFit:
     scene: Scene
     _z: FloatArray
     _log_errors: FloatArray
+
+    def __repr__(self) -> str:
+        return f"<SmoothFit of {self._z.size} points: {self.effective:.1f} of them determined, misfit {self.misfit:.4g}>"
 
     @property
     def std_errors(self) -> FloatArray:
