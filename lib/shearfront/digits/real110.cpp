@@ -52,7 +52,9 @@ Real110& Real110::operator=(const Real110& other) {
 
 Real110::operator double() const { return static_cast<double>(in(*this)); }
 long long Real110::truncated() const { return static_cast<long long>(in(*this)); }
-std::string Real110::str(int digits, std::ios_base::fmtflags flags) const { return in(*this).str(digits, flags); }
+std::string Real110::str(int digits, std::ios_base::fmtflags flags) const {
+  return in(*this).str(digits, flags);
+}
 
 Real110& Real110::operator+=(const Real110& y) {
   Real110Number::of(*this) += in(y);
@@ -71,8 +73,8 @@ Real110& Real110::operator/=(const Real110& y) {
   return *this;
 }
 Real110 operator+(const Real110& x, const Real110& y) { return out(in(x) + in(y)); }
-Real110 operator-(const Real110& x, const Real110& y) { return out(in(x) - in(y)); }
-Real110 operator*(const Real110& x, const Real110& y) { return out(in(x) * in(y)); }
+Real110 operator-(const Real110& x, const Real110& y) { return out(in(x)-in(y)); }
+Real110 operator*(const Real110& x, const Real110& y) { return out(in(x)*in(y)); }
 Real110 operator/(const Real110& x, const Real110& y) { return out(in(x) / in(y)); }
 Real110 operator-(const Real110& x) { return out(-in(x)); }
 bool operator==(const Real110& x, const Real110& y) { return in(x) == in(y); }

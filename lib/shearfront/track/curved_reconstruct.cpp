@@ -90,7 +90,8 @@ double CurvedReconstruction::turn_beyond(const CurvedNode& front) const {
   const std::size_t most = std::max(grid.level(front.below), grid.level(front.above));
   if (most < 2) return CurvedNode::kNever;
   const double z = grid.turning_height(p, most - 1);
-  if (!(std::abs(z - grid.boundary(boundary)) < kParts * (piece.z_high - piece.z_low))) return CurvedNode::kNever;
+  if (!(std::abs(z - grid.boundary(boundary)) < kParts * (piece.z_high - piece.z_low)))
+    return CurvedNode::kNever;
   if (!was_before) {
     const bool turns = most == grid.level(front.direction > 0 ? front.below : front.above);
     return turns ? passage(grid, front, z).t : CurvedNode::kNever;
