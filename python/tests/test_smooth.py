@@ -79,7 +79,7 @@ def test_bands_cover_and_errors_are_small() -> None:
         band = problem_of(BUMP, 0.01, seed + 1).smooth().rate_band()
         inside.append(np.mean((band.lower < BUMP) & (band.upper > BUMP)))
         errors.append(np.sqrt(np.mean(np.log(band.a / BUMP) ** 2)))
-    assert np.mean(inside) > 0.9  # 0.968 of 60 sets
+    assert np.mean(inside) > 0.9
     assert np.median(errors) < 0.06
     # An exponential is found as that: two numbers.
     assert problem_of(EXPONENTIAL, 0.01).smooth().effective < 4

@@ -284,7 +284,7 @@ TEST(CurvedFronts, AnySmoothBed) {
     EXPECT_LE(coarse.arrival, kCoarse * kCoarse / 4);
     EXPECT_LE(fine.arrival, kFine * kFine);  // the exact one has pieces as well
     EXPECT_LE(fine.steps, coarse.steps / 4);
-    EXPECT_LE(coarse.lines, 0.1 * coarse.steps);  // of second order, steps of first
+    EXPECT_LE(coarse.lines, 0.1 * coarse.steps);  // steps are of first order
     EXPECT_LE(fine.lines, 0.02 * fine.steps);
     EXPECT_LE(coarse.M, kCoarse * kCoarse / 2);
     EXPECT_LE(fine.M, kFine * kFine);
