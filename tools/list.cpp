@@ -42,7 +42,7 @@ std::string entries() {
   return all;
 }
 
-std::string described(const Guarantees& g, std::string_view scenes) {
+std::string promise_of(const Guarantees& g, std::string_view scenes) {
   std::string all;
   const auto say = [&](bool holds, const std::string& text) {
     if (holds) all += (all.empty() ? "" : ", ") + text;
@@ -172,7 +172,7 @@ int list() {
   TextTable solvers({"name", "what it is", "guarantees"});
   SolverList::for_each([&]<class S>() {
     solvers.add(
-        {std::string(S::kName), std::string(S::kDescription), described(S::guarantees(), S::kScenes)});
+        {std::string(S::kName), std::string(S::kDescription), promise_of(S::guarantees(), S::kScenes)});
   });
   all += indented(solvers.text());
   TextTable options({"name", "what it is", "values", "default", "solvers"});

@@ -19,7 +19,7 @@ namespace shearfront::tools {
 namespace {
 
 constexpr std::size_t kMostProfiles = 6;              // more times than this are shown as maps
-constexpr std::size_t kHeights = 2001, kTimes = 401;  // finer than a panel can show
+constexpr std::size_t kDrawnHeights = 2001, kDrawnTimes = 401;  // finer than a panel can show
 
 void set_common(Picture& picture, const std::string& title, const fit::FitSpec& spec,
                 const fit::Estimate& estimate) {
@@ -56,9 +56,9 @@ void add_profiles(Picture& picture, const fit::FitSpec& spec, const fit::Estimat
                   const std::vector<double>& times) {
   SolverRequest request;
   request.times = times;
-  request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kHeights);
+  request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kDrawnHeights);
   SolverResult result = solve(*estimate.scene, spec.forward.method, request);
-  if (!result.summary.usable()) result.samples.assign(times.size() * kHeights, {std::nan(""), std::nan("")});
+  if (!result.summary.usable()) result.samples.assign(times.size() * kDrawnHeights, {std::nan(""), std::nan("")});
   picture.set("times", times);
   picture.set("fitted", spec.observations.quantity == Quantity::cumulative ? "M" : "phi");
   picture.add_file("fitted.csv", [&](OutputFile& file) {
@@ -71,7 +71,7 @@ void add_bed_heights(Picture& picture, const fit::FitSpec& spec, const fit::Esti
   for (const Observation& o : spec.observations.rows) t_end = std::max(t_end, o.t);
   if (!(t_end > 0)) t_end = 1;
   const BedCourse course = bed_course(SolvedQuantity::bed_height, *estimate.scene, spec.forward.method,
-                                      equally_spaced(0, t_end, kTimes));
+                                      equally_spaced(0, t_end, kDrawnTimes));
   picture.add_file("fitted.csv", [&](OutputFile& file) { write_time_table_csv(file, course.table); });
 }
 
