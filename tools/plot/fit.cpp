@@ -18,7 +18,7 @@
 namespace shearfront::tools {
 namespace {
 
-constexpr std::size_t kMostProfiles = 6;              // more times than this are shown as maps
+constexpr std::size_t kMostProfiles = 6;                        // more times than this are shown as maps
 constexpr std::size_t kDrawnHeights = 2001, kDrawnTimes = 401;  // finer than a panel can show
 
 void set_common(Picture& picture, const std::string& title, const fit::FitSpec& spec,
@@ -58,7 +58,8 @@ void add_profiles(Picture& picture, const fit::FitSpec& spec, const fit::Estimat
   request.times = times;
   request.heights = equally_spaced(spec.scene.bottom(), spec.scene.top(), kDrawnHeights);
   SolverResult result = solve(*estimate.scene, spec.forward.method, request);
-  if (!result.summary.usable()) result.samples.assign(times.size() * kDrawnHeights, {std::nan(""), std::nan("")});
+  if (!result.summary.usable())
+    result.samples.assign(times.size() * kDrawnHeights, {std::nan(""), std::nan("")});
   picture.set("times", times);
   picture.set("fitted", spec.observations.quantity == Quantity::cumulative ? "M" : "phi");
   picture.add_file("fitted.csv", [&](OutputFile& file) {
