@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._errors import one_complaint
 from ._misfit import Misfit
-from ._posterior import _of_file, _resolved
+from ._posterior import priors_of
 from ._priors import LogNormal, Normal, Uniform
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def _measurements(problem: Problem) -> _Table:
 
 def _parameters(problem: Problem, priors: Mapping[str, Prior] | None) -> _Table:
     misfit = Misfit(problem)
-    known = _resolved(_of_file(problem) | dict(priors or {}), misfit.names)
+    known = priors_of(problem, priors)
     columns = zip(misfit.names, misfit.lower.tolist(), misfit.upper.tolist(), misfit.start.tolist(), strict=True)
     table: _Table = {
         key: []

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
 from ._arrays import flat
-from ._errors import InputError, NoResult
+from ._errors import one_complaint
 from ._examples import with_examples
-from ._misfit import Misfit
-from ._priors import HalfNormal, LogNormal, Normal, Prior, Uniform
-from ._unbounded import Unbounded
+from ._priors import KINDS, Prior, Uniform
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -55,18 +54,13 @@ class Posterior:
         if problem._engine.has_noise_model:
             problem = type(problem)(problem._engine.with_noise_of(problem.run()._engine))
         self._problem = problem
-        self._misfit = Misfit(problem)
-        self.names = list(self._misfit.names)
-        self.priors = _resolved(_of_file(problem) | dict(priors or {}), self.names)
-        lower = np.maximum(self._misfit.lower, [self.priors[n].low for n in self.names])
-        upper = np.minimum(self._misfit.upper, [self.priors[n].high for n in self.names])
-        # A density that ends at 0 has no finite logarithm there.
-        lower = np.where(lower == 0.0, np.finfo(float).tiny, lower)
-        if not np.all(lower < upper):
-            name = self.names[int(np.argmin(upper - lower))]
-            raise _refused("prior", name, "must leave room between the bounds of the unknown")
-        self._unbounded = Unbounded(self.names, lower, upper, self._misfit._engine.shape)
-        self._has_sigma = bool(np.all(self._problem.observations.sigma > 0))
+        self.priors = priors_of(problem, priors)
+        self._engine = self._made()
+        self.names = self._engine.names
+
+    def _made(self) -> _core.Posterior:
+        """One that nothing else uses."""
+        return _core.Posterior(self._problem._engine, [(name, *prior._given()) for name, prior in self.priors.items()])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Posterior, (self._problem, self.priors)
@@ -88,16 +82,7 @@ class Posterior:
         >>> posterior.log_density([2.4, 0.31]) > posterior.log_density([2.5, 0.31])
         True
         """
-        values = flat(p)
-        if not self._inside(values):
-            return -math.inf
-        try:
-            residuals = self._misfit.residuals(values)
-        except NoResult:
-            return -math.inf
-        return self._likelihood(float(residuals @ residuals)) + sum(
-            self.priors[name].log_density(float(x))[0] for name, x in zip(self.names, values, strict=True)
-        )
+        return self._engine.log_density(flat(p))
 
     def gradient(self, p: Any) -> FloatArray:
         """Of log_density in the unknowns, exact where the method has derivatives.
@@ -115,24 +100,22 @@ class Posterior:
         Raises
         ------
         NoResult
-            Where there is no solution.
+            Where there is no solution, and outside the bounds.
 
         Examples
         --------
         >>> posterior.gradient([2.5, 0.31]).shape
         (2,)
         """
-        return self._with_gradient(self._misfit, flat(p))[1]
+        return self._engine.gradient(flat(p))
 
-    def unbounded(self, x: Any, misfit: Misfit | None = None) -> tuple[float, FloatArray]:
+    def unbounded(self, x: Any) -> tuple[float, FloatArray]:
         """log density of the unbounded coordinates x, log |det dp/dx| included, and its gradient in x.
 
         Parameters
         ----------
         x : array_like
             One number per unknown; :meth:`coordinates` has them for unknowns, :meth:`values` goes back.
-        misfit : Misfit, optional
-            Its own for each thread.
 
         Returns
         -------
@@ -145,15 +128,7 @@ class Posterior:
         >>> gradient.shape
         (2,)
         """
-        x = flat(x)
-        at = self._unbounded.at(x)
-        if at is None:
-            return -math.inf, np.zeros_like(x)
-        try:
-            value, gradient = self._with_gradient(misfit or self._misfit, at.p)
-        except NoResult:
-            return -math.inf, np.zeros_like(x)
-        return value + at.log_volume, at.derivative.T @ gradient + at.slope
+        return self._engine.unbounded(flat(x))
 
     def values(self, x: Any) -> FloatArray:
         """The unknowns at the unbounded coordinates x.
@@ -172,10 +147,7 @@ class Posterior:
         >>> posterior.values(posterior.coordinates([2.4, 0.31])).round(9)
         array([2.4 , 0.31])
         """
-        at = self._unbounded.at(flat(x))
-        if at is None:
-            raise NoResult("no room between the bounds at these coordinates")
-        return at.p
+        return self._engine.values(flat(x))
 
     def coordinates(self, p: Any) -> FloatArray:
         """The unbounded coordinates of the unknowns p.
@@ -194,7 +166,7 @@ class Posterior:
         >>> bool(posterior.coordinates([2.5, 0.31])[0] > posterior.coordinates([2.4, 0.31])[0])
         True
         """
-        return self._unbounded.coordinates(flat(p))
+        return self._engine.coordinates(flat(p))
 
     def sample(
         self,
@@ -236,46 +208,18 @@ class Posterior:
         (1, 100, 2)
         """
         if sampler not in ("nutpie", "emcee"):
-            raise _refused("sampler", sampler, 'must be "nutpie" or "emcee"')
-        if sampler == "nutpie" and self._has_steps():
-            raise _refused("sampler", sampler, 'must be "emcee": points next to shocks make steps, which have no gradient')
+            raise one_complaint("sampler", sampler, 'must be "nutpie" or "emcee"')
+        if sampler == "nutpie" and self._engine.has_steps:
+            raise one_complaint("sampler", sampler, 'must be "emcee": points next to shocks make steps, which have no gradient')
         start = self._start()
         run = _nutpie if sampler == "nutpie" else _emcee
         x = run(self, start, draws, chains, tune, seed, cores or os.cpu_count() or 1, progress)
         return self._inference_data(x, seed)
 
-    def _has_steps(self) -> bool:
-        diffusion = self._problem.scene.entries.get("diffusion.D", 0.0)
-        return self._problem.observations.quantity == "point" and not diffusion > 0
-
-    def _inside(self, p: FloatArray) -> bool:
-        x = self._unbounded
-        return all(low <= value <= high for value, (low, high, *_) in ((p[i], x._ends(i, p)) for i in range(len(self.names))))
-
-    def _likelihood(self, squares: float) -> float:
-        if self._has_sigma:
-            return -squares / 2
-        return -self._misfit._engine.n_rows / 2 * math.log(squares)
-
-    def _with_gradient(self, misfit: Misfit, p: FloatArray) -> tuple[float, FloatArray]:
-        squares, gradient = misfit._engine.squares(p)
-        value = self._likelihood(squares)
-        slopes = gradient * (-0.5 if self._has_sigma else -misfit._engine.n_rows / 2 / squares)
-        for i, name in enumerate(self.names):
-            density, slope = self.priors[name].log_density(float(p[i]))
-            value += density
-            slopes[i] += slope
-        return value, slopes
-
     def _start(self) -> tuple[FloatArray, FloatArray]:
         """The estimate of the fit in coordinates, and a matrix that makes the posterior there about round."""
         x = self.coordinates(self._problem.run().estimates)
-        at = self._unbounded.at(x)
-        assert at is not None
-        jacobian = self._misfit.jacobian(at.p) @ at.derivative
-        residuals = self._misfit.residuals(at.p)
-        scale = 1.0 if self._has_sigma else math.sqrt(len(residuals) / float(residuals @ residuals))
-        curvature = (scale * jacobian).T @ (scale * jacobian) + np.eye(len(x)) / _WIDEST**2
+        curvature = self._engine.curvature(x) + np.eye(len(x)) / _WIDEST**2
         return x, np.linalg.inv(np.linalg.cholesky(curvature)).T
 
     def _inference_data(self, x: FloatArray, seed: int) -> Any:
@@ -287,9 +231,10 @@ class Posterior:
         for i, name in enumerate(self.names):
             fields.setdefault(name.split("[")[0], []).append(i)
         posterior = {f: p[:, :, places] if "[" in self.names[places[0]] else p[:, :, places[0]] for f, places in fields.items()}
-        residuals = np.array([[self._misfit.residuals(p[c, d]) for d in range(draws)] for c in range(chains)])
+        misfit = self._problem.misfit
+        residuals = np.array([[misfit.residuals(p[c, d]) for d in range(draws)] for c in range(chains)])
         sigma = np.ones((chains, draws))
-        if not self._has_sigma:
+        if not self._engine.sigma_is_given:
             random = np.random.default_rng(seed)
             sigma = np.sqrt((residuals**2).sum(axis=2) / random.chisquare(residuals.shape[2], (chains, draws)))
             posterior["sigma"] = sigma
@@ -301,31 +246,12 @@ class Posterior:
             return arviz.from_dict({"posterior": posterior, "log_likelihood": likelihood})
 
 
-def _of_file(problem: Problem) -> dict[str, Prior]:
-    """Those of [prior] in a fit file."""
-    kinds: dict[str, Callable[[float, float], Prior]] = {
-        "uniform": Uniform,
-        "normal": Normal,
-        "lognormal": LogNormal,
-        "half_normal": lambda std, _: HalfNormal(std),
-    }
-    return {name: kinds[kind](first, second) for name, kind, first, second in problem._engine.priors}
-
-
-def _refused(key: str, value: str, constraint: str) -> InputError:
-    text = f"{key} = {value}; {constraint}"
-    return InputError(text, [(key, value, constraint, text)])
-
-
-def _resolved(priors: Mapping[str, Prior], names: list[str]) -> dict[str, Prior]:
-    """By unknown; a field stands for all of its entries."""
-    found: dict[str, Prior] = {}
-    for key, prior in priors.items():
-        matching = [n for n in names if n == key or n.startswith(key + "[")]
-        if not matching:
-            raise _refused("prior", key, f"must be an unknown of the fit: {', '.join(names)}")
-        found |= dict.fromkeys(matching, prior)
-    return {name: found.get(name, Uniform()) for name in names}
+def priors_of(problem: Problem, given: Mapping[str, Prior] | None) -> dict[str, Prior]:
+    """By unknown, flat where there is none: those of [prior] in a fit file, and in their place these."""
+    of_file = {name: KINDS[kind](first, second) for name, kind, first, second in problem._engine.priors}
+    priors = of_file | dict(given or {})
+    places = problem._engine.last_named_by(list(priors))
+    return {name: Uniform() if k is None else list(priors.values())[k] for name, k in places.items()}
 
 
 def _nutpie(
@@ -346,10 +272,10 @@ def _nutpie(
     n = len(x0)
 
     def make_logp() -> Callable[[FloatArray], tuple[float, FloatArray]]:
-        misfit = Misfit(posterior._problem)  # for this chain alone
+        engine = posterior._made()  # for this chain alone
 
         def logp(y: FloatArray) -> tuple[float, FloatArray]:
-            value, gradient = posterior.unbounded(x0 + root @ y, misfit)
+            value, gradient = engine.unbounded(x0 + root @ y)
             if not math.isfinite(value):
                 raise _NoDensity
             return value, root.T @ gradient
@@ -405,8 +331,7 @@ def _emcee(
     n_walkers = max(2 * n + 2, 8) // chains * chains + chains
 
     def log_density(x: FloatArray) -> float:
-        at = posterior._unbounded.at(flat(x))
-        return -math.inf if at is None else posterior.log_density(at.p) + at.log_volume
+        return posterior._engine.log_density_of(flat(x))
 
     random = np.random.default_rng(seed)
     ensemble = emcee.EnsembleSampler(n_walkers, n, log_density)

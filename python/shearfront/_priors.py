@@ -4,7 +4,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from . import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    _Given = tuple[str, float, float, Callable[[float], tuple[float, float]] | None]
 
 
 @dataclass(frozen=True)
@@ -45,9 +53,48 @@ class Prior:
         """
         raise NotImplementedError
 
+    def _given(self) -> _Given:
+        """What the library takes: kind, two numbers, and the density of one's own between them."""
+        return "uniform", self.low, self.high, self.log_density
+
+
+class _OfTheLibrary(Prior):
+    """One whose density the library has; its numbers are the fields of the class."""
+
+    _kind: ClassVar[str]
+
+    @property
+    def _numbers(self) -> tuple[float, float]:
+        first, second, *_ = (*astuple(self), 0.0)
+        return first, second
+
+    @property
+    def _engine(self) -> _core.Prior:
+        return _core.Prior(self._kind, *self._numbers)
+
+    @property
+    def low(self) -> float:
+        """Where it begins."""
+        return self._engine.low
+
+    @property
+    def high(self) -> float:
+        """Where it ends."""
+        return self._engine.high
+
+    def log_density(self, p: float) -> tuple[float, float]:
+        """Up to a constant, and its derivative."""
+        return self._engine.log_density(p)
+
+    def _given(self) -> _Given:
+        # A class of one's own made from it may have changed anything.
+        if "_kind" not in vars(type(self)):
+            return super()._given()
+        return self._kind, *self._numbers, None
+
 
 @dataclass(frozen=True)
-class Normal(Prior):
+class Normal(_OfTheLibrary):
     """Normal with this mean and standard deviation.
 
     Examples
@@ -57,22 +104,13 @@ class Normal(Prior):
     (-0.5, 0.5)
     """
 
+    _kind = "normal"
     mean: float
     std: float
 
-    def log_density(self, p: float) -> tuple[float, float]:
-        """Up to a constant, and its derivative.
-
-        >>> import shearfront as sf
-        >>> sf.Normal(4.0, 2.0).log_density(2.0)
-        (-0.5, 0.5)
-        """
-        r = (p - self.mean) / self.std
-        return -r * r / 2, -r / self.std
-
 
 @dataclass(frozen=True)
-class LogNormal(Prior):
+class LogNormal(_OfTheLibrary):
     """The logarithm is normal: this median, and standard deviation of the logarithm.
 
     Examples
@@ -82,27 +120,13 @@ class LogNormal(Prior):
     0.0
     """
 
+    _kind = "lognormal"
     median: float
     sigma: float
 
-    @property
-    def low(self) -> float:
-        """It is positive."""
-        return 0.0
-
-    def log_density(self, p: float) -> tuple[float, float]:
-        """Up to a constant, and its derivative.
-
-        >>> import shearfront as sf
-        >>> sf.LogNormal(1.0, 1.0).log_density(1.0)
-        (-0.0, -1.0)
-        """
-        r = math.log(p / self.median) / self.sigma
-        return -r * r / 2 - math.log(p), -(r / self.sigma + 1) / p
-
 
 @dataclass(frozen=True)
-class HalfNormal(Prior):
+class HalfNormal(_OfTheLibrary):
     """The absolute value of a normal number with mean 0 and this standard deviation.
 
     Examples
@@ -112,26 +136,12 @@ class HalfNormal(Prior):
     (-0.5, -0.5)
     """
 
+    _kind = "half_normal"
     std: float
-
-    @property
-    def low(self) -> float:
-        """It is positive."""
-        return 0.0
-
-    def log_density(self, p: float) -> tuple[float, float]:
-        """Up to a constant, and its derivative.
-
-        >>> import shearfront as sf
-        >>> sf.HalfNormal(2.0).log_density(2.0)
-        (-0.5, -0.5)
-        """
-        r = p / self.std
-        return -r * r / 2, -r / self.std
 
 
 @dataclass(frozen=True)
-class Uniform(Prior):
+class Uniform(_OfTheLibrary):
     """The same density everywhere between two ends.
 
     Examples
@@ -141,24 +151,15 @@ class Uniform(Prior):
     0.4
     """
 
+    _kind = "uniform"
     lowest: float = -math.inf
     highest: float = math.inf
 
-    @property
-    def low(self) -> float:
-        """Its lower end."""
-        return self.lowest
 
-    @property
-    def high(self) -> float:
-        """Its upper end."""
-        return self.highest
-
-    def log_density(self, p: float) -> tuple[float, float]:
-        """0, and its derivative.
-
-        >>> import shearfront as sf
-        >>> sf.Uniform(0, 1).log_density(0.5)
-        (0.0, 0.0)
-        """
-        return 0.0, 0.0
+#: By the name of their kind in a fit file.
+KINDS: dict[str, Callable[[float, float], Prior]] = {
+    "uniform": Uniform,
+    "normal": Normal,
+    "lognormal": LogNormal,
+    "half_normal": lambda std, _: HalfNormal(std),
+}

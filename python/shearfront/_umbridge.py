@@ -47,8 +47,8 @@ def umbridge(problem: Problem, priors: Mapping[str, Prior] | None = None) -> lis
     import umbridge as bridge
 
     posterior = Posterior(problem, priors)
-    misfit = posterior._misfit
-    n, n_rows = len(posterior.names), misfit._engine.n_rows
+    misfit = posterior._problem.misfit
+    n, n_rows = len(posterior.names), posterior._engine.n_residuals
 
     class Differentiable(bridge.Model):  # type: ignore[misc]  # without types
         """One input, one output, with its Jacobian."""

@@ -3,6 +3,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -45,6 +46,19 @@ template <class T>
                                           std::size_t n_columns) {
   const auto [data, owner] = give(std::move(values));
   return nb::cast(Array(data, {n_rows, n_columns}, owner));
+}
+
+[[nodiscard]] inline Eigen::VectorXd eigen_of(const Numbers& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+[[nodiscard]] inline nb::object array_of(const Eigen::VectorXd& numbers) {
+  return array_of(std::vector<double>(numbers.begin(), numbers.end()));
+}
+/// Row by row.
+[[nodiscard]] inline nb::object matrix_of(const Eigen::MatrixXd& matrix) {
+  const auto rows = matrix.transpose().reshaped();
+  return matrix_of(std::vector<double>(rows.begin(), rows.end()), static_cast<std::size_t>(matrix.rows()),
+                   static_cast<std::size_t>(matrix.cols()));
 }
 
 /// (phi, M): two views of the same samples, of this shape.

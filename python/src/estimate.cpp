@@ -30,15 +30,6 @@ nb::object ends_of(const std::optional<Interval>& interval) {
   return interval ? nb::object(nb::make_tuple(interval->low, interval->high)) : nb::none();
 }
 
-nb::object matrix_from(const Eigen::MatrixXd& matrix) {
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(matrix.size()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  return matrix_of(std::move(values), static_cast<std::size_t>(matrix.rows()),
-                   static_cast<std::size_t>(matrix.cols()));
-}
-
 nb::list parameters_of(const Fitted& self) {
   nb::list all;
   for (const fit::ParameterEstimate& p : self.estimate->parameters) {
@@ -179,7 +170,7 @@ nb::tuple bootstrap(const Fitted& self, std::size_t replicates, std::uint64_t se
   });
   nb::list intervals;
   for (const auto& interval : found.intervals) intervals.append(ends_of(interval));
-  return nb::make_tuple(intervals, matrix_from(found.estimates), matrix_from(found.covariance), found.failed,
+  return nb::make_tuple(intervals, matrix_of(found.estimates), matrix_of(found.covariance), found.failed,
                         found.warnings);
 }
 
@@ -196,7 +187,7 @@ void bind_estimate(nb::module_& m) {
   nb::class_<Fitted> fitted(m, "Fitted");
   fitted.def_prop_ro("parameters", &parameters_of)
       .def_prop_ro("facts", &facts_of)
-      .def_prop_ro("correlation", [](const Fitted& self) { return matrix_from(self.estimate->correlation); })
+      .def_prop_ro("correlation", [](const Fitted& self) { return matrix_of(self.estimate->correlation); })
       .def_prop_ro("predicted", [](const Fitted& self) { return array_of(self.estimate->predicted); })
       .def_prop_ro("scene", [](const Fitted& self) { return SharedScene(*self.estimate->scene); })
       .def("predict", &predict, nb::arg("t"), nb::arg("z"), nb::arg("draws"), nb::arg("seed").none())

@@ -50,6 +50,15 @@ FitProblem with_noise_of(const FitProblem& problem, const Fitted& found) {
   return {std::move(spec), problem.remarks};
 }
 
+/// By unknown the place of the last of these names that is its own or that of its field, or None.
+nb::dict last_named_by(const FitProblem& problem, const std::vector<std::string>& names) {
+  const fit::Parameters parameters(problem.spec->scene, problem.spec->unknown);
+  const auto places = parameters.last_named_by(names);
+  nb::dict all;
+  for (std::size_t i = 0; i < places.size(); ++i) all[parameters[i].name().c_str()] = nb::cast(places[i]);
+  return all;
+}
+
 nb::list compare(const std::vector<std::string>& names, const std::vector<Fitted>& fits) {
   std::vector<fit::Estimate> estimates;
   for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -86,6 +95,7 @@ void bind_fit(nb::module_& m) {
           "has_noise_model",
           [](const FitProblem& self) { return self.spec->noise.model != fit::NoiseModel::independent; })
       .def("with_noise_of", &with_noise_of)
+      .def("last_named_by", &last_named_by)
       .def("run", &run_fit);
   bind_fit_state(m, problem);
   m.def("read_fit", [](const std::string& path, const Changes& changes) {

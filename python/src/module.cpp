@@ -58,4 +58,5 @@ NB_MODULE(_core, m) {
   bind_fit(m);
   bind_estimate(m);
   bind_misfit(m);
+  bind_posterior(m);
 }

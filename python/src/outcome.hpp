@@ -83,5 +83,6 @@ void bind_observations(nb::module_& m);
 void bind_fit(nb::module_& m);
 void bind_estimate(nb::module_& m);
 void bind_misfit(nb::module_& m);
+void bind_posterior(nb::module_& m);
 
 }  // namespace shearfront::python

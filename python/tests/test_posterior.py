@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Posteriors: coordinates and gradients against differences, samples against quadrature."""
+"""Posteriors: densities against differences and priors of one's own, samples against quadrature. More is tested in C++
+(tests/unit/fit_posterior_test.cpp)."""
 
 from __future__ import annotations
 
@@ -13,11 +14,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import shearfront as sf
-from shearfront._unbounded import Unbounded
 
 BED = sf.Scene(shear_rate=sf.Piecewise([0.29], [2.4, 0.31]), initial=sf.Step(0.5))
 TIMES = [0.2, 0.5, 1, 2, 3]
@@ -33,45 +31,6 @@ def without_sigma(observations: sf.Observations) -> sf.Observations:
     return sf.data(BED, columns)
 
 
-COORDINATES = {
-    "wide positive": Unbounded(["a", "b"], np.array([1e-3, 1e-2]), np.array([1e3, 1e2]), "none"),
-    "narrow": Unbounded(["a", "b"], np.array([-1.0, 0.2]), np.array([1.0, 0.4]), "none"),
-    "one end": Unbounded(["a", "b"], np.array([0.5, -math.inf]), np.array([math.inf, 2.0]), "none"),
-    "no end": Unbounded(["a", "b"], np.array([-math.inf] * 2), np.array([math.inf] * 2), "none"),
-    "breaks": Unbounded(["shear_rate.breaks[0]", "shear_rate.breaks[1]"], np.array([0.0, 0.0]), np.array([1.0, 1.0]), "none"),
-    "decreasing": Unbounded([f"shear_rate.values[{i}]" for i in range(3)], np.full(3, 0.01), np.full(3, 10.0), "decreasing"),
-    "convex": Unbounded([f"shear_rate.values[{i}]" for i in range(4)], np.full(4, 0.01), np.full(4, 1e3), "convex"),
-}
-
-
-@pytest.mark.parametrize("kind", COORDINATES)
-@settings(max_examples=30, deadline=None)
-@given(st.data())
-def test_coordinates_against_differences(kind: str, data: Any) -> None:
-    to = COORDINATES[kind]
-    x = np.array(data.draw(st.lists(st.floats(-2, 2), min_size=len(to), max_size=len(to))))
-    if kind == "convex":
-        x -= 5  # room above
-    at = to.at(x)
-    assert at is not None
-    assert at.log_volume == pytest.approx(np.linalg.slogdet(at.derivative)[1], abs=1e-10)
-    for j in range(len(x)):
-        h = 1e-6 * np.eye(len(x))[j]
-        above, below = to.at(x + h), to.at(x - h)
-        assert above is not None
-        assert below is not None
-        assert at.derivative[:, j] == pytest.approx((above.p - below.p) / 2e-6, rel=1e-6, abs=1e-7)
-        assert at.slope[j] == pytest.approx((above.log_volume - below.log_volume) / 2e-6, rel=1e-5, abs=1e-6)
-    assert to.coordinates(at.p) == pytest.approx(x, abs=1e-7)
-    p = at.p
-    if kind == "breaks":
-        assert p[0] < p[1]
-    if kind in ("decreasing", "convex"):
-        assert np.all(np.diff(p) < 0)
-    if kind == "convex":
-        assert np.all(np.diff(p, 2) > 0)
-
-
 @pytest.mark.parametrize("has_sigma", [True, False])
 def test_gradient_against_differences(has_sigma: bool) -> None:
     observations = seen() if has_sigma else without_sigma(seen())
@@ -81,7 +40,10 @@ def test_gradient_against_differences(has_sigma: bool) -> None:
     x = posterior.coordinates([2.3, 0.32, 0.51])
     value, gradient = posterior.unbounded(x)
     p = posterior.values(x)
-    assert value == pytest.approx(posterior.log_density(p) + posterior._unbounded.at(x).log_volume, rel=1e-12)
+    steps = 1e-6 * np.eye(3)
+    by_x = np.array([(posterior.values(x + h) - posterior.values(x - h)) / 2e-6 for h in steps])
+    assert value == pytest.approx(posterior.log_density(p) + np.linalg.slogdet(by_x)[1], rel=1e-8)
+    assert posterior.coordinates(p) == pytest.approx(x, rel=1e-9)
     for j in range(3):
         h = 1e-6 * np.eye(3)[j]
         difference = (posterior.unbounded(x + h)[0] - posterior.unbounded(x - h)[0]) / 2e-6
@@ -89,6 +51,49 @@ def test_gradient_against_differences(has_sigma: bool) -> None:
         assert posterior.gradient(p)[j] == pytest.approx(
             (posterior.log_density(p + h) - posterior.log_density(p - h)) / 2e-6, rel=1e-4, abs=1e-3
         )
+
+
+class Own(sf.Prior):
+    """Normal(2.4, 0.2) from 2.2 on, by hand."""
+
+    low = 2.2
+
+    def log_density(self, p: float) -> tuple[float, float]:
+        if p > 100:
+            raise ZeroDivisionError("too far")
+        return -((p - 2.4) ** 2) / 0.08, -(p - 2.4) / 0.04
+
+
+class Cut(sf.Normal):
+    """The same from what the library has."""
+
+    low = 2.2
+
+
+@pytest.mark.parametrize("prior", [Own(), Cut(2.4, 0.2)])
+def test_priors_of_ones_own(prior: sf.Prior) -> None:
+    problem = sf.problem(BED, seen(), "shear_rate.values")
+    own = problem.posterior({"shear_rate.values[0]": prior})
+    known = problem.posterior({"shear_rate.values[0]": sf.Normal(2.4, 0.2)})
+    p = [2.3, 0.32]
+    assert own.log_density(p) == pytest.approx(known.log_density(p), rel=1e-14)
+    assert own.gradient(p) == pytest.approx(known.gradient(p), rel=1e-12)
+    assert own.log_density([2.1, 0.32]) == -math.inf
+    assert known.log_density([2.1, 0.32]) > -math.inf
+    x = own.coordinates(p)
+    gradient = own.unbounded(x)[1]
+    for j, h in enumerate(1e-6 * np.eye(2)):
+        assert gradient[j] == pytest.approx((own.unbounded(x + h)[0] - own.unbounded(x - h)[0]) / 2e-6, rel=1e-4, abs=1e-3)
+    assert own.priors["shear_rate.values[0]"] is prior
+    assert pickle.loads(pickle.dumps(own)).log_density(p) == own.log_density(p)
+
+
+def test_what_a_prior_of_ones_own_raises_comes_through() -> None:
+    posterior = sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.values[0]": Own()})
+    with pytest.raises(ZeroDivisionError, match="too far"):
+        posterior.log_density([200.0, 0.3])
+    with pytest.raises(ZeroDivisionError, match="too far"):
+        posterior.gradient([200.0, 0.3])
 
 
 def test_what_a_posterior_says_of_itself() -> None:
@@ -102,6 +107,12 @@ def test_what_a_posterior_says_of_itself() -> None:
         sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.scale": sf.Normal(1, 1)})
     with pytest.raises(sf.InputError, match="must leave room"):
         sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.values": sf.Uniform(1e9, 2e9)})
+    with pytest.raises(sf.InputError, match="must have a standard deviation > 0"):
+        sf.problem(BED, seen(), "shear_rate.values").posterior({"shear_rate.values[0]": sf.Normal(2, -1)})
+    with pytest.raises(sf.InputError, match="must have one number per unknown"):
+        posterior.log_density([2.4])
+    with pytest.raises(sf.NoResult, match="outside the bounds"):
+        posterior.gradient([2.4, 0.5])
     with pytest.raises(sf.InputError, match="points next to shocks"):
         sf.problem(BED, seen(quantity="point"), "shear_rate.values").posterior().sample()
 

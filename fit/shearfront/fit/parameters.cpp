@@ -216,6 +216,31 @@ Eigen::VectorXd Parameters::start() const {
   return values;
 }
 
+std::string Parameters::refusal_of_name(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters_) {
+    if (p.is_named(name)) return "";
+    names.push_back(p.name());
+  }
+  std::string constraint = "must be an unknown of the fit: " + joined(names);
+  if (const auto meant = nearest_name(name, names)) constraint += " (did you mean " + *meant + "?)";
+  return constraint;
+}
+
+std::vector<std::optional<std::size_t>> Parameters::last_named_by(
+    const std::vector<std::string>& names) const {
+  std::vector<std::optional<std::size_t>> places(size());
+  Complaints complaints;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (std::string why = refusal_of_name(names[k]); !why.empty())
+      complaints.push_back({"prior", names[k], std::move(why)});
+    for (std::size_t i = 0; i < size(); ++i)
+      if (parameters_[i].is_named(names[k])) places[i] = k;
+  }
+  if (!complaints.empty()) throw InputError(std::move(complaints));
+  return places;
+}
+
 bool Parameters::within_bounds(const Eigen::VectorXd& values) const {
   for (std::size_t i = 0; i < size(); ++i) {
     const double x = values[static_cast<Eigen::Index>(i)];

@@ -21,6 +21,10 @@ struct Parameter {
   double unit = 1;
   double origin = 0;  ///< where it is counted from: the bottom, the least state, or 0
   [[nodiscard]] std::string name() const { return entry.name(); }
+  /// By its own name or that of its field.
+  [[nodiscard]] bool is_named(const std::string& name) const {
+    return entry.field == name || entry.name() == name;
+  }
 };
 
 /// The unknowns of a fit, resolved against a scene.
@@ -51,6 +55,12 @@ class Parameters {
   [[nodiscard]] double height() const { return start_scene_.top() - start_scene_.bottom(); }
   [[nodiscard]] double states() const;
   [[nodiscard]] Eigen::VectorXd start() const;
+  /// Why this is the name of none of them, nor of the field of one; empty if it is.
+  [[nodiscard]] std::string refusal_of_name(const std::string& name) const;
+  /// For each the place of the last of these names that is its own or that of its field; none where no name is.
+  /// Errors: InputError (key "prior") for a name that refusal_of_name() refuses.
+  [[nodiscard]] std::vector<std::optional<std::size_t>> last_named_by(
+      const std::vector<std::string>& names) const;
   /// Whether all values keep their bounds.
   [[nodiscard]] bool within_bounds(const Eigen::VectorXd& values) const;
   /// The scene with these values in place of its own; it may be invalid (breaks out of order).

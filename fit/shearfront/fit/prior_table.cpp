@@ -10,8 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "shearfront/io/text.hpp"
-
 namespace shearfront::fit {
 namespace {
 
@@ -20,24 +18,13 @@ using detail::TomlSource;
 
 constexpr std::string_view kPriorTable = "prior";
 
-/// What is wrong with the numbers of a distribution; empty if nothing is.
-std::string refusal_of_numbers(PriorKind kind, const std::vector<double>& numbers) {
-  const std::size_t n = kind == PriorKind::half_normal ? 1 : 2;
+/// What is wrong with the numbers of a distribution in a file; empty if nothing is.
+std::string refusal_of_numbers(const Prior& prior, const std::vector<double>& numbers) {
+  const std::size_t n = prior.kind == PriorKind::half_normal ? 1 : 2;
   if (numbers.size() != n ||
       !std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
     return n == 1 ? "must be a number" : "must be two numbers";
-  switch (kind) {
-    case PriorKind::uniform:
-      return numbers[0] < numbers[1] ? "" : "must ascend";
-    case PriorKind::lognormal:
-      if (!(numbers[0] > 0)) return "must have a median > 0";
-      [[fallthrough]];
-    case PriorKind::normal:
-      return numbers[1] > 0 ? "" : "must have a standard deviation > 0";
-    case PriorKind::half_normal:
-      break;
-  }
-  return numbers[0] > 0 ? "" : "must have a standard deviation > 0";
+  return prior.refusal();
 }
 
 class PriorReader {
@@ -78,10 +65,10 @@ class PriorReader {
       for (const toml::node& element : *array) numbers.push_back(element.value<double>().value_or(NAN));
     else
       numbers.push_back(node.value<double>().value_or(NAN));
-    if (std::string why = refusal_of_numbers(prior.kind, numbers); !why.empty())
-      return add(node, name + "." + std::string(*kind), std::move(why));
-    prior.first = numbers[0];
+    prior.first = numbers.empty() ? 0 : numbers[0];
     prior.second = numbers.size() > 1 ? numbers[1] : 0;
+    if (std::string why = refusal_of_numbers(prior, numbers); !why.empty())
+      return add(node, name + "." + std::string(*kind), std::move(why));
     priors_.push_back(std::move(prior));
   }
 
@@ -102,22 +89,14 @@ std::vector<Prior> read_priors(const TomlSource& source, ComplaintReport& report
 
 void check_priors(const std::vector<Prior>& priors, const Parameters& parameters, const TomlSource& source,
                   ComplaintReport& report) {
-  std::vector<std::string> names, with_prior;
-  for (const Parameter& p : parameters) names.push_back(p.name());
+  std::vector<std::string> with_prior;
   for (const Prior& prior : priors) {
-    std::size_t n = 0;
-    std::string constraint;
+    std::string constraint = parameters.refusal_of_name(prior.parameter);
     for (const Parameter& p : parameters) {
-      if (p.entry.field != prior.parameter && p.name() != prior.parameter) continue;
-      ++n;
+      if (!p.is_named(prior.parameter)) continue;
       if (std::find(with_prior.begin(), with_prior.end(), p.name()) != with_prior.end())
         constraint = "must not give " + p.name() + " a second distribution";
       with_prior.push_back(p.name());
-    }
-    if (n == 0) {
-      const auto meant = nearest_name(prior.parameter, names);
-      constraint = fmt::format("must be an unknown of the fit: {}", fmt::join(names, ", "));
-      if (meant) constraint += " (did you mean " + *meant + "?)";
     }
     if (constraint.empty()) continue;
     const toml::node* node = source.root().get(kPriorTable);
