@@ -5,6 +5,7 @@
 #include "shearfront/fit/estimate.hpp"
 #include "shearfront/fit/fit_file.hpp"
 #include "shearfront/fit/fit_spec.hpp"
+#include "shearfront/fit/posterior.hpp"
 #include "shearfront/shearfront.hpp"
 
 /// Fits in one header:
@@ -12,7 +13,8 @@
 ///     const auto estimate = shearfront::fit::fit(shearfront::fit::read_fit("fit.toml"));
 ///     for (const auto& p : estimate.parameters) std::cout << p.name << ' ' << p.estimate << '\n';
 ///
-/// Without files: fill in a FitSpec (fit/fit_spec.hpp). Link with shearfront::fit.
+/// Without files: fill in a FitSpec (fit/fit_spec.hpp). What data and priors together say, for samplers: Posterior
+/// (fit/posterior.hpp). Link with shearfront::fit.
 namespace shearfront::fit {
 
 /// Finds the unknown entries of a scene from observations: the minimum of sum rho(r_i^2) / 2 over the box of

@@ -81,7 +81,7 @@ void bind_posterior(nb::module_& m) {
              new (self) Posterior(with_priors(problem, priors));
            })
       .def_prop_ro("names", &Posterior::names)
-      .def_prop_ro("n_residuals", &Posterior::residuals)
+      .def_prop_ro("n_residuals", &Posterior::n_residuals)
       .def_prop_ro("sigma_is_given", &Posterior::sigma_is_given)
       .def_prop_ro("has_steps", &Posterior::has_steps)
       .def("log_density",

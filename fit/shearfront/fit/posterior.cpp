@@ -129,7 +129,7 @@ const std::vector<std::string>& Posterior::names() const { return parts_->names;
 const std::vector<Prior>& Posterior::priors() const { return parts_->priors; }
 const VectorXd& Posterior::lower() const { return parts_->bounds.first; }
 const VectorXd& Posterior::upper() const { return parts_->bounds.second; }
-std::size_t Posterior::residuals() const { return static_cast<std::size_t>(parts_->residuals.size()); }
+std::size_t Posterior::n_residuals() const { return static_cast<std::size_t>(parts_->residuals.size()); }
 bool Posterior::sigma_is_given() const { return parts_->has_sigma; }
 bool Posterior::has_steps() const { return parts_->has_steps; }
 

@@ -19,8 +19,8 @@ namespace shearfront::fit {
 ///   none                   p = x
 ///
 /// and an order holds because l follows the unknowns before: of breaks the one below, of the values of a(z) with a shape
-/// the one above, v_k > v_{k+1}, and if convex v_k > 2 v_{k+1} - v_{k+2}, the topmost two v_k > v_{k+1}. There l is the larger of that and of the
-/// bound, and p is never taken by its logarithm. dp/dx is triangular in the order in which they are made, so that
+/// the one above, v_k > v_{k+1}, and if convex v_k > 2 v_{k+1} - v_{k+2} but for the topmost two. There l is the larger of that
+/// and of the bound, and p is not taken by its logarithm. dp/dx is triangular in the order in which they are made, so that
 ///
 ///   log |det dp/dx| = sum_i log |dp_i/dx_i|.
 ///
