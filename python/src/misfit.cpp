@@ -10,16 +10,16 @@
 #include "arrays.hpp"
 #include "fit.hpp"
 #include "outcome.hpp"
-#include "shearfront/fit/residual_function.hpp"
+#include "shearfront/fit/misfit_function.hpp"
 
 namespace shearfront::python {
 namespace {
 
-using fit::ResidualFunction;
+using fit::MisfitFunction;
 
 /// In one run without the interpreter's lock. Errors: Unusable where the model has no solution.
-ResidualFunction::Value run_residuals(const ResidualFunction& self, const Numbers& p, bool with_jacobian) {
-  ResidualFunction::Value at = [&] {
+MisfitFunction::Value run_residuals(const MisfitFunction& self, const Numbers& p, bool with_jacobian) {
+  MisfitFunction::Value at = [&] {
     const nb::gil_scoped_release release;
     return self.at(eigen_of(p), with_jacobian);
   }();
@@ -27,7 +27,7 @@ ResidualFunction::Value run_residuals(const ResidualFunction& self, const Number
   return at;
 }
 
-nb::object numbers_of(const ResidualFunction& self, double fit::Parameter::*member) {
+nb::object numbers_of(const MisfitFunction& self, double fit::Parameter::*member) {
   std::vector<double> all;
   for (const fit::Parameter& p : self.parameters()) all.push_back(p.*member);
   return array_of(std::move(all));
@@ -36,27 +36,27 @@ nb::object numbers_of(const ResidualFunction& self, double fit::Parameter::*memb
 }  // namespace
 
 void bind_misfit(nb::module_& m) {
-  nb::class_<ResidualFunction>(m, "Misfit")
-      .def("__init__", [](ResidualFunction* self,
-                          const FitProblem& problem) { new (self) ResidualFunction(*problem.spec); })
-      .def("residuals", [](const ResidualFunction& self,
+  nb::class_<MisfitFunction>(m, "Misfit")
+      .def("__init__",
+           [](MisfitFunction* self, const FitProblem& problem) { new (self) MisfitFunction(*problem.spec); })
+      .def("residuals", [](const MisfitFunction& self,
                            const Numbers& p) { return array_of(run_residuals(self, p, false).residuals); })
-      .def("jacobian", [](const ResidualFunction& self,
+      .def("jacobian", [](const MisfitFunction& self,
                           const Numbers& p) { return matrix_of(run_residuals(self, p, true).jacobian); })
-      .def("misfit", [](const ResidualFunction& self,
+      .def("misfit", [](const MisfitFunction& self,
                         const Numbers& p) { return self.misfit(run_residuals(self, p, false).residuals); })
       .def_prop_ro("names",
-                   [](const ResidualFunction& self) {
+                   [](const MisfitFunction& self) {
                      std::vector<std::string> all;
                      for (const fit::Parameter& p : self.parameters()) all.push_back(p.name());
                      return all;
                    })
       .def_prop_ro("start",
-                   [](const ResidualFunction& self) { return numbers_of(self, &fit::Parameter::start); })
+                   [](const MisfitFunction& self) { return numbers_of(self, &fit::Parameter::start); })
       .def_prop_ro("lower",
-                   [](const ResidualFunction& self) { return numbers_of(self, &fit::Parameter::lower); })
+                   [](const MisfitFunction& self) { return numbers_of(self, &fit::Parameter::lower); })
       .def_prop_ro("upper",
-                   [](const ResidualFunction& self) { return numbers_of(self, &fit::Parameter::upper); });
+                   [](const MisfitFunction& self) { return numbers_of(self, &fit::Parameter::upper); });
 }
 
 }  // namespace shearfront::python

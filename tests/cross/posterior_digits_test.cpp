@@ -29,8 +29,8 @@ using support::SceneMaker;
 using Digits = std::vector<Real110>;
 
 /// Where the differences are taken: of coordinates, then of the density.
-const char* const kFine = "1e-45";
-const char* const kCoarse = "1e-25";
+const char* const kFineStep = "1e-45";
+const char* const kCoarseStep = "1e-25";
 
 class PosteriorInDigits {
  public:
@@ -39,7 +39,7 @@ class PosteriorInDigits {
 
   [[nodiscard]] Real110 log_density(const Digits& x) const {
     const Digits p = map_.values(x);
-    Real110 sum = log_likelihood(p) + map_.log_volume(x, Real110(kFine));
+    Real110 sum = log_likelihood(p) + map_.log_volume(x, Real110(kFineStep));
     for (std::size_t i = 0; i < p.size(); ++i) sum += log_prior(posterior_.priors()[i], p[i]);
     return sum;
   }
@@ -117,7 +117,7 @@ Prior random_prior(const std::string& name, double start, bool is_rate, SceneMak
 
 /// Layers with a start of one or two jumps, some of their numbers unknown, with noise; bounds, shape, priors, and what is
 /// measured at random.
-FitSpec random_problem(SceneMaker& make, Tally& tally) {
+FitSpec random_posterior_fit(SceneMaker& make, Tally& tally) {
   const auto shape = static_cast<Shape>(make.integer(0, 2));
   SceneSpec<double> scene = make.data(make.integer(2, 3), SceneMaker::Order::falling, 2);
   auto& rates = std::get<Piecewise<double>>(scene.shear_rate).values;
@@ -157,7 +157,7 @@ void densities_of_random_problems(std::uint64_t first, std::uint64_t count, Tall
     const std::uint64_t seed = support::seed_of(number);
     SCOPED_TRACE("seed " + std::to_string(seed));
     SceneMaker make(seed);
-    const FitSpec spec = random_problem(make, tally);
+    const FitSpec spec = random_posterior_fit(make, tally);
     const Posterior posterior(spec);
     VectorXd x = posterior.coordinates(Parameters(spec.scene, spec.unknown).start());
     for (double& one : x) one += make.uniform(-0.02, 0.02);
@@ -169,10 +169,10 @@ void densities_of_random_problems(std::uint64_t first, std::uint64_t count, Tall
     EXPECT_EQ(posterior.at_coordinates(x, false).value, at.value);
     for (Index j = 0; j < x.size(); ++j) {
       Digits above = here, below = here;
-      above[static_cast<std::size_t>(j)] += Real110(kCoarse);
-      below[static_cast<std::size_t>(j)] -= Real110(kCoarse);
-      const double slope =
-          to_double(Real110((exact.log_density(above) - exact.log_density(below)) / (2 * Real110(kCoarse))));
+      above[static_cast<std::size_t>(j)] += Real110(kCoarseStep);
+      below[static_cast<std::size_t>(j)] -= Real110(kCoarseStep);
+      const double slope = to_double(
+          Real110((exact.log_density(above) - exact.log_density(below)) / (2 * Real110(kCoarseStep))));
       EXPECT_NEAR(at.gradient[j], slope, 1e-11 * (1 + at.gradient.cwiseAbs().maxCoeff()))
           << posterior.names()[static_cast<std::size_t>(j)];
       ++tally.compared;

@@ -28,9 +28,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFree = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-SceneSpec<double> two_layer_bed() { return small_above_large({0.29}, {2.4, 0.31}); }
+SceneSpec<double> posterior_bed() { return small_above_large({0.29}, {2.4, 0.31}); }
 
 /// 20 values of M, or the means of as many bins.
 FitSpec posterior_fit(bool with_sigma, std::vector<std::string> unknowns, std::vector<Prior> priors = {},
@@ -38,17 +38,17 @@ FitSpec posterior_fit(bool with_sigma, std::vector<std::string> unknowns, std::v
   const ObservationPlan plan{
       {0.2, 0.5, 1, 2}, {0.1, 0.3, 0.5, 0.7, 0.9}, quantity, quantity == Quantity::bin ? 0.1 : 0};
   FitSpec spec =
-      fit_of(two_layer_bed(), observed(two_layer_bed(), plan, 0.02, seed, with_sigma), std::move(unknowns));
+      fit_of(posterior_bed(), observed(posterior_bed(), plan, 0.02, seed, with_sigma), std::move(unknowns));
   spec.priors = std::move(priors);
   return spec;
 }
 
-VectorXd numbers(const std::vector<double>& all) {
+VectorXd unknowns_at(const std::vector<double>& all) {
   return VectorXd::Map(all.data(), static_cast<Index>(all.size()));
 }
 
 /// What is predicted less what was seen, by the solver and nothing of the fit.
-VectorXd differences(const FitSpec& spec, const VectorXd& p) {
+VectorXd residuals_by_solver(const FitSpec& spec, const VectorXd& p) {
   SceneSpec<double> scene = spec.scene.spec();
   const auto all = entries(scene);
   const auto places = entry_places(scene);
@@ -94,13 +94,13 @@ TEST(FitPrior, IsTheDistributionOfBoost) {
       EXPECT_NEAR(c.prior.log_density(p).slope, slope, 1e-8 * (1 + std::abs(slope))) << p;
     }
   }
-  EXPECT_EQ(cases[1].prior.log_density(0).log, -kFree);
-  EXPECT_EQ(cases[1].prior.log_density(-1).log, -kFree);
-  EXPECT_EQ(cases[2].prior.log_density(-1e-9).log, -kFree);
-  EXPECT_EQ(cases[3].prior.log_density(3.1).log, -kFree);
+  EXPECT_EQ(cases[1].prior.log_density(0).log, -kInfinite);
+  EXPECT_EQ(cases[1].prior.log_density(-1).log, -kInfinite);
+  EXPECT_EQ(cases[2].prior.log_density(-1e-9).log, -kInfinite);
+  EXPECT_EQ(cases[3].prior.log_density(3.1).log, -kInfinite);
   EXPECT_EQ(cases[3].prior.low(), -1);
   EXPECT_EQ(cases[1].prior.low(), 0);
-  EXPECT_EQ(cases[0].prior.low(), -kFree);
+  EXPECT_EQ(cases[0].prior.low(), -kInfinite);
 }
 
 /// Differences of log densities: each is known up to a constant.
@@ -114,7 +114,7 @@ TEST(FitPosterior, IsThatOfTheFormulaWithKnownAndUnknownSigma) {
       EXPECT_EQ(posterior.n_residuals(), 20U);
       EXPECT_FALSE(posterior.has_steps());
       const auto log_density = [&](const VectorXd& p) {
-        const double squares = differences(spec, p).squaredNorm();
+        const double squares = residuals_by_solver(spec, p).squaredNorm();
         double sum = 0;
         for (const double x : p) sum -= std::pow(std::log(x) / 2, 2) / 2 + std::log(x);
         if (with_sigma) return sum - squares / (2 * 0.02 * 0.02);
@@ -128,7 +128,7 @@ TEST(FitPosterior, IsThatOfTheFormulaWithKnownAndUnknownSigma) {
                std::log(boost::math::quadrature::gauss_kronrod<double, 61>::integrate(over_sigma, likely - 3,
                                                                                       likely + 6, 10, 1e-12));
       };
-      const VectorXd a = numbers({2.4, 0.31}), b = numbers({1.9, 0.36});
+      const VectorXd a = unknowns_at({2.4, 0.31}), b = unknowns_at({1.9, 0.36});
       const double expected = log_density(a) - log_density(b);
       EXPECT_NEAR(posterior.log_density(a) - posterior.log_density(b), expected,
                   1e-10 * (1 + std::abs(expected)));
@@ -156,10 +156,10 @@ TEST(FitPosterior, WhitensCorrelatedNoise) {
           std::exp(-std::abs(a.z - b.z) / *spec.noise.length_z - std::abs(a.t - b.t) / *spec.noise.length_t);
     }
   const auto log_density = [&](const VectorXd& p) {
-    const VectorXd r = differences(spec, p);
+    const VectorXd r = residuals_by_solver(spec, p);
     return -static_cast<double>(n) / 2 * std::log(r.dot(c.ldlt().solve(r)));
   };
-  const VectorXd a = numbers({2.4, 0.31}), b = numbers({1.9, 0.36});
+  const VectorXd a = unknowns_at({2.4, 0.31}), b = unknowns_at({1.9, 0.36});
   const double expected = log_density(a) - log_density(b);
   EXPECT_NEAR(posterior.log_density(a) - posterior.log_density(b), expected, 1e-9 * (1 + std::abs(expected)));
   EXPECT_DOUBLE_EQ(of_fit.log_density(a), posterior.log_density(a));
@@ -175,9 +175,12 @@ TEST(FitPosterior, ChangesVariables) {
   const std::vector<Case> cases{
       {"shear_rate.values[1]", 0.25, 0.4, {}},  // two ends
       {"shear_rate.values[1]", 1e-3, 10, {}},   // far apart: of its logarithm
-      {"shear_rate.values[1]", 0.3, kFree, {"", PriorKind::lognormal, 0.3, 0.1}},  // one end, near the middle
-      {"initial.breaks[0]", -kFree, 0.51, {"", PriorKind::normal, 0.5, 0.01}},
-      {"initial.breaks[0]", -kFree, kFree, {"", PriorKind::normal, 0.5, 0.01}}};
+      {"shear_rate.values[1]",
+       0.3,
+       kInfinite,
+       {"", PriorKind::lognormal, 0.3, 0.1}},  // one end, near the middle
+      {"initial.breaks[0]", -kInfinite, 0.51, {"", PriorKind::normal, 0.5, 0.01}},
+      {"initial.breaks[0]", -kInfinite, kInfinite, {"", PriorKind::normal, 0.5, 0.01}}};
   for (const bool with_sigma : {true, false})
     for (const Case& c : cases) {
       SCOPED_TRACE(c.unknown + " from " + std::to_string(c.lower) + " to " + std::to_string(c.upper));
@@ -192,10 +195,10 @@ TEST(FitPosterior, ChangesVariables) {
       const bool is_rate = c.unknown.starts_with("shear_rate");
       const double from = std::max(c.lower, is_rate ? 0.15 : 0.4),
                    to = std::min(c.upper, is_rate ? 0.6 : 0.6);
-      const double peak = posterior.log_density(numbers({is_rate ? 0.31 : 0.5}));
-      const auto in_p = [&](double p) { return std::exp(posterior.log_density(numbers({p})) - peak); };
+      const double peak = posterior.log_density(unknowns_at({is_rate ? 0.31 : 0.5}));
+      const auto in_p = [&](double p) { return std::exp(posterior.log_density(unknowns_at({p})) - peak); };
       const auto in_x = [&](double x) {
-        return std::exp(posterior.at_coordinates(numbers({x}), false).value - peak);
+        return std::exp(posterior.at_coordinates(unknowns_at({x}), false).value - peak);
       };
       const auto integral = [](const auto& f, double a, double b) {
         constexpr int kParts = 100;  // the density has kinks where a path changes its kind
@@ -205,11 +208,11 @@ TEST(FitPosterior, ChangesVariables) {
               f, a + (b - a) * k / kParts, a + (b - a) * (k + 1) / kParts, 0);
         return sum;
       };
-      const auto x_of = [&](double p) { return posterior.coordinates(numbers({p}))[0]; };
+      const auto x_of = [&](double p) { return posterior.coordinates(unknowns_at({p}))[0]; };
       const double middle = is_rate ? 0.315 : 0.498;
       const double low_x = std::max(x_of(from), -12.0), high_x = std::min(x_of(to), 12.0);
-      const double low_p = (*posterior.values(numbers({low_x})))[0],
-                   high_p = (*posterior.values(numbers({high_x})))[0];
+      const double low_p = (*posterior.values(unknowns_at({low_x})))[0],
+                   high_p = (*posterior.values(unknowns_at({high_x})))[0];
       const double below = integral(in_p, low_p, middle), above = integral(in_p, middle, high_p);
       EXPECT_GT(below, 1e-4);
       EXPECT_GT(above, 1e-4);
@@ -221,9 +224,9 @@ TEST(FitPosterior, ChangesVariables) {
 /// With data that the model meets exactly J^T J is the Hessian, so it is the slope of the gradient.
 TEST(FitPosterior, CurvatureIsTheHessianWhereTheDataAreMet) {
   FitSpec spec = posterior_fit(true, {"shear_rate.values", "initial.breaks"});
-  const VectorXd truth = numbers({0.5, 2.4, 0.31});
+  const VectorXd truth = unknowns_at({0.5, 2.4, 0.31});
   const ObservationPlan plan{{0.2, 0.5, 1, 2}, {0.1, 0.3, 0.5, 0.7, 0.9}, Quantity::cumulative, 0};
-  const Scene<double> bed(two_layer_bed());
+  const Scene<double> bed(posterior_bed());
   const Observations exact = observe(plan, bed, solve<ExactSolver>(bed, request_of(plan, bed)));
   for (std::size_t i = 0; i < exact.rows.size(); ++i) spec.observations.rows[i].value = exact.rows[i].value;
   spec.unknown.parameters = {"initial.breaks", "shear_rate.values"};
@@ -262,23 +265,23 @@ TEST(FitPosterior, PriorsNarrowBoundsAndTheLastHolds) {
   EXPECT_EQ(posterior.at(p).failure, "");
   p[second] = 0.5;
   const LogDensity outside = posterior.at(p);
-  EXPECT_EQ(outside.value, -kFree);
+  EXPECT_EQ(outside.value, -kInfinite);
   EXPECT_EQ(outside.failure, "outside the bounds");
   EXPECT_EQ(outside.gradient, VectorXd::Zero(3));
-  EXPECT_EQ(posterior.at_coordinates(VectorXd::Constant(3, -1e4)).value, -kFree);
+  EXPECT_EQ(posterior.at_coordinates(VectorXd::Constant(3, -1e4)).value, -kInfinite);
   EXPECT_FALSE(posterior.values(VectorXd::Constant(3, 1e4)));
 }
 
 TEST(FitPosterior, TakesDensitiesOfOnesOwn) {
-  Prior own{"shear_rate.values[0]", PriorKind::uniform, 2.2, kFree};
+  Prior own{"shear_rate.values[0]", PriorKind::uniform, 2.2, kInfinite};
   own.own = [](double p) { return PriorDensity{-std::pow((p - 2.4) / 0.2, 2) / 2, -(p - 2.4) / 0.04}; };
   const Posterior mine(posterior_fit(true, {"shear_rate.values"}, {own}));
   const Posterior known(
       posterior_fit(true, {"shear_rate.values"}, {{"shear_rate.values[0]", PriorKind::normal, 2.4, 0.2}}));
-  const VectorXd p = numbers({2.3, 0.32});
+  const VectorXd p = unknowns_at({2.3, 0.32});
   EXPECT_NEAR(mine.log_density(p), known.log_density(p), 1e-12);
   EXPECT_LT((mine.at(p).gradient - known.at(p).gradient).norm(), 1e-10);
-  EXPECT_EQ(mine.log_density(numbers({2.1, 0.32})), -kFree);
+  EXPECT_EQ(mine.log_density(unknowns_at({2.1, 0.32})), -kInfinite);
 }
 
 /// A grid method: the gradient is by differences in the coordinates of a search, which are logarithms of rates.
@@ -286,11 +289,11 @@ TEST(FitPosterior, HasGradientsOfMethodsWithoutDerivatives) {
   FitSpec spec = posterior_fit(true, {"shear_rate.values", "initial.breaks"},
                                {{"shear_rate.values", PriorKind::lognormal, 1, 2}});
   const LogDensity exact =
-      Posterior(spec).at_coordinates(Posterior(spec).coordinates(numbers({2.3, 0.33, 0.5})));
+      Posterior(spec).at_coordinates(Posterior(spec).coordinates(unknowns_at({2.3, 0.33, 0.5})));
   spec.forward.method = Method("muscl");
   set_option(spec.forward.method, "cells", "200", "cells");
   const Posterior posterior(spec);
-  const VectorXd x = posterior.coordinates(numbers({2.3, 0.33, 0.5}));
+  const VectorXd x = posterior.coordinates(unknowns_at({2.3, 0.33, 0.5}));
   const LogDensity at = posterior.at_coordinates(x);
   for (Index j = 0; j < 3; ++j) {
     const VectorXd step = 1e-3 * VectorXd::Unit(3, j);
@@ -313,12 +316,12 @@ TEST(FitPosterior, PointsNextToShocksMakeSteps) {
 TEST(FitPosterior, IsInfiniteWhereUnknownNoiseIsNone) {
   FitSpec spec = posterior_fit(false, {"shear_rate.values"});
   for (Observation& o : spec.observations.rows) o.z = o.value = 0;
-  const LogDensity at = Posterior(spec).at(numbers({2.4, 0.31}));
-  EXPECT_EQ(at.value, kFree);
+  const LogDensity at = Posterior(spec).at(unknowns_at({2.4, 0.31}));
+  EXPECT_EQ(at.value, kInfinite);
   EXPECT_EQ(at.gradient, VectorXd::Zero(2));
 }
 
-std::string complaint_of(const FitSpec& spec) {
+std::string posterior_complaint(const FitSpec& spec) {
   try {
     const Posterior posterior(spec);
   } catch (const InputError& error) {
@@ -329,7 +332,7 @@ std::string complaint_of(const FitSpec& spec) {
 
 TEST(FitPosterior, SaysWhatIsWrongWithPriorsAndVectors) {
   const auto with = [](std::vector<Prior> priors) {
-    return complaint_of(posterior_fit(true, {"shear_rate.values"}, std::move(priors)));
+    return posterior_complaint(posterior_fit(true, {"shear_rate.values"}, std::move(priors)));
   };
   EXPECT_EQ(
       with({{"shear_rate.scale", PriorKind::normal, 1, 1}}),

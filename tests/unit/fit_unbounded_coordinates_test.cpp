@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 using support::SceneMaker;
 using support::UnboundedMap;
 
-constexpr double kFree = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// Unknowns of every kind, in any order.
 struct MixedUnknowns {
@@ -43,13 +43,13 @@ struct MixedUnknowns {
   [[nodiscard]] UnboundedMap<Real110> map() const { return {entries, lower, upper, shape}; }
 };
 
-MixedUnknowns mixed(SceneMaker& make) {
+MixedUnknowns mixed_unknowns(SceneMaker& make) {
   MixedUnknowns all;
   all.shape = static_cast<Shape>(make.integer(0, 2));
   const double a = make.uniform(-2, 2), b = a + make.uniform(0.1, 3), c = make.uniform(1e-4, 1);
-  all.add("none", 0, false, -kFree, kFree);
-  all.add("low", 0, false, a, kFree);
-  all.add("high", 0, false, -kFree, b);
+  all.add("none", 0, false, -kNoBound, kNoBound);
+  all.add("low", 0, false, a, kNoBound);
+  all.add("high", 0, false, -kNoBound, b);
   all.add("both", 0, false, a, b);
   all.add("wide", 0, false, c, c * make.uniform(11, 1e6));
   all.add("narrow", 0, false, c, c * make.uniform(1.1, 9));
@@ -61,7 +61,7 @@ MixedUnknowns mixed(SceneMaker& make) {
     all.add(breaks, static_cast<std::size_t>(k), true, has_own ? 0.2 * (k + 1) : 0,
             make.uniform(0.9, 0.95) + 0.05 * k);
   }
-  const double top = make.integer(0, 2) == 0 ? kFree : 1e3;
+  const double top = make.integer(0, 2) == 0 ? kNoBound : 1e3;
   for (int k = 0; k < n_values; ++k)
     all.add("shear_rate.values", static_cast<std::size_t>(k), true, 0.01, top);
   std::vector<std::size_t> order(all.entries.size());
@@ -105,7 +105,7 @@ TEST(FitUnboundedCoordinates, AreTheirFormulasAndDerivativesIn110Digits) {
     const std::uint64_t seed = support::seed_of(number);
     SCOPED_TRACE("seed " + std::to_string(seed));
     SceneMaker make(seed);
-    const MixedUnknowns all = few_of(mixed(make), 5, number % 2 == 0);
+    const MixedUnknowns all = few_of(mixed_unknowns(make), 5, number % 2 == 0);
     const VectorXd x = random_x(all, make);
     const auto at = all.coordinates().at(x);
     ASSERT_TRUE(at);
@@ -142,23 +142,23 @@ TEST(FitUnboundedCoordinates, GoThereAndBackAndKeepEveryOrder) {
     const std::uint64_t seed = support::seed_of(number);
     SCOPED_TRACE("seed " + std::to_string(seed));
     SceneMaker make(seed);
-    const MixedUnknowns all = mixed(make);
+    const MixedUnknowns all = mixed_unknowns(make);
     const UnboundedCoordinates to = all.coordinates();
     const VectorXd x = random_x(all, make);
     const auto at = to.at(x);
     ASSERT_TRUE(at);
     EXPECT_LT((to.coordinates(at->p) - x).cwiseAbs().maxCoeff(), 1e-8);
     EXPECT_TRUE(to.contains(at->p));
-    std::vector<double> breaks(3, kFree), values(4, kFree);
+    std::vector<double> breaks(3, kNoBound), values(4, kNoBound);
     for (std::size_t i = 0; i < all.entries.size(); ++i) {
       const double p = at->p[static_cast<Index>(i)];
       EXPECT_TRUE(p > all.lower[i] && p < all.upper[i]) << all.entries[i].name();
       if (all.entries[i].field.ends_with("breaks")) breaks[all.entries[i].index] = p;
       if (all.entries[i].field == "shear_rate.values") values[all.entries[i].index] = p;
     }
-    for (std::size_t k = 1; k < breaks.size() && breaks[k] < kFree; ++k, ++n_breaks)
+    for (std::size_t k = 1; k < breaks.size() && breaks[k] < kNoBound; ++k, ++n_breaks)
       EXPECT_LT(breaks[k - 1], breaks[k]);
-    for (std::size_t k = 1; all.shape != Shape::none && k < values.size() && values[k] < kFree;
+    for (std::size_t k = 1; all.shape != Shape::none && k < values.size() && values[k] < kNoBound;
          ++k, ++n_shapes) {
       EXPECT_GT(values[k - 1], values[k]);
       if (all.shape == Shape::convex && k > 1) {
@@ -174,8 +174,8 @@ TEST(FitUnboundedCoordinates, StandInsideOfBoundsAndEndWhereThereIsNoRoom) {
   MixedUnknowns all;
   all.add("both", 0, false, -1, 1);
   all.add("wide", 0, false, 1e-3, 1e3);
-  all.add("low", 0, false, 0, kFree);
-  all.add("high", 0, false, -kFree, 2e-9);
+  all.add("low", 0, false, 0, kNoBound);
+  all.add("high", 0, false, -kNoBound, 2e-9);
   all.add("shear_rate.breaks", 0, true, 0, 1);
   all.add("shear_rate.breaks", 1, true, 0, 0.5);
   const UnboundedCoordinates to = all.coordinates();
@@ -196,7 +196,7 @@ TEST(FitUnboundedCoordinates, StandInsideOfBoundsAndEndWhereThereIsNoRoom) {
   VectorXd beyond = x;
   beyond[4] = 2;  // the lower break above the bound of the upper one
   EXPECT_FALSE(to.at(beyond));
-  for (const double far : {-800.0, kFree, -kFree, std::nan("")}) {
+  for (const double far : {-800.0, kNoBound, -kNoBound, std::nan("")}) {
     VectorXd wrong = x;
     wrong[0] = far;
     EXPECT_FALSE(to.at(wrong)) << far;

@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr std::size_t kParts = 4;       // of a layer, between which it may be split
+constexpr std::size_t kLayerParts = 4;  // of a layer, between which it may be split
 constexpr std::size_t kMostSplits = 3;  // that are tried for one more layer
 constexpr std::size_t kMostJoints = 2;  // for one fewer
 constexpr double kThinnest = 1e-4;      // of the bed: what is thinner is not split
@@ -140,7 +140,7 @@ class LayerPath {
     for (std::size_t i = 0; i < coarse.values.size(); ++i) {
       first.push_back(fine.values.size());
       const double lo = end(i), width = end(i + 1) - lo;
-      const std::size_t parts = width > kThinnest * height ? kParts : 1;
+      const std::size_t parts = width > kThinnest * height ? kLayerParts : 1;
       for (std::size_t k = 0; k < parts; ++k) {
         if (i + k > 0)
           fine.breaks.push_back(lo + width * static_cast<double>(k) / static_cast<double>(parts));
@@ -171,7 +171,7 @@ class LayerPath {
         if (most > 0) all.pop_back();
         most = gain;
         const double step = std::clamp(-slope / size, -kWidestStep, kWidestStep),
-                     share = static_cast<double>(k + 1 - first[i]) / kParts;
+                     share = static_cast<double>(k + 1 - first[i]) / kLayerParts;
         Layers split = coarse;
         const auto place = static_cast<std::ptrdiff_t>(i);
         split.breaks.insert(split.breaks.begin() + place, fine.breaks[k]);

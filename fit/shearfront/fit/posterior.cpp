@@ -7,8 +7,8 @@
 
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/misfit/all.hpp"
+#include "shearfront/fit/misfit_function.hpp"
 #include "shearfront/fit/noise_reml.hpp"
-#include "shearfront/fit/residual_function.hpp"
 #include "shearfront/fit/unbounded_coordinates.hpp"
 #include "shearfront/numeric/scalar.hpp"
 
@@ -100,7 +100,7 @@ struct Posterior::Parts {
       value += prior.log;
       slopes[i] = prior.slope;
     }
-    const ResidualFunction::Value at = residuals.at(p, with_gradient);
+    const MisfitFunction::Value at = residuals.at(p, with_gradient);
     density.failure = at.failure;
     if (!at.is_valid()) return density;
     const double squares = at.residuals.squaredNorm(), m = static_cast<double>(residuals.size());
@@ -111,7 +111,7 @@ struct Posterior::Parts {
     return density;
   }
 
-  ResidualFunction residuals;
+  MisfitFunction residuals;
   std::vector<Prior> priors;
   std::pair<VectorXd, VectorXd> bounds;
   UnboundedCoordinates coordinates;
@@ -172,7 +172,7 @@ std::optional<MatrixXd> Posterior::curvature(const VectorXd& x) const {
   parts_->expect_size("x", x);
   const auto point = parts_->coordinates.at(x);
   if (!point) return std::nullopt;
-  const ResidualFunction::Value at = parts_->residuals.at(point->p, true);
+  const MisfitFunction::Value at = parts_->residuals.at(point->p, true);
   if (!at.is_valid()) return std::nullopt;
   const MatrixXd jacobian = at.jacobian * point->derivative;
   const double variance =

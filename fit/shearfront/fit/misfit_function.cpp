@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shearfront/fit/residual_function.hpp"
+#include "shearfront/fit/misfit_function.hpp"
 
 #include <Eigen/LU>
 #include <limits>
@@ -33,14 +33,14 @@ ResidualRows whitened_rows(const FitSpec& spec, const Parameters& parameters) {
 
 }  // namespace
 
-ResidualFunction::ResidualFunction(const FitSpec& spec)
+MisfitFunction::MisfitFunction(const FitSpec& spec)
     : parameters_(spec.scene, spec.unknown),
       coordinates_(parameters_),
       control_(std::numeric_limits<std::size_t>::max()),
       objective_(parameters_, coordinates_, spec.forward, whitened_rows(spec, parameters_),
                  find_loss(loss_of(spec), spec.misfit.loss_scale.value_or(0)), control_) {}
 
-ResidualFunction::Value ResidualFunction::at(const VectorXd& p, bool with_jacobian) const {
+MisfitFunction::Value MisfitFunction::at(const VectorXd& p, bool with_jacobian) const {
   if (p.size() != coordinates_.size())
     throw InputError("p", "(" + std::to_string(p.size()) + " entries)",
                      "must have one number per unknown (" + std::to_string(coordinates_.size()) + ")");
@@ -70,7 +70,7 @@ ResidualFunction::Value ResidualFunction::at(const VectorXd& p, bool with_jacobi
   return value;
 }
 
-double ResidualFunction::misfit(const VectorXd& residuals) const {
+double MisfitFunction::misfit(const VectorXd& residuals) const {
   double sum = 0;
   for (const double r : residuals) sum += objective_.loss()(r * r).rho;
   return sum / 2;

@@ -17,7 +17,7 @@ namespace shearfront::fit {
 /// noise, whitened.
 ///
 /// Threads may share it, but wait for each other: the forward model remembers its last run.
-class ResidualFunction {
+class MisfitFunction {
  public:
   struct Value {
     Eigen::VectorXd residuals;
@@ -27,9 +27,9 @@ class ResidualFunction {
   };
 
   /// Errors: InputError for what holds between entries of the specification, and where [noise] has numbers to be estimated.
-  explicit ResidualFunction(const FitSpec& spec);
-  ResidualFunction(const ResidualFunction&) = delete;
-  ResidualFunction& operator=(const ResidualFunction&) = delete;
+  explicit MisfitFunction(const FitSpec& spec);
+  MisfitFunction(const MisfitFunction&) = delete;
+  MisfitFunction& operator=(const MisfitFunction&) = delete;
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] Eigen::Index size() const { return objective_.rows().size(); }
