@@ -193,8 +193,7 @@ TEST(FitPosterior, ChangesVariables) {
       }
       const Posterior posterior(spec);
       const bool is_rate = c.unknown.starts_with("shear_rate");
-      const double from = std::max(c.lower, is_rate ? 0.15 : 0.4),
-                   to = std::min(c.upper, is_rate ? 0.6 : 0.6);
+      const double from = std::max(c.lower, is_rate ? 0.15 : 0.4), to = std::min(c.upper, 0.6);
       const double peak = posterior.log_density(unknowns_at({is_rate ? 0.31 : 0.5}));
       const auto in_p = [&](double p) { return std::exp(posterior.log_density(unknowns_at({p})) - peak); };
       const auto in_x = [&](double x) {
