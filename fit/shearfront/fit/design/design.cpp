@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <numeric>
 #include <utility>
 
-#include "shearfront/fit/design/information.hpp"
+#include "shearfront/fit/design/correlated_information.hpp"
 #include "shearfront/fit/misfit_rows.hpp"
+#include "shearfront/fit/noise_reml.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/prediction.hpp"
 
@@ -26,6 +29,10 @@ using Eigen::VectorXd;
 constexpr double kUndetermined = 1e-13;
 /// Parts of an undetermined direction that are named.
 constexpr double kNamed = 0.1;
+/// Candidates with correlated noise: their covariance is dense, and is factored a hundred times.
+constexpr std::size_t kMostCorrelated = 2000;
+/// Of the correlated part, added to its diagonal: the same measurement again says nothing new, but must not divide by 0.
+constexpr double kRepeated = 1e-12;
 
 /// Jacobians in the coordinates of a fit without shape, of observations each of which is a residual.
 class Sensitivities {
@@ -169,12 +176,6 @@ VectorXd errors_of(const MatrixXd& information, const VectorXd& slopes) {
   return errors;
 }
 
-MatrixXd sum_of(const UnitInformation& information, const std::vector<std::size_t>& units) {
-  MatrixXd all = information.before.front();
-  for (const std::size_t g : units) all += information.units.front()[g];
-  return all;
-}
-
 /// The unknowns of the least determined direction of all candidates together.
 std::string undetermined(const MatrixXd& information, const std::vector<std::string>& names) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information);
@@ -191,14 +192,123 @@ Observations with_noise(Observations observations, double sigma) {
   return observations;
 }
 
+/// Covariance of the noise of two sets of measurements, in units of the sigma of each.
+MatrixXd covariance_between(const Observations& a, const Observations& b, const NoiseShape& shape,
+                            bool in_unit_of_data) {
+  MatrixXd all(static_cast<Index>(a.rows.size()), static_cast<Index>(b.rows.size()));
+  for (Index i = 0; i < all.rows(); ++i)
+    for (Index j = 0; j < all.cols(); ++j) {
+      const Observation &x = a.rows[static_cast<std::size_t>(i)], &y = b.rows[static_cast<std::size_t>(j)];
+      all(i, j) = shape.correlated * (in_unit_of_data ? 1 / (x.sigma * y.sigma) : 1) *
+                  std::exp(-std::abs(x.z - y.z) / shape.length_z - std::abs(x.t - y.t) / shape.length_t);
+    }
+  return all;
+}
+
+/// What goes into the choice: Jacobians at each point, of the observations there are and of the candidates.
+struct MeasuredJacobians {
+  std::vector<MatrixXd> before, candidates;
+};
+
+UnitInformation independent_information(const MeasuredJacobians& jacobians,
+                                        const std::vector<DesignChoice>& choices) {
+  UnitInformation information;
+  for (std::size_t k = 0; k < jacobians.before.size(); ++k) {
+    const MatrixXd &before = jacobians.before[k], &candidates = jacobians.candidates[k];
+    information.before.emplace_back(before.transpose() * before);
+    auto& units = information.units.emplace_back();
+    for (const DesignChoice& choice : choices) {
+      MatrixXd of_unit = MatrixXd::Zero(before.cols(), before.cols());
+      for (const std::size_t row : choice.rows)
+        of_unit +=
+            candidates.row(static_cast<Index>(row)).transpose() * candidates.row(static_cast<Index>(row));
+      units.push_back(std::move(of_unit));
+    }
+  }
+  return information;
+}
+
+/// With the noise as the fit found it. What is measured beside the data says what these do not foretell: with the covariance of
+/// both, W that whitens the data, B = W C_there,candidates and Y = W J_there, that is J - B^T Y with the covariance C - B^T B.
+CorrelatedInformation correlated_information(const MeasuredJacobians& jacobians,
+                                             const std::vector<DesignChoice>& choices,
+                                             const Observations& there, const DesignSpec& wanted,
+                                             const Estimate& estimate, NoiseModel model) {
+  const bool in_unit_of_data = model == NoiseModel::discrepancy;
+  const NoiseShape shape = shape_of(*estimate.noise, 1);
+  const NoiseCovariance noise(std::make_shared<NoisePlaces>(there.rows, in_unit_of_data), shape);
+  CorrelatedInformation information;
+  information.covariance = covariance_between(wanted.candidates, wanted.candidates, shape, in_unit_of_data);
+  information.covariance.diagonal() *= 1 + kRepeated;
+  information.covariance.diagonal().array() += shape.independent;
+  MatrixXd foretold;
+  if (wanted.adds) {
+    foretold = noise.whitened(covariance_between(there, wanted.candidates, shape, in_unit_of_data));
+    information.covariance -= foretold.transpose() * foretold;
+  }
+  for (std::size_t k = 0; k < jacobians.before.size(); ++k) {
+    const MatrixXd before = noise.whitened(jacobians.before[k]);
+    information.before.emplace_back(before.transpose() * before);
+    information.jacobians.push_back(jacobians.candidates[k]);
+    if (wanted.adds) information.jacobians.back() -= foretold.transpose() * before;
+  }
+  for (const DesignChoice& choice : choices)
+    information.units.emplace_back(choice.rows.begin(), choice.rows.end());
+  return information;
+}
+
+/// Noise is known of what was measured only.
+void expect_covariance(const FitSpec& spec, const Estimate& estimate, const Observations& candidates) {
+  const Observations& data = spec.observations;
+  const double width = data.rows.front().width;
+  const auto differs = [&](const Observation& o) { return o.width != width; };
+  if (candidates.quantity != data.quantity ||
+      std::any_of(candidates.rows.begin(), candidates.rows.end(), differs))
+    throw InputError("quantity", std::string(name_of(candidates.quantity)),
+                     "must be that of the data where noise is correlated: of others it is not known");
+  if (candidates.rows.size() > kMostCorrelated)
+    throw InputError("candidates", std::to_string(candidates.rows.size()) + " measurements",
+                     fmt::format("must be at most {} where noise is correlated", kMostCorrelated));
+  if (!estimate.noise) throw InputError("noise.model", "", "must have been estimated or given");
+}
+
+/// Chooses n of the units, and says what that is worth.
+template <class Information>
+void choose(Information information, const DesignSpec& wanted, Index target, const VectorXd& slopes,
+            Design& result) {
+  result.errors.before = errors_of(information.before.front(), slopes);
+  if (!wanted.adds)
+    for (MatrixXd& before : information.before) before.setZero();
+  const InformationCriterion criterion(wanted.criterion, target);
+  const auto continuous = continuous_design(information, criterion, wanted.n);
+  if (!continuous) {
+    std::vector<std::size_t> all(result.choices.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    throw InputError("candidates", "",
+                     "must determine the unknowns; all of them together do not determine " +
+                         undetermined(information_of(information, 0, all), result.unknowns));
+  }
+  const auto chosen = exchanged_design(information, criterion, wanted.n, *continuous);
+  for (std::size_t g = 0; g < result.choices.size(); ++g) {
+    result.choices[g].weight = continuous->weights[static_cast<Index>(g)];
+    result.choices[g].worth = continuous->worth[static_cast<Index>(g)];
+  }
+  for (const std::size_t g : chosen) result.choices[g].is_chosen = true;
+  result.criterion = mean_criterion(information, criterion, chosen);
+  result.bound = continuous->bound;
+  const auto spread = evenly_spread(wanted.candidates, result.choices, wanted.unit, wanted.n);
+  result.evenly_spread = spread.size();
+  result.errors.evenly = errors_of(information_of(information, 0, spread), slopes);
+  result.errors.chosen = errors_of(information_of(information, 0, chosen), slopes);
+}
+
 }  // namespace
 
 double Design::efficiency() const { return std::min(1.0, std::exp(bound - criterion)); }
 
 Design design(const FitSpec& spec, const Estimate& estimate, const DesignSpec& wanted) {
-  if (spec.noise.model != NoiseModel::independent)
-    throw InputError("noise.model", std::string(kNoiseModelNames[static_cast<std::size_t>(spec.noise.model)]),
-                     "must be independent for a design: what correlated measurements say does not add up");
+  const bool is_correlated = spec.noise.model != NoiseModel::independent;
+  if (is_correlated) expect_covariance(spec, estimate, wanted.candidates);
   Sensitivities sensitivities(spec, estimate);
   const std::vector<Index>& free = sensitivities.free();
   if (free.empty()) throw InputError("unknown", "", "must not all be held at a bound");
@@ -225,45 +335,17 @@ Design design(const FitSpec& spec, const Estimate& estimate, const DesignSpec& w
     throw InputError("n", std::to_string(wanted.n),
                      fmt::format("must be from 1 to {}, all there is to choose from", result.choices.size()));
 
-  UnitInformation information;
+  MeasuredJacobians jacobians;
   const Observations there = with_noise(spec.observations, estimate.sigma);
   for (const VectorXd& values : points_of(sensitivities.parameters(), estimate, wanted)) {
-    const MatrixXd before = sensitivities.jacobian(there, values),
-                   candidates = sensitivities.jacobian(wanted.candidates, values);
-    information.before.emplace_back(before.transpose() * before);
-    auto& units = information.units.emplace_back();
-    for (const DesignChoice& choice : result.choices) {
-      MatrixXd of_unit = MatrixXd::Zero(before.cols(), before.cols());
-      for (const std::size_t k : choice.rows)
-        of_unit += candidates.row(static_cast<Index>(k)).transpose() * candidates.row(static_cast<Index>(k));
-      units.push_back(std::move(of_unit));
-    }
+    jacobians.before.push_back(sensitivities.jacobian(there, values));
+    jacobians.candidates.push_back(sensitivities.jacobian(wanted.candidates, values));
   }
-  result.errors.before = errors_of(information.before.front(), slopes);
-  if (!wanted.adds)
-    for (MatrixXd& before : information.before) before.setZero();
-
-  const InformationCriterion criterion(wanted.criterion, target);
-  const auto continuous = continuous_design(information, criterion, wanted.n);
-  if (!continuous) {
-    std::vector<std::size_t> all(result.choices.size());
-    for (std::size_t g = 0; g < all.size(); ++g) all[g] = g;
-    throw InputError("candidates", "",
-                     "must determine the unknowns; all of them together do not determine " +
-                         undetermined(sum_of(information, all), result.unknowns));
-  }
-  const auto chosen = exchanged_design(information, criterion, wanted.n, *continuous);
-  for (std::size_t g = 0; g < result.choices.size(); ++g) {
-    result.choices[g].weight = continuous->weights[static_cast<Index>(g)];
-    result.choices[g].worth = continuous->worth[static_cast<Index>(g)];
-  }
-  for (const std::size_t g : chosen) result.choices[g].is_chosen = true;
-  result.criterion = mean_criterion(information, criterion, chosen);
-  result.bound = continuous->bound;
-  const auto spread = evenly_spread(wanted.candidates, result.choices, wanted.unit, wanted.n);
-  result.evenly_spread = spread.size();
-  result.errors.evenly = errors_of(sum_of(information, spread), slopes);
-  result.errors.chosen = errors_of(sum_of(information, chosen), slopes);
+  if (is_correlated)
+    choose(correlated_information(jacobians, result.choices, there, wanted, estimate, spec.noise.model),
+           wanted, target, slopes, result);
+  else
+    choose(independent_information(jacobians, result.choices), wanted, target, slopes, result);
   return result;
 }
 

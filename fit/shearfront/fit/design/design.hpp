@@ -78,12 +78,13 @@ struct Design {
 /// A unit g with Jacobian J_g of its residuals (in units of sigma) adds J_g^T J_g to the information M = C^-1. First the
 /// continuous design: n times weights 0 <= w_g <= 1/n of sum 1, by NLopt's L-BFGS; then n
 /// units by exchange: each in turn for the one with which the criterion is least, until none is. What it is short of the best
-/// is bounded (Design::bound). Over draws the criterion is averaged, which makes the design hold where
+/// is bounded (Design::bound). Correlated noise, as the fit has it, is that of all that is chosen and of the data together
+/// (correlated_information.hpp); candidates are then at most 2000, of the quantity of the data. Over draws the criterion is averaged, which makes the design hold where
 /// the estimate is wrong.
 /// Derivatives are those of the fit (exact with `exact`). Points next to a shock have large derivatives that hold for
 /// no finite error; bins and sums have not.
-/// Precondition: the estimate is usable. Errors: InputError (criterion, n, draws, candidates) for what cannot be done: a target
-/// that is no unknown, unknowns that all candidates together do not determine, no error bars to draw from.
+/// Precondition: the estimate is usable. Errors: InputError (criterion, n, draws, candidates, quantity) for what cannot be done: a
+/// target that is no unknown, unknowns that all candidates together do not determine, no error bars to draw from.
 /// Cost: (draws) solutions at all candidates, then some 500 x units x p^2 x draws flops.
 [[nodiscard]] Design design(const FitSpec& spec, const Estimate& estimate, const DesignSpec& wanted);
 

@@ -57,8 +57,8 @@ double log_norm(const VectorXd& values, double q) {
 /// such that the weights sum to 1. So none is above 1/n, as in n different units.
 class WeightProblem {
  public:
-  WeightProblem(const UnitInformation& information, const InformationCriterion& criterion, std::size_t n)
-      : information_(&information), criterion_(&criterion), n_(static_cast<double>(n)) {}
+  WeightProblem(const WeightedCriterion& criterion, std::size_t n)
+      : criterion_(&criterion), n_(static_cast<double>(n)) {}
 
   [[nodiscard]] VectorXd weights(const VectorXd& x) const {
     const auto n_units = static_cast<double>(x.size());
@@ -78,24 +78,7 @@ class WeightProblem {
     const VectorXd s = shares(l);
     return s / s.sum();
   }
-  /// Mean criterion, and minus its derivatives in the weights; +infinity where the information is singular.
-  double value(const VectorXd& w, VectorXd* worth) const {
-    double sum = 0;
-    if (worth) worth->setZero(w.size());
-    const auto n_draws = static_cast<double>(information_->before.size());
-    for (std::size_t k = 0; k < information_->before.size(); ++k) {
-      MatrixXd all = information_->before[k];
-      const auto& units = information_->units[k];
-      for (std::size_t g = 0; g < units.size(); ++g)
-        if (w[static_cast<Index>(g)] > 0) all += n_ * w[static_cast<Index>(g)] * units[g];
-      const auto at = criterion_->tangent(all);
-      if (!at) return std::numeric_limits<double>::infinity();
-      sum += at->value / n_draws;
-      for (std::size_t g = 0; worth && g < units.size(); ++g)
-        (*worth)[static_cast<Index>(g)] -= n_ * trace_of_product(at->slope, units[g]) / n_draws;
-    }
-    return sum;
-  }
+  double value(const VectorXd& w, VectorXd* worth) const { return (*criterion_)(w, worth); }
   /// What NLopt calls.
   static double of_logarithms(unsigned size, const double* x, double* gradient, void* problem) {
     const auto* self = static_cast<const WeightProblem*>(problem);
@@ -113,8 +96,7 @@ class WeightProblem {
   }
 
  private:
-  const UnitInformation* information_;
-  const InformationCriterion* criterion_;
+  const WeightedCriterion* criterion_;
   double n_;
 };
 
@@ -169,16 +151,16 @@ std::optional<InformationCriterion::Tangent> InformationCriterion::tangent(
   return Tangent{std::log(column[target_]), -column * column.transpose() / column[target_]};
 }
 
-std::optional<ContinuousDesign> continuous_design(const UnitInformation& information,
-                                                  const InformationCriterion& criterion, std::size_t n) {
-  const WeightProblem problem(information, criterion, n);
-  const auto n_units = static_cast<unsigned>(information.units.front().size());
+std::optional<ContinuousDesign> continuous_design(const WeightedCriterion& criterion, std::size_t n_all,
+                                                  std::size_t n, int most_steps) {
+  const WeightProblem problem(criterion, n);
+  const auto n_units = static_cast<unsigned>(n_all);
   std::vector<double> x(n_units, 0.0);
   if (!std::isfinite(problem.value(problem.weights(VectorXd::Zero(n_units)), nullptr))) return std::nullopt;
   const std::unique_ptr<nlopt_opt_s, DestroyOptimiser> optimiser(nlopt_create(NLOPT_LD_LBFGS, n_units));
   nlopt_set_min_objective(optimiser.get(), WeightProblem::of_logarithms,
                           const_cast<WeightProblem*>(&problem));  // NOLINT: read only
-  nlopt_set_maxeval(optimiser.get(), kMostDesignSteps);
+  nlopt_set_maxeval(optimiser.get(), most_steps);
   nlopt_set_ftol_rel(optimiser.get(), 1e-12);
   double least = 0;
   // Wherever it ends, and why: how good that is says the bound.
@@ -198,32 +180,54 @@ std::optional<ContinuousDesign> continuous_design(const UnitInformation& informa
   return found;
 }
 
-double mean_criterion(const UnitInformation& information, const InformationCriterion& criterion,
-                      const std::vector<std::size_t>& units) {
-  double sum = 0;
-  for (std::size_t k = 0; k < information.before.size(); ++k) {
-    MatrixXd all = information.before[k];
-    for (const std::size_t g : units) all += information.units[k][g];
-    sum += criterion.value(all);
-  }
-  return sum / static_cast<double>(information.before.size());
+std::optional<ContinuousDesign> continuous_design(const UnitInformation& information,
+                                                  const InformationCriterion& criterion, std::size_t n) {
+  const auto count = static_cast<double>(n), n_draws = static_cast<double>(information.before.size());
+  const auto value = [&](const VectorXd& w, VectorXd* worth) {
+    double sum = 0;
+    if (worth) worth->setZero(w.size());
+    for (std::size_t k = 0; k < information.before.size(); ++k) {
+      MatrixXd all = information.before[k];
+      const auto& units = information.units[k];
+      for (std::size_t g = 0; g < units.size(); ++g)
+        if (w[static_cast<Index>(g)] > 0) all += count * w[static_cast<Index>(g)] * units[g];
+      const auto at = criterion.tangent(all);
+      if (!at) return std::numeric_limits<double>::infinity();
+      sum += at->value / n_draws;
+      for (std::size_t g = 0; worth && g < units.size(); ++g)
+        (*worth)[static_cast<Index>(g)] -= count * trace_of_product(at->slope, units[g]) / n_draws;
+    }
+    return sum;
+  };
+  return continuous_design(value, information.units.front().size(), n, kMostDesignSteps);
+}
+
+MatrixXd information_of(const UnitInformation& information, std::size_t draw,
+                        const std::vector<std::size_t>& units) {
+  MatrixXd all = information.before[draw];
+  for (const std::size_t g : units) all += information.units[draw][g];
+  return all;
+}
+
+std::vector<std::size_t> weightiest(const ContinuousDesign& design, std::size_t n) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(design.weights.size()));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const double largest = design.worth.cwiseAbs().maxCoeff();
+  const auto rank = [&](std::size_t g) {
+    const auto i = static_cast<Index>(g);
+    return design.weights[i] + 1e-6 * design.worth[i] / largest;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  order.resize(n);
+  return order;
 }
 
 std::vector<std::size_t> exchanged_design(const UnitInformation& information,
                                           const InformationCriterion& criterion, std::size_t n,
                                           const ContinuousDesign& start) {
   const std::size_t n_units = information.units.front().size(), n_draws = information.before.size();
-  std::vector<std::size_t> order(n_units);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  // Where the weights are all but 0, what one more is worth decides.
-  const double largest = start.worth.cwiseAbs().maxCoeff();
-  const auto rank = [&](std::size_t g) {
-    const auto i = static_cast<Index>(g);
-    return start.weights[i] + 1e-6 * start.worth[i] / largest;
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
-  std::vector<std::size_t> chosen(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n));
+  std::vector<std::size_t> chosen = weightiest(start, n);
   std::vector<bool> is_chosen(n_units, false);
   std::vector<MatrixXd> sums = information.before;
   const auto add = [&](std::vector<MatrixXd>& to, std::size_t g, double sign) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,18 +43,38 @@ struct ContinuousDesign {
   double value = 0;       ///< mean criterion over the draws
   double bound = 0;       ///< no n units have less
 };
+/// Mean criterion over the draws as a convex function of the weights, +infinity where the information is singular; `worth`,
+/// unless null, becomes minus its derivatives.
+using WeightedCriterion = std::function<double(const Eigen::VectorXd& weights, Eigen::VectorXd* worth)>;
+
 /// Nothing if even equal weights of all units leave the information singular.
+[[nodiscard]] std::optional<ContinuousDesign> continuous_design(const WeightedCriterion& criterion,
+                                                                std::size_t n_units, std::size_t n,
+                                                                int most_steps);
 [[nodiscard]] std::optional<ContinuousDesign> continuous_design(const UnitInformation& information,
                                                                 const InformationCriterion& criterion,
                                                                 std::size_t n);
+
+/// The n units of largest weights, or of largest worth where those are all but 0.
+[[nodiscard]] std::vector<std::size_t> weightiest(const ContinuousDesign& design, std::size_t n);
 
 /// n different units, from the largest weights on by exchange until no exchange of one is better.
 [[nodiscard]] std::vector<std::size_t> exchanged_design(const UnitInformation& information,
                                                         const InformationCriterion& criterion, std::size_t n,
                                                         const ContinuousDesign& start);
 
+/// What these units and what is there already say together.
+[[nodiscard]] Eigen::MatrixXd information_of(const UnitInformation& information, std::size_t draw,
+                                             const std::vector<std::size_t>& units);
+
 /// Mean criterion of units over the draws.
-[[nodiscard]] double mean_criterion(const UnitInformation& information, const InformationCriterion& criterion,
-                                    const std::vector<std::size_t>& units);
+template <class Information>
+[[nodiscard]] double mean_criterion(const Information& information, const InformationCriterion& criterion,
+                                    const std::vector<std::size_t>& units) {
+  double sum = 0;
+  for (std::size_t k = 0; k < information.before.size(); ++k)
+    sum += criterion.value(information_of(information, k, units));
+  return sum / static_cast<double>(information.before.size());
+}
 
 }  // namespace shearfront::fit
