@@ -51,7 +51,7 @@ CorrelatedInformation random_correlated(boost::random::mt19937_64& random, std::
                                                                   times[static_cast<std::size_t>(j)]) /
                                                         length);
   for (std::size_t k = 0; k < n_draws; ++k) {
-    information.before.push_back(0.1 * MatrixXd::Identity(p, p));
+    information.before.emplace_back(0.1 * MatrixXd::Identity(p, p));
     MatrixXd& j = information.jacobians.emplace_back(n, p);
     for (double& x : j.reshaped()) x = normal(random) * std::exp(normal(random));
   }
