@@ -3,6 +3,8 @@
 // many beds as wanted.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -56,6 +58,29 @@ TEST(CurvedLaws, HoldWhereFrontsMeetAtATurn) {
 TEST(CurvedLaws, HoldInHostileBeds) {
   for (const std::uint64_t seed : {2U, 235U, 552U, 1152U, 1242U, 1245U, 2406U, 2868U, 2882U})
     check_many(soak::CurvedKind::hostile, seed, 1, kAnyResolution);
+}
+
+// Levels 1e-5 to 1e-14 of their flux apart whose fronts set out next to the heights where they turn: differences of both areas lose all
+// that is between them.
+TEST(CurvedLaws, HoldNextToTheTopOfTheFlux) {
+  soak::Findings total;
+  for (std::uint64_t i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
+    soak::CurvedTrial trial = soak::draw_curved(
+        i % 2 == 0 ? soak::CurvedKind::any_flux : soak::CurvedKind::parabola, support::seed_of(600'001 + i));
+    support::SceneMaker maker(support::seed_of(700'001 + i));
+    const double top = Scene<double>(trial.spec).fluxes().front().extrema().front();
+    for (double& value : trial.spec.initial_values)
+      if (value > 0 && value < 1)
+        value = top * (1 + (maker.integer(0, 1) == 0 ? -1 : 1) * std::pow(10.0, maker.uniform(-7, -2.5)));
+    trial.resolution = maker.uniform(0.01, 0.05);
+    const soak::Findings findings = soak::check_curved(trial);
+    for (const auto& [law, places] : findings.violations())
+      ADD_FAILURE() << law << ": " << places.front() << "\n" << soak::text_of(trial);
+    total.add(findings);
+  }
+  EXPECT_GT(total.n_checked, 9000U);
+  const soak::Findings once = soak::check_curved(soak::draw_curved(930021502U));
+  for (const auto& [law, places] : once.violations()) ADD_FAILURE() << law << ": " << places.front();
 }
 
 TEST(CurvedLaws, EqualInputGivesEqualOutput) {

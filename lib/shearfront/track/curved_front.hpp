@@ -56,6 +56,8 @@ namespace curved_front_detail {
 inline constexpr double kNearLevels = 1e-7;
 /// Between levels nearer to each other than this part of r q^2 means are taken by Gauss's rule of three points, of which this is one.
 inline constexpr double kCloseLevels = 0.0125, kOuterNode = 0.11270166537925831;
+/// Times are functions of q at one end on the scale of q at the other; Gauss's rule takes them over an interval this much shorter.
+inline constexpr double kFarFromOrigin = 64;
 /// So near that q, which is at most the root of that where the lower one turns, changes less than the rule needs.
 inline constexpr double kVeryCloseLevels = 1e-6;
 
@@ -181,10 +183,13 @@ namespace curved_front_detail {
   // A joint of a tabulated flux is no place for Gauss.
   if (grid.flux(f.layer) && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
   const bool is_from_turn = f.q_below == 0 && f.q_above == 0;
-  const double least_before = std::min(f.q_below, f.q_above);
-  if (!(spread <
-        kCloseLevels * (is_from_turn ? std::min(h_below, h_above) : f.rate * least_before * least_before)))
-    return std::nullopt;
+  const double least_before = std::min(f.q_below, f.q_above), most_before = std::max(f.q_below, f.q_above);
+  const bool is_close_before = spread < kCloseLevels * (is_from_turn ? std::min(h_below, h_above)
+                                                                     : f.rate * least_before * least_before);
+  const bool is_near_turn_before = is_far && kFarFromOrigin * most_before < least &&
+                                   std::max(h_below, h_above) <= f.rate * (1 + 0x1p-50) &&
+                                   spread < kVeryCloseLevels * f.rate;
+  if (!is_close_before && !is_near_turn_before) return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
   // Of the rate: how much it has grown, as a part of what it is then; and by its logarithm.
   const auto change_of = [&](double to_rate) { return (to_rate - f.rate) / to_rate; };
@@ -195,11 +200,13 @@ namespace curved_front_detail {
     change_here = is_linear ? along / rate : -shrink;
     if (is_linear) log_here = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(along / f.rate);
   }
-  // Of the characteristic of the flux h / 4, up to where the rate is `to_rate`.
-  const auto time = [&](double h, double q, double to_rate) {
-    const double share = (h - h_below) / (h_above - h_below);  // q^2 is linear in h
-    const double square = f.q_below * f.q_below + share * ((f.q_above - f.q_below) * (f.q_above + f.q_below));
-    const double before = is_from_turn ? 0 : std::sqrt(std::max(0.0, square));
+  const auto between = [](double below, double above, double share) {  // q^2 is linear in h
+    return std::sqrt(std::max(0.0, below * below + share * ((above - below) * (above + below))));
+  };
+  // Of the characteristic of the flux that is this share of the way from the lower level to the upper one, to where r and q are these.
+  const auto time = [&](double share, double q, double to_rate) {
+    const double h = h_below + share * (h_above - h_below);
+    const double before = is_from_turn ? 0 : between(f.q_below, f.q_above, share);
     if (grid.flux(f.layer)) {
       const LevelCurves::Place origin{is_from_turn ? piece.height_of(h) : f.z, is_from_turn ? h : f.rate,
                                       before},
@@ -218,27 +225,34 @@ namespace curved_front_detail {
   };
   // Mean of a function over an interval.
   const auto mean = [](double from, double to, const auto& value) {
-    const auto at = [&](double share) { return value(from + share * (to - from)); };
+    const auto at = [&](double part) { return value(from + part * (to - from)); };
     return (5 * (at(kOuterNode) + at(1 - kOuterNode)) + 8 * at(0.5)) / 18;
   };
-  if (is_far)
-    return mean(h_below, h_above, [&](double h) {
-      const double share = (h - h_below) / (h_above - h_below);
-      return time(h, std::sqrt(q_below * q_below + share * ((q_above - q_below) * (q_above + q_below))),
-                  rate);
-    });
+  // Where the time is a smooth function of q, not of h, weights come from q: capacities so near to each other differ by rounding.
+  if (is_far) {
+    const auto time_of = [&](double share) { return time(share, between(q_below, q_above, share), rate); };
+    if (is_close_before) return mean(0, 1, time_of);
+    const double all = (f.q_above - f.q_below) * (f.q_above + f.q_below);
+    return mean(least_before, most_before,
+                [&](double q) { return 2 * q * time_of((q - f.q_below) * (q + f.q_below) / all); }) /
+           (least_before + most_before);
+  }
   const double low = std::min(h_below, h_above), high = std::max(h_below, h_above);
   const double most = std::max(q_below, q_above),
                live = std::clamp(rate, low, high);  // those above it have turned
+  const double alive = rate * ((most - least) * (most + least)), all = alive + (high - live);
+  if (!(all > 0)) return std::nullopt;
+  const auto share_above_low = [&](double share) { return h_below < h_above ? share : 1 - share; };
   double sum = 0;
   if (most > least)
-    sum +=
-        (most - least) * mean(least, most, [&](double q) {
-          return 2 * rate * q * time(std::clamp(low + rate * ((most - q) * (most + q)), low, high), q, rate);
-        });
+    sum += (most - least) * mean(least, most, [&](double q) {
+             return 2 * rate * q * time(share_above_low(rate * ((most - q) * (most + q)) / all), q, rate);
+           });
   if (high > live && !is_from_turn)
-    sum += (high - live) * mean(live, high, [&](double h) { return time(h, 0, h); });
-  return sum / spread;
+    sum += (high - live) * mean(alive / all, 1, [&](double share) {
+             return time(share_above_low(share), 0, low + share * (high - low));
+           });
+  return sum / all;
 }
 
 }  // namespace curved_front_detail
@@ -334,7 +348,9 @@ template <class Evaluate>
 [[nodiscard]] double bracketed_root(double lo, double hi, double start, Evaluate&& evaluate) {
   constexpr int kMostNewtonSteps = 200, kPatience = 6;
   constexpr double kLastStep = 1e-10;  // the next one would be its square
-  const double bracket = std::abs(hi - lo);
+  const double bracket = std::abs(hi - lo), first = lo, last = hi;
+  // Next to a turn, where a bracket likes to end, times bend within the way from there.
+  const auto scale = [&](double z) { return std::min(std::abs(z - first), std::abs(z - last)); };
   double z = start;
   for (int n = 0; n < kMostNewtonSteps; ++n) {
     const Passage at = evaluate(z);
@@ -347,7 +363,7 @@ template <class Evaluate>
     if (!is_newton) next = middle;
     const double step = std::abs(next - z);
     if (step <= 2e-16 * (bracket + std::abs(z)) || next == lo || next == hi) return next;
-    if (is_newton && step < kLastStep * std::abs(hi - lo)) return next;
+    if (is_newton && step < kLastStep * std::min(std::abs(hi - lo), scale(next))) return next;
     z = next;
   }
   return z;
@@ -386,7 +402,8 @@ template <class Evaluate>
     for (int n = 0; n < kFewSteps && z > lo && z < hi; ++n) {
       const Passage at = late(z);
       const double step = at.t / at.slope, next = z - step;
-      if (std::abs(step) < kLastStep * (hi - lo) && next >= lo && next <= hi) return next;
+      if (next >= lo && next <= hi && std::abs(step) < kLastStep * std::min(next - lo, hi - next))
+        return next;
       z = next;
     }
   }

@@ -142,7 +142,9 @@ class CurvedMeetings {
       if (step <= kRounding * (length + std::abs(z))) return meeting(both, next);
       // Where one front stands for a while the cubic may stay at a place that is no root.
       const double larger = std::max(step, std::abs(newton - z));
-      if (is_guess && larger < kLastStep * std::abs(beyond - positive)) return meeting(both, next);
+      // Next to turning heights times bend within the way from there, which may be far shorter than the bracket.
+      if (is_guess && larger < kLastStep * std::min(std::abs(beyond - positive), std::abs(next - from)))
+        return meeting(both, next);
       // d apart, Newton's step has left k d^2: then the cubic is off by about k^3 of the product of both squares, and K of them if it
       // was a cubic that has left K d^4 at most. Where that is not so the cubics of both times do not meet there.
       const double apart = std::abs(z - last.z), share = larger / apart, cube = share * share * share;
