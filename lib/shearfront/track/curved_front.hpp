@@ -186,9 +186,10 @@ namespace curved_front_detail {
   const double least_before = std::min(f.q_below, f.q_above), most_before = std::max(f.q_below, f.q_above);
   const bool is_close_before = spread < kCloseLevels * (is_from_turn ? std::min(h_below, h_above)
                                                                      : f.rate * least_before * least_before);
-  const bool is_near_turn_before = is_far && kFarFromOrigin * most_before < least &&
-                                   std::max(h_below, h_above) <= f.rate * (1 + 0x1p-50) &&
-                                   spread < kVeryCloseLevels * f.rate;
+  const double beyond =
+      std::max(0.0, std::max(h_below, h_above) - f.rate);  // part of the flux that turns ahead
+  const bool is_near_turn_before =
+      is_far && kFarFromOrigin * most_before < least && spread < kVeryCloseLevels * f.rate;
   if (!is_close_before && !is_near_turn_before) return std::nullopt;
   const RatePiece& piece = grid.piece(f.layer);
   // Of the rate: how much it has grown, as a part of what it is then; and by its logarithm.
@@ -203,12 +204,13 @@ namespace curved_front_detail {
   const auto between = [](double below, double above, double share) {  // q^2 is linear in h
     return std::sqrt(std::max(0.0, below * below + share * ((above - below) * (above + below))));
   };
-  // Of the characteristic of the flux that is this share of the way from the lower level to the upper one, to where r and q are these.
-  const auto time = [&](double share, double q, double to_rate) {
+  // Of the characteristic of the flux that is this share of the way from the lower level to the upper one, from the origin, where q is
+  // `before`, or from where it turns if that is 0, to where r and q are these.
+  const auto time = [&](double share, double before, double q, double to_rate) {
     const double h = h_below + share * (h_above - h_below);
-    const double before = is_from_turn ? 0 : between(f.q_below, f.q_above, share);
+    const bool begins_at_turn = before == 0;
     if (grid.flux(f.layer)) {
-      const LevelCurves::Place origin{is_from_turn ? piece.height_of(h) : f.z, is_from_turn ? h : f.rate,
+      const LevelCurves::Place origin{begins_at_turn ? piece.height_of(h) : f.z, begins_at_turn ? h : f.rate,
                                       before},
           here{to_rate == rate ? z : piece.height_of(to_rate), to_rate, q};
       const bool rises = here.z > origin.z;
@@ -217,7 +219,7 @@ namespace curved_front_detail {
       return rises ? way : -way;
     }
     const bool is_exponential = piece.curve == RateCurve::exponential;
-    if (is_from_turn) return is_exponential ? 2 * q / (h * piece.bend) : 2 * std::atanh(q) / piece.bend;
+    if (begins_at_turn) return is_exponential ? 2 * q / (h * piece.bend) : 2 * std::atanh(q) / piece.bend;
     const double change = to_rate == rate ? change_here : change_of(to_rate);
     if (is_exponential) return 2 * change / (f.rate * piece.bend * (before + q));
     const double logarithm = to_rate == rate ? log_here : RatePiece::log_ratio(f.rate, to_rate);
@@ -229,28 +231,41 @@ namespace curved_front_detail {
     return (5 * (at(kOuterNode) + at(1 - kOuterNode)) + 8 * at(0.5)) / 18;
   };
   // Where the time is a smooth function of q, not of h, weights come from q: capacities so near to each other differ by rounding.
+  const auto share_above_low = [&](double share) { return h_below < h_above ? share : 1 - share; };
   if (is_far) {
-    const auto time_of = [&](double share) { return time(share, between(q_below, q_above, share), rate); };
-    if (is_close_before) return mean(0, 1, time_of);
-    const double all = (f.q_above - f.q_below) * (f.q_above + f.q_below);
-    return mean(least_before, most_before,
-                [&](double q) { return 2 * q * time_of((q - f.q_below) * (q + f.q_below) / all); }) /
-           (least_before + most_before);
+    const auto time_of = [&](double share, double before) {
+      return time(share, before, between(q_below, q_above, share), rate);
+    };
+    if (is_close_before)
+      return mean(0, 1, [&](double share) { return time_of(share, between(f.q_below, f.q_above, share)); });
+    const double begun = f.rate * ((most_before - least_before) * (most_before + least_before)),
+                 all = begun + beyond;
+    if (!(all > 0)) return std::nullopt;
+    double sum = 0;
+    if (begun > 0)
+      sum += (most_before - least_before) * mean(least_before, most_before, [&](double q) {
+               const double above_low = f.rate * ((most_before - q) * (most_before + q)) / all;
+               return 2 * f.rate * q * time_of(share_above_low(above_low), q);
+             });
+    if (beyond > 0)
+      sum += beyond * mean(begun / all, 1, [&](double share) { return time_of(share_above_low(share), 0); });
+    return sum / all;
   }
   const double low = std::min(h_below, h_above), high = std::max(h_below, h_above);
   const double most = std::max(q_below, q_above),
                live = std::clamp(rate, low, high);  // those above it have turned
   const double alive = rate * ((most - least) * (most + least)), all = alive + (high - live);
   if (!(all > 0)) return std::nullopt;
-  const auto share_above_low = [&](double share) { return h_below < h_above ? share : 1 - share; };
   double sum = 0;
   if (most > least)
     sum += (most - least) * mean(least, most, [&](double q) {
-             return 2 * rate * q * time(share_above_low(rate * ((most - q) * (most + q)) / all), q, rate);
+             const double share = share_above_low(rate * ((most - q) * (most + q)) / all);
+             return 2 * rate * q * time(share, between(f.q_below, f.q_above, share), q, rate);
            });
   if (high > live && !is_from_turn)
     sum += (high - live) * mean(alive / all, 1, [&](double share) {
-             return time(share_above_low(share), 0, low + share * (high - low));
+             const double of = share_above_low(share);
+             return time(of, between(f.q_below, f.q_above, of), 0, low + share * (high - low));
            });
   return sum / all;
 }
