@@ -64,7 +64,7 @@ class FrontList {
   [[nodiscard]] bool is_boundary(FrontIndex i) const { return i < n_boundaries_; }
   [[nodiscard]] FrontView<Scalar> view_of(FrontIndex i) const {
     const Node& n = nodes_[i];
-    return {is_boundary(i) ? static_cast<std::size_t>(i) : n.layer, n.t, n.z, n.speed, n.below, n.above};
+    return {is_boundary(i) ? static_cast<std::size_t>(i) : n.layer, n.t, n.z, n.speed, n.below, n.above, i};
   }
   /// visit(index, node) from bottom to top.
   template <class Visit>

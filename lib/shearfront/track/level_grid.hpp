@@ -16,6 +16,9 @@
 
 namespace shearfront {
 
+template <class Grid>
+class StateMotion;
+
 /// Grids of states for layers whose fluxes are parabolas, built on flux LEVELS shared by all layers: the
 /// quadratic flux r_k phi (phi - 1), r_k = s a_k, and its affine images.
 ///
@@ -276,6 +279,8 @@ class LevelGrid {
   }
 
   struct Draft;  // levels under construction
+  template <class>
+  friend class StateMotion;
 
   void set_classes(const LayerStack<S>& stack);
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,12 +14,14 @@
 /// reads nothing from them. An observer is a template argument, so the one that does nothing costs nothing.
 namespace shearfront {
 
-/// A front as it stands at a collision: born at (t, z), with its states.
+/// A front as it stands at a collision: born at (t, z), with its states. `slot` is its own from its birth to its end; later
+/// fronts may have it again.
 template <Real Scalar>
 struct FrontView {
   std::size_t layer;
   Scalar t, z, speed;
   State below, above;
+  std::uint32_t slot;
 };
 
 /// Fronts that met in one point and fronts that left it. boundary is the index of the interface or wall in

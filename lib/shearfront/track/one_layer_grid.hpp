@@ -13,6 +13,9 @@
 
 namespace shearfront {
 
+template <class Grid>
+class StateMotion;
+
 /// Grids of states for a bed of one layer, whose flux may have any number of extrema and straight pieces.
 ///
 /// With no interface there are no levels to share: the states are the ends of the range, the extrema, the states without
@@ -70,6 +73,8 @@ class OneLayerGrid {
 
  private:
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
+  template <class>
+  friend class StateMotion;
 
   std::vector<S> boundaries_;
   Flux<S> flux_;

@@ -98,6 +98,10 @@ struct TrackingSetup {
   Grid grid;
   InitialPieces<Scalar> initial;
   std::vector<Piece<Scalar>> pieces;
+  /// The states the grid was made to hold: those of `initial` (of a smooth start, its plateaus), then those outside the bottom and the
+  /// top, and which states of the grid they are.
+  std::vector<LayerState<Scalar>> wanted;
+  std::vector<State> wanted_states;
   Ends<Scalar> ends;
   Scalar start_distance{0};  ///< L1 distance of a smooth start from the steps that stand for it
 
@@ -128,6 +132,8 @@ struct TrackingSetup {
       pieces = on_grid(initial, built.states);
     }
     ends.is_periodic = scene.spec().is_periodic;
+    wanted = std::move(states);
+    wanted_states = built.states;
     auto next = built.states.begin() + static_cast<std::ptrdiff_t>(n_inside);
     for (std::size_t end = 0; end < 2; ++end) {
       if (!*outside[end]) continue;

@@ -8,6 +8,7 @@
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/track/curved_scene.hpp"
 #include "shearfront/track/curved_tracking.hpp"
+#include "shearfront/track/linearise.hpp"
 
 namespace shearfront {
 namespace {
@@ -68,6 +69,18 @@ std::unique_ptr<Run> FrontTrackingSolver::start(const Scene<double>& scene, cons
   Options watching = options;
   watching.fronts = watch.fronts;
   return std::make_unique<TrackRun>(scene, watching, watch.progress);
+}
+
+std::string FrontTrackingSolver::derivative_refusal(const Scene<double>& scene, const Options& options,
+                                                    const Entry& entry) {
+  return tracking_derivative_refusal(scene, options, entry);
+}
+
+Linearisation FrontTrackingSolver::linearise(const Scene<double>& scene, const Options& options,
+                                             const std::vector<Place>& places,
+                                             const std::vector<std::size_t>& wanted, std::any& /*memory*/,
+                                             const Progress& progress) {
+  return linearise_tracking(scene, options, places, wanted, progress);
 }
 
 }  // namespace shearfront

@@ -42,7 +42,13 @@ struct FrontTrackingSolver {
   /// Where every front may cross every layer: how many collisions that may be, from 1e8 on, which take a minute.
   static std::string forewarning(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  /// See track/linearise.hpp.
+  static std::string derivative_refusal(const Scene<double>& scene, const Options& options,
+                                        const Entry& entry);
+  static Linearisation linearise(const Scene<double>& scene, const Options& options,
+                                 const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
+                                 std::any& memory, const Progress& progress = {});
 };
-static_assert(Solver<FrontTrackingSolver>);
+static_assert(DifferentiableSolver<FrontTrackingSolver>);
 
 }  // namespace shearfront

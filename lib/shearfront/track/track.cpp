@@ -11,11 +11,10 @@
 #include "shearfront/riemann/overload.hpp"
 #include "shearfront/track/any_tracking.hpp"
 #include "shearfront/track/curved_tracking.hpp"
-#include "shearfront/track/one_layer_grid.hpp"
+#include "shearfront/track/grid_choice.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/solid_profile.hpp"
-#include "shearfront/track/unimodal_grid.hpp"
 
 namespace shearfront {
 
@@ -50,11 +49,6 @@ std::string refusal_between_layers(const Scene<double>& scene) {
   return {};
 }
 
-bool has_several_extrema(const Scene<double>& scene) {
-  return std::any_of(scene.fluxes().begin(), scene.fluxes().end(),
-                     [](const Flux<double>& flux) { return course_of(flux) == FluxCourse::several_extrema; });
-}
-
 std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& stack,
                        const TrackOptions& options) {
   if (stack.is_plain()) return refusal_of_levels(stack, options);
@@ -63,7 +57,7 @@ std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& sta
   if (options.reconstruct != Reconstruction::constant && has_smooth_solid_fraction(scene))
     return "the linear reconstruction is not known where c varies smoothly";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
-  if (has_several_extrema(scene)) return OneLayerGrid<double>::refusal(stack, options.resolution);
+  if (track_detail::has_several_extrema(scene)) return OneLayerGrid<double>::refusal(stack, options.resolution);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
 }
@@ -89,21 +83,6 @@ bool separates(const Flux<double>& flux) {
 
 LayerStack<double> layers_of(const Scene<double>& scene, const TrackOptions& options) {
   return tracking_layers(scene, std::min(options.resolution, 1.0));
-}
-
-std::string message_of(Status status, std::uint64_t n_collisions, std::size_t n_unreachable) {
-  switch (status) {
-    case Status::steady:
-      return "steady state reached";
-    case Status::budget_reached:
-      return "stopped at " + std::to_string(n_collisions) +
-             " collisions, the largest number allowed; allow more or use a coarser resolution";
-    case Status::interrupted:
-      return "interrupted after " + std::to_string(n_collisions) + " collisions";
-    default:
-      return n_unreachable > 0 ? "some fronts meet only after the largest representable time"
-                               : "reached the last time";
-  }
 }
 
 template <class AnyTracker>
@@ -204,7 +183,7 @@ class TrackingOn final : public AnyTracking {
              "meet "
              "at t = " +
              number_text(tracker_.last_collision());
-    std::string text = message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
+    std::string text = track_detail::message_of(status_, tracker_.n_collisions(), tracker_.n_unreachable());
     if (bed_->scene.has_smooth_start())
       text += "; " + std::to_string(bed_->setup.pieces.size()) +
               " steps stand for the smooth start, an L1 distance of " +
@@ -264,10 +243,7 @@ Tracking::Tracking(const Scene<double>& scene, const TrackOptions& options, Prog
     const auto on = [&]<class Grid>(std::type_identity<Grid>) {
       return tracking_on<Grid>(scene, options, std::move(progress), std::move(stack));
     };
-    if (why.empty())
-      tracking_ = LevelGrid<double>::refusal(stack).empty() ? on(std::type_identity<LevelGrid<double>>{})
-                  : has_several_extrema(scene)              ? on(std::type_identity<OneLayerGrid<double>>{})
-                                                            : on(std::type_identity<UnimodalGrid<double>>{});
+    if (why.empty()) tracking_ = track_detail::with_grid(scene, stack, on);
   }
   if (!tracking_) throw InputError("method", "\"front-tracking\"", "must suit the scene: " + why);
 }

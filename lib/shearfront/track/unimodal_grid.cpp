@@ -108,30 +108,34 @@ class UnimodalGrid<S>::Draft {
 
   /// All levels and the shares of all states at them; the states of `wanted`.
   std::vector<State> build(const std::vector<LayerState<S>>& wanted) {
-    std::vector<Special> specials = specials_of(wanted);
-    std::stable_sort(specials.begin(), specials.end(), [](const Special& a, const Special& b) {
+    std::vector<Wish> specials = specials_of(wanted);
+    std::stable_sort(specials.begin(), specials.end(), [](const Wish& a, const Wish& b) {
       return a.h != b.h ? a.h < b.h : a.to_middle > b.to_middle;
     });
     std::vector<Place> places(wanted.size());
     for (std::size_t i = 0; i < specials.size();) {
       // All that have this level but for rounding; of one branch of one class only the first.
-      std::vector<const Special*> group;
+      std::vector<const Wish*> group;
       S h = specials[i].h;
       if (!grid_.levels_.empty()) {
         fill_up_to(h);
         h = std::max(h, S(grid_.levels_.back() + rounding(grid_.levels_.back())));
       }
       for (; i < specials.size() && specials[i].h <= h + rounding(h); ++i) {
-        const Special& s = specials[i];
-        const bool is_other_state = std::any_of(group.begin(), group.end(), [&](const Special* other) {
+        const Wish& s = specials[i];
+        const bool is_other_state = std::any_of(group.begin(), group.end(), [&](const Wish* other) {
           return other->id == s.id && other->is_falling == s.is_falling && other->y != s.y;
         });
         if (is_other_state) break;
         group.push_back(&s);
       }
       add_level(h, group);
-      for (const Special* s : group)
+      for (const Wish* s : group) {
+        grid_.specials_.push_back({static_cast<State>(grid_.levels_.size() - 1),
+                                   static_cast<std::uint32_t>(s->id), s->is_falling, s->role,
+                                   static_cast<std::uint32_t>(s->wanted.value_or(0))});
         if (s->wanted) places[*s->wanted] = {static_cast<State>(grid_.levels_.size() - 1), s->is_falling};
+      }
     }
     finish();
     std::vector<State> states(wanted.size());
@@ -144,10 +148,11 @@ class UnimodalGrid<S>::Draft {
 
  private:
   /// A state that must be in the grid.
-  struct Special {
+  struct Wish {
     S h, y, to_middle;  ///< to_middle: distance from the extremum, relative to the width of the branch
     std::size_t id;     ///< class
     bool is_falling;
+    typename Special::Role role;
     std::optional<std::size_t> wanted;
   };
   struct Place {
@@ -166,24 +171,25 @@ class UnimodalGrid<S>::Draft {
     return S(kRoundings) * unit_roundoff<S>() * (h < 0 ? S(-h) : h);
   }
 
-  [[nodiscard]] std::vector<Special> specials_of(const std::vector<LayerState<S>>& wanted) const {
-    std::vector<Special> specials;
-    const auto add = [&](std::size_t id, const S& y, std::optional<std::size_t> number) {
+  [[nodiscard]] std::vector<Wish> specials_of(const std::vector<LayerState<S>>& wanted) const {
+    using Role = typename Special::Role;
+    std::vector<Wish> specials;
+    const auto add = [&](std::size_t id, const S& y, Role role, std::optional<std::size_t> number = {}) {
       const Curve<S>& curve = curves_[id];
       const bool is_falling = !(y > curve.middle());
       const S branch = is_falling ? curve.middle() : S(curve.width() - curve.middle());
       const S distance = is_falling ? S(curve.middle() - y) : S(y - curve.middle());
       const S to_middle = branch > 0 ? S(distance / branch) : S(0);
-      specials.push_back({std::min(curve.h(y), curve.capacity()), y, to_middle, id, is_falling, number});
+      specials.push_back({std::min(curve.h(y), curve.capacity()), y, to_middle, id, is_falling, role, number});
     };
     for (std::size_t id = 0; id < curves_.size(); ++id) {
-      add(id, S(0), {});
-      add(id, curves_[id].width(), {});
-      add(id, curves_[id].middle(), {});
+      add(id, S(0), Role::first_end);
+      add(id, curves_[id].width(), Role::last_end);
+      add(id, curves_[id].middle(), Role::extremum);
     }
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const std::size_t id = grid_.layers_[wanted[i].layer].id;
-      add(id, curves_[id].distance(wanted[i].phi), i);
+      add(id, curves_[id].distance(wanted[i].phi), Role::wanted, i);
     }
     return specials;
   }
@@ -194,32 +200,36 @@ class UnimodalGrid<S>::Draft {
     for (;;) {
       const S last = grid_.levels_.back();
       S next = h;
+      Maker maker;
       for (std::size_t id = 0; id < curves_.size(); ++id) {
         const Curve<S>& curve = curves_[id];
         const Branches& b = branches_[id];
         if (b.is_done) continue;
         const S step = resolution_ * curve.width();
-        const auto take = [&](const S& y) {
+        const auto take = [&](const S& y, bool is_falling) {
           const S candidate = curve.h(y);
-          if (candidate > last + rounding(last)) next = std::min(next, candidate);
+          if (!(candidate > last + rounding(last)) || !(candidate < next)) return;
+          next = candidate;
+          maker = {static_cast<std::uint32_t>(id), is_falling};
         };
-        if (!b.all_falling.empty()) take(std::min(S(b.falling + step), curve.middle()));
-        if (!b.all_rising.empty()) take(std::max(S(b.rising - step), curve.middle()));
+        if (!b.all_falling.empty()) take(std::min(S(b.falling + step), curve.middle()), true);
+        if (!b.all_rising.empty()) take(std::max(S(b.rising - step), curve.middle()), false);
       }
       if (!(next - last < (h - last) * shy)) return;
-      add_level(next, {});
+      add_level(next, {}, maker);
     }
   }
 
-  void add_level(const S& h, const std::vector<const Special*>& group) {
+  void add_level(const S& h, const std::vector<const Wish*>& group, Maker maker = {}) {
     const std::size_t number = grid_.levels_.size();
     grid_.levels_.push_back(h);
+    grid_.makers_.push_back(maker);
     for (std::size_t id = 0; id < curves_.size(); ++id) {
       Branches& b = branches_[id];
       if (b.is_done) continue;
       const Curve<S>& curve = curves_[id];
       const auto given = [&](bool is_falling) {
-        const auto it = std::find_if(group.begin(), group.end(), [&](const Special* s) {
+        const auto it = std::find_if(group.begin(), group.end(), [&](const Wish* s) {
           return s->id == id && s->is_falling == is_falling;
         });
         return it == group.end() ? std::optional<S>() : std::optional<S>((*it)->y);
@@ -291,6 +301,7 @@ typename UnimodalGrid<S>::Built UnimodalGrid<S>::exact_levels(const LayerStack<S
   grid.boundaries_ = stack.boundaries();
   grid.fluxes_ = stack.fluxes();
   grid.is_reversed_ = course_of(stack.fluxes().front()) == FluxCourse::maximum;
+  grid.resolution_ = resolution;
   std::map<std::pair<std::size_t, S>, std::uint32_t> ids;
   for (std::size_t k = 0; k < stack.n_layers(); ++k) {
     const S strength = stack.rate(k) * stack.solid_fraction(k);

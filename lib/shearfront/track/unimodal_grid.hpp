@@ -14,6 +14,9 @@
 
 namespace shearfront {
 
+template <class Grid>
+class StateMotion;
+
 /// Grids of states for layers of any fluxes with one extremum each, of one kind (all minima or all maxima),
 /// convex or not, built on flux LEVELS shared by all layers; or of fluxes that all rise, or all fall: each has
 /// its minimum at an end of its range, and one of the two branches is empty.
@@ -118,7 +121,24 @@ class UnimodalGrid {
     S rate, solid_fraction;
     std::uint32_t id;  ///< of its class
   };
+  /// A level that a state of a class must have: the ends of its range, its extremum, a state wanted.
+  struct Special {
+    enum class Role : std::uint8_t { first_end, last_end, extremum, wanted };
+    State level;
+    std::uint32_t id;  ///< class
+    bool is_falling;
+    Role role;
+    std::uint32_t number;  ///< of the wanted state
+  };
+  /// The class and branch whose state of this level is one step of the resolution from that of the level below; none: special.
+  struct Maker {
+    static constexpr std::uint32_t kNone = UINT32_MAX;
+    std::uint32_t id = kNone;
+    bool is_falling = false;
+  };
   class Draft;                          // levels under construction
+  template <class>
+  friend class StateMotion;
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
 
   [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
@@ -133,6 +153,9 @@ class UnimodalGrid {
   std::vector<Layer> layers_;
   std::vector<Class> classes_;
   std::vector<S> levels_;  // ascending
+  std::vector<Maker> makers_;      // per level
+  std::vector<Special> specials_;  // by level
+  S resolution_{1};
   bool is_reversed_ = false;
   State zero_rank_ = 1;  // 1: no level without flux
   S fastest_{0};

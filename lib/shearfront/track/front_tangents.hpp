@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "shearfront/solver/solver.hpp"
+#include "shearfront/track/observers.hpp"
+#include "shearfront/track/state_motion.hpp"
+
+namespace shearfront {
+
+/// Rows of derivatives with respect to n_columns() entries: one row for every state, boundary, initial piece and change outside.
+class TangentTable {
+ public:
+  TangentTable() = default;
+  explicit TangentTable(const StateRows& rows, std::size_t n_columns) : rows_(rows), n_(n_columns) {
+    phi_.assign(rows.n() * n_, 0.0), flux_.assign(rows.n() * n_, 0.0);
+  }
+
+  void set(std::size_t column, const SceneTangent& scene, const StateTangent& states) {
+    const auto put = [&](std::vector<double>& table, const std::vector<double>& by) {
+      table.resize(by.size() * n_);
+      for (std::size_t i = 0; i < by.size(); ++i) table[i * n_ + column] = by[i];
+    };
+    put(phi_, states.phi), put(flux_, states.flux);
+    put(boundary_, scene.boundary), put(top_, scene.top), put(change_, scene.change);
+  }
+
+  [[nodiscard]] std::size_t n_columns() const { return n_; }
+  [[nodiscard]] const double* phi(std::size_t layer, State i) const { return &phi_[rows_(layer, i) * n_]; }
+  [[nodiscard]] const double* flux(std::size_t layer, State i) const { return &flux_[rows_(layer, i) * n_]; }
+  [[nodiscard]] const double* boundary(std::size_t k) const { return &boundary_[k * n_]; }
+  [[nodiscard]] const double* top(std::size_t piece) const { return &top_[piece * n_]; }
+  [[nodiscard]] const double* change(std::size_t i) const { return &change_[i * n_]; }
+
+ private:
+  StateRows rows_;
+  std::size_t n_ = 0;
+  std::vector<double> phi_, flux_, boundary_, top_, change_;
+};
+
+/// Where in a run another order of events is as good as the one it took: within rounding of each other.
+struct OrderCheck {
+  std::size_t n_undecided = 0;
+  std::optional<Place> first;
+  void add(double t, double z) {
+    if (n_undecided++ == 0) first = Place{t, z};
+  }
+};
+
+/// An observer that makes fronts carry derivatives.
+///
+/// A front l | r of speed s that left a point (z0, t0) is at z0 + s (t - t0); what an entry moves by 1 moves it by
+///
+///     g + (t - t0) ds,   g = dz0 - s dt0,   ds = (dF_r - dF_l - s (dphi_r - dphi_l)) / (phi_r - phi_l).
+///
+/// Where two fronts a and b meet in a layer dt = (d_b - d_a) / (s_a - s_b), d what they have been moved at that time, and dz = d_a + s_a dt;
+/// at a boundary, which moves by its own dz, dt = (dz - d_a) / s_a. A front that is all that leaves a point of a layer is moved as its
+/// mass is: by the mean of d_a and d_b with their jumps of phi as weights.
+///
+/// Guaranteed: the order of events is that of the run. Events within 64 roundings of their times of each other, so that another
+/// order would be as good, and points in which more fronts meet than moved apart would meet again, are counted (order()): derivatives
+/// then hold to one side at most. Cost: O(columns) per front; memory 24 bytes per column and front alive.
+class FrontTangents {
+ public:
+  static constexpr bool kActive = true;
+
+  /// Both must outlive this.
+  FrontTangents(const TangentTable& table, const std::vector<double>& initial_tops)
+      : table_(&table), tops_(&initial_tops), n_(table.n_columns()), dt_(n_), dz_(n_), a_(n_), b_(n_) {}
+
+  template <class Grid>
+  void collision(const Grid& grid, const CollisionView<double>& view) {
+    const bool is_merged = view.incoming.size() == 2 && view.outgoing.size() == 1 &&
+                           view.boundary == CollisionView<double>::kNoBoundary;
+    if (view.incoming.empty())
+      begin(view);
+    else
+      meet(view);
+    for (const FrontView<double>& f : view.outgoing) {
+      const double* boundary = nullptr;
+      if (view.boundary != CollisionView<double>::kNoBoundary)
+        boundary = table_->boundary(f.z == grid.boundary(f.layer) ? f.layer : f.layer + 1);
+      const double* dz = boundary ? boundary : dz_.data();
+      double* row = row_of(f.slot);
+      for (std::size_t j = 0; j < n_; ++j) row[j] = dz[j] - f.speed * dt_[j];
+      set_speed(grid, f, row + n_);
+      std::copy(dt_.begin(), dt_.end(), row + 2 * n_);
+    }
+    if (is_merged) merge(grid, view);
+  }
+
+  /// Where a front is moved to at time t, by column.
+  void moved(const FrontView<double>& f, double t, double* to) const {
+    const double *row = &rows_[3 * n_ * f.slot], age = t - f.t;
+    for (std::size_t j = 0; j < n_; ++j) to[j] = row[j] + age * row[n_ + j];
+  }
+  /// Derivatives of the time at which it was born, by column.
+  [[nodiscard]] const double* births(const FrontView<double>& f) const {
+    return &rows_[3 * n_ * f.slot + 2 * n_];
+  }
+  [[nodiscard]] const TangentTable& table() const { return *table_; }
+  [[nodiscard]] const OrderCheck& order() const { return order_; }
+
+ private:
+  /// Where fronts begin without one that ends: at time 0, or where the state outside changes.
+  void begin(const CollisionView<double>& view) {
+    const double *dz = nullptr, *dt = nullptr;
+    if (view.t > 0) dt = table_->change(n_changes_++);
+    if (view.boundary != CollisionView<double>::kNoBoundary)
+      dz = table_->boundary(view.boundary);
+    else
+      dz = table_->top(static_cast<std::size_t>(std::lower_bound(tops_->begin(), tops_->end(), view.z) -
+                                                tops_->begin()));
+    for (std::size_t j = 0; j < n_; ++j) dz_[j] = dz[j], dt_[j] = dt ? dt[j] : 0;
+  }
+  void meet(const CollisionView<double>& view) {
+    const FrontView<double>&a = view.incoming.front(), &b = view.incoming.back();
+    moved(a, view.t, a_.data());
+    std::size_t n_needed = 1;
+    if (view.boundary != CollisionView<double>::kNoBoundary) {
+      const double* dz = table_->boundary(view.boundary);
+      for (std::size_t j = 0; j < n_; ++j) dz_[j] = dz[j], dt_[j] = (dz[j] - a_[j]) / a.speed;
+    } else {
+      n_needed = 2;
+      moved(b, view.t, b_.data());
+      const double closing = a.speed - b.speed;
+      for (std::size_t j = 0; j < n_; ++j) {
+        dt_[j] = (b_[j] - a_[j]) / closing;
+        dz_[j] = a_[j] + a.speed * dt_[j];
+      }
+    }
+    constexpr double kRoundings = 64;
+    const double soon = kRoundings * std::numeric_limits<double>::epsilon() * view.t;
+    bool is_undecided = view.incoming.size() > n_needed;
+    for (const FrontView<double>& f : view.incoming) is_undecided = is_undecided || view.t - f.t <= soon;
+    if (is_undecided) order_.add(view.t, view.z);
+  }
+  template <class Grid>
+  void merge(const Grid& grid, const CollisionView<double>& view) {
+    const FrontView<double>&a = view.incoming.front(), &f = view.outgoing.front();
+    const double phi_l = grid.phi(f.layer, f.below), phi_r = grid.phi(f.layer, f.above),
+                 share = (phi_r - grid.phi(f.layer, a.above)) / (phi_r - phi_l);  // of b
+    double* row = row_of(f.slot);
+    for (std::size_t j = 0; j < n_; ++j) row[j] = a_[j] + share * (b_[j] - a_[j]);
+  }
+  template <class Grid>
+  void set_speed(const Grid& grid, const FrontView<double>& f, double* speed) const {
+    const double *phi_l = table_->phi(f.layer, f.below), *phi_r = table_->phi(f.layer, f.above);
+    const double *flux_l = table_->flux(f.layer, f.below), *flux_r = table_->flux(f.layer, f.above);
+    const double jump = 1 / (grid.phi(f.layer, f.above) - grid.phi(f.layer, f.below));
+    for (std::size_t j = 0; j < n_; ++j)
+      speed[j] = (flux_r[j] - flux_l[j] - f.speed * (phi_r[j] - phi_l[j])) * jump;
+  }
+  [[nodiscard]] double* row_of(std::uint32_t slot) {
+    if (rows_.size() < 3 * n_ * (std::size_t{slot} + 1)) rows_.resize(3 * n_ * (std::size_t{slot} + 1));
+    return &rows_[3 * n_ * slot];
+  }
+
+  const TangentTable* table_;
+  const std::vector<double>* tops_;
+  std::size_t n_, n_changes_ = 0;
+  std::vector<double> dt_, dz_, a_, b_;  // of the point, and what two fronts have moved there
+  std::vector<double> rows_;             // per slot: g, ds and dt0
+  OrderCheck order_;
+};
+
+}  // namespace shearfront

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Derivatives that fronts carry, of every flux, against differences of the same tracker in 110 digits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <any>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "shearfront/digits/real110.hpp"
+#include "shearfront/model/flux/all.hpp"
+#include "shearfront/scene/entries.hpp"
+#include "shearfront/track/linearise.hpp"
+#include "shearfront/track/one_layer_grid.hpp"
+#include "shearfront/track/reconstruct.hpp"
+#include "shearfront/track/setup.hpp"
+#include "shearfront/track/solver.hpp"
+#include "shearfront/track/tracker.hpp"
+#include "shearfront/track/unimodal_grid.hpp"
+#include "support/random_tracked.hpp"
+#include "support/scene_cast.hpp"
+
+namespace shearfront {
+namespace {
+
+using support::SceneMaker;
+
+/// What a run in 110 digits says: phi and M at the places, and how it went.
+struct PreciseRun {
+  std::vector<Profile<Real110>::Value> values;
+  std::uint64_t n_collisions = 0;
+  std::size_t n_levels = 0;
+};
+
+template <class Grid>
+PreciseRun precise_run_on(const Scene<Real110>& scene, const TrackOptions& options,
+                          const std::vector<Place>& places) {
+  const TrackingSetup<Real110, Grid> setup(scene, Real110(options.resolution));
+  Tracker<Grid> tracker(setup);
+  PreciseRun run;
+  for (const Place& place : places) {  // by time
+    tracker.advance_to(Real110(place.t));
+    const Profile<Real110> profile =
+        options.reconstruct == Reconstruction::linear ? linear_profile(tracker) : tracker.profile();
+    run.values.push_back(profile.at(Real110(place.z)));
+  }
+  run.n_collisions = tracker.n_collisions();
+  run.n_levels = setup.grid.n_levels();
+  return run;
+}
+
+PreciseRun precise_run(const Scene<Real110>& scene, const TrackOptions& options,
+                       const std::vector<Place>& places) {
+  if (LevelGrid<Real110>::refusal(exact_layers(scene)).empty())
+    return precise_run_on<LevelGrid<Real110>>(scene, options, places);
+  if (course_of(scene.fluxes().front()) == FluxCourse::several_extrema)
+    return precise_run_on<OneLayerGrid<Real110>>(scene, options, places);
+  return precise_run_on<UnimodalGrid<Real110>>(scene, options, places);
+}
+
+struct Count {
+  int scenes = 0, compared = 0, other_order = 0;
+};
+
+void compare(const Scene<double>& scene, const TrackOptions& options, const std::vector<Place>& places,
+             const std::vector<std::size_t>& wanted, const std::string& label, Count& count) {
+  std::any memory;
+  const Linearisation mine = FrontTrackingSolver::linearise(scene, options, places, wanted, memory);
+  ASSERT_TRUE(mine.summary.usable()) << label << mine.summary.message;
+  ASSERT_EQ(mine.derivatives.size(), places.size() * wanted.size());
+  ASSERT_EQ(mine.summary.remark, "") << label;
+  const SceneSpec<Real110> spec = scene_cast<Real110>(scene).spec();
+  const std::vector<Entry> all = entries(spec);
+  ++count.scenes;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const Real110 h("1e-30");
+    PreciseRun runs[2];
+    bool exist = true;
+    for (const int side : {0, 1}) {
+      SceneSpec<Real110> moved = spec;
+      *entry_places(moved)[wanted[k]] += side == 0 ? Real110(-h) : h;
+      exist = exist && find_complaints(moved).empty();
+      if (exist) runs[side] = precise_run(Scene<Real110>(moved), options, places);
+    }
+    ASSERT_TRUE(exist) << label << all[wanted[k]].name();
+    if (runs[0].n_collisions != runs[1].n_collisions || runs[0].n_levels != runs[1].n_levels ||
+        runs[0].n_levels != mine.summary.levels ||
+        runs[0].n_collisions != mine.summary.collisions) {
+      ++count.other_order;
+      continue;
+    }
+    std::vector<Sample> numeric;
+    double largest_phi = 0, largest_M = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto &below = runs[0].values[i], &above = runs[1].values[i];
+      numeric.push_back({to_double(Real110((above.phi - below.phi) / (2 * h))),
+                         to_double(Real110((above.M - below.M) / (2 * h)))});
+      largest_phi = std::max(largest_phi, std::abs(numeric.back().phi));
+      largest_M = std::max(largest_M, std::abs(numeric.back().M));
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Sample& by = mine.derivatives[i * wanted.size() + k];
+      const std::string where = label + " d " + all[wanted[k]].name() + " t " + std::to_string(places[i].t) +
+                                " z " + std::to_string(places[i].z);
+      EXPECT_NEAR(by.phi, numeric[i].phi, 1e-8 * (largest_phi + std::abs(numeric[i].phi)) + 1e-13) << where;
+      EXPECT_NEAR(by.M, numeric[i].M, 1e-8 * (largest_M + std::abs(numeric[i].M)) + 1e-13) << where;
+      ++count.compared;
+    }
+  }
+}
+
+/// Whether there is no derivative, as two states are one: the run then says so.
+bool is_torn(const Scene<double>& scene, const TrackOptions& options, std::size_t entry) {
+  std::any memory;
+  const Place start{0, (scene.bottom() + scene.top()) / 2};
+  return !FrontTrackingSolver::linearise(scene, options, {start}, {entry}, memory).summary.remark.empty();
+}
+
+class TrackingDerivatives : public testing::TestWithParam<std::string> {
+ public:
+  static void compare_random_scenes(int n_scenes, int n_entries, std::uint64_t first_seed) {
+    Count count;
+    for (int n = 0; n < n_scenes; ++n) {
+      const std::uint64_t seed = support::seed_of(first_seed + static_cast<std::uint64_t>(n));
+      SceneMaker make(seed);
+      const Scene<double> scene(support::random_tracked_scene(make, GetParam()));
+      TrackOptions options{.resolution = 0.15};
+      if (n % 2 == 1) options.reconstruct = Reconstruction::linear;
+      const std::string label = GetParam() + " seed " + std::to_string(seed);
+      ASSERT_EQ(FrontTrackingSolver::refusal(scene, options), "") << label;
+      const std::vector<Entry> all = entries(scene.spec());
+      std::vector<std::size_t> wanted;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (FrontTrackingSolver::derivative_refusal(scene, options, all[i]).empty() &&
+            !is_torn(scene, options, i))
+          wanted.push_back(i);
+      while (wanted.size() > static_cast<std::size_t>(n_entries))
+        wanted.erase(wanted.begin() + make.integer(0, static_cast<int>(wanted.size()) - 1));
+      compare(scene, options, support::random_places(make, scene, 3), wanted, label, count);
+    }
+    std::cout << GetParam() << ": " << count.scenes << " scenes, " << count.compared << " compared, "
+              << count.other_order << " with another order\n";
+    EXPECT_EQ(count.scenes, n_scenes);
+    EXPECT_GT(count.compared, 3 * n_scenes);
+    EXPECT_LT(count.other_order, n_scenes);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Fluxes, TrackingDerivatives, testing::ValuesIn(support::flux_names()),
+                         [](const auto& flux) {
+                           std::string name = flux.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(TrackingDerivatives, AgreeWithDifferencesIn110Digits) { compare_random_scenes(3, 3, 8100); }
+
+}  // namespace
+}  // namespace shearfront
