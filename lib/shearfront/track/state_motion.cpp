@@ -112,13 +112,10 @@ void StateMotion<LevelGrid<double>>::move_wanted(const SceneTangent& by, Moved& 
 
 void StateMotion<LevelGrid<double>>::move_levels(Moved& moved) const {
   const Grid& grid = of_.grid;
-  double below = 0, below_by = 0;  // the capacity of the class below
-  std::size_t id = 0;
   for (std::size_t i = 1; i < grid.levels_.size(); ++i) {
     const Grid::Level& level = grid.levels_[i];
     if (level.home < 0) continue;
     const auto home = static_cast<std::size_t>(level.home);
-    while (id < home) below = grid.classes_[id].capacity, below_by = moved.capacity[id], ++id;
     const double c = grid.classes_[home].capacity, c_by = moved.capacity[home], p = level.p;
     if (p + p == 1) {
       moved.level[i] = c_by;
@@ -126,7 +123,9 @@ void StateMotion<LevelGrid<double>>::move_levels(Moved& moved) const {
     }
     double& p_by = moved.place[i];
     if (!moved.is_wanted[i]) {
-      // A part of the way from the capacity below to the own one.
+      // A part of the way from the capacity of the class below to the own one.
+      const double below = home > 0 ? grid.classes_[home - 1].capacity : 0,
+                   below_by = home > 0 ? moved.capacity[home - 1] : 0;
       const double q = std::sqrt((c - below) / c), first = below / (2 * c * (1 + q)),
                    first_by = below > 0 ? (below_by - 4 * first * (1 - first) * c_by) / (4 * c * q) : 0;
       p_by = first_by * (1 - (p - first) / (0.5 - first));
