@@ -51,12 +51,16 @@ struct MovingBed {
 };
 
 /// The entries given moved by some 1e-9 of their size, each by another part of it, so that what is equal is so no more.
-Scene<double> moved_apart(const Scene<double>& scene, const std::vector<std::size_t>& torn) {
+Scene<double> moved_apart(const Scene<double>& scene, const TrackOptions& options,
+                          const std::vector<std::size_t>& torn) {
   constexpr double kPart = 1e-9, kGolden = 0.6180339887498949;
   const std::vector<Entry> all = entries(scene.spec());
   SceneSpec<double> spec = scene.spec();
   const std::vector<double*> places = entry_places(spec);
   const StateRange<double> range = scene.fluxes().front().range();
+  const auto is_tracked = [&] {
+    return find_complaints(spec).empty() && Tracking::refusal(Scene<double>(spec), options).empty();
+  };
   for (std::size_t n = 0; n < torn.size(); ++n) {
     double& number = *places[torn[n]];
     const double here = number, turn = kGolden * static_cast<double>(n + 1);
@@ -65,9 +69,9 @@ Scene<double> moved_apart(const Scene<double>& scene, const std::vector<std::siz
                                                                  : std::max(1.0, std::abs(here));
     const double step = kPart * size * (1 + (turn - std::floor(turn)));
     number = here + step;
-    if (find_complaints(spec).empty()) continue;
+    if (is_tracked()) continue;
     number = here - step;
-    if (!find_complaints(spec).empty()) number = here;
+    if (!is_tracked()) number = here;
   }
   return Scene<double>(std::move(spec));
 }
@@ -176,7 +180,7 @@ Linearisation linearised_on(const Scene<double>& scene, const TrackOptions& opti
                             const Progress& progress) {
   const MovingBed<Grid> bed(scene, options, wanted);
   if (bed.torn.empty()) return TangentRun<Grid>(bed, options, places, progress).run();
-  const MovingBed<Grid> apart(moved_apart(scene, bed.torn), options, wanted);
+  const MovingBed<Grid> apart(moved_apart(scene, options, bed.torn), options, wanted);
   Linearisation result = TangentRun<Grid>(apart, options, places, progress).run();
   if (apart.torn.empty())
     add_remark(result.summary, "moved by some 1e-9, as equal states have no derivative: " +

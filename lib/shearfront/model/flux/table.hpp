@@ -46,10 +46,13 @@ struct FluxTable {
     return is_convex ? Curvature::convex : is_concave ? Curvature::concave : Curvature::mixed;
   }
   [[nodiscard]] Scalar value(const Scalar& x) const {
-    if (x == phi.back()) return values.back();  // not but for rounding: a wall needs a flux of 0
-    const Piece piece = piece_at(x);
-    const Scalar d = x - piece.begin;
-    return piece.value + d * (piece.slope + d * (piece.square + d * piece.cube));
+    const std::size_t i = segment(x);
+    const Piece piece = piece_of(i);
+    const Scalar d = x - piece.begin, e = x - phi[i + 1];
+    if (d + e <= 0) return piece.value + d * (piece.slope + d * (piece.square + d * piece.cube));
+    // From the nearer end: next to a zero that is a point f keeps its sign.
+    const Scalar square = piece.square + Scalar(3) * piece.cube * (phi[i + 1] - phi[i]);
+    return values[i + 1] + e * (slope(i + 1) + e * (square + e * piece.cube));
   }
   [[nodiscard]] Scalar derivative(const Scalar& x) const {
     const Piece piece = piece_at(x);
