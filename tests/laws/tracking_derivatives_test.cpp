@@ -90,8 +90,7 @@ void compare(const Scene<double>& scene, const TrackOptions& options, const std:
     }
     if (!exist) continue;  // at a bound
     if (runs[0].n_collisions != runs[1].n_collisions || runs[0].n_levels != runs[1].n_levels ||
-        runs[0].n_levels != mine.summary.levels ||
-        runs[0].n_collisions != mine.summary.collisions) {
+        runs[0].n_levels != mine.summary.levels || runs[0].n_collisions != mine.summary.collisions) {
       ++count.other_order;
       continue;
     }

@@ -44,7 +44,8 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
   has_derivatives_ =
       std::all_of(entries_.begin(), entries_.end(), [&](std::size_t i) { return has_derivative(all[i]); });
   can_linearise_ = has_derivatives_ || std::any_of(all.begin(), all.end(), has_derivative);
-  is_smooth_ = is_smooth_ || can_linearise_;
+  // A polygonal flux has derivatives where its levels stay, and jumps where one appears.
+  is_smooth_ = is_smooth_ || (can_linearise_ && !method_.guarantees().has_fronts);
 }
 
 Prediction Forward::predict(const VectorXd& values, bool with_derivatives,

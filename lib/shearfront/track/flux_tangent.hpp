@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstddef>
 #include <concepts>
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <vector>

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "shearfront/solver/solver.hpp"
@@ -70,9 +72,19 @@ class FrontTangents {
  public:
   static constexpr bool kActive = true;
 
+  /// ds of a front between states so close that what is said above cancels: called with (column, layer, l, r).
+  using CloseSpeed = std::function<double(std::size_t, std::size_t, State, State)>;
+
   /// Both must outlive this.
-  FrontTangents(const TangentTable& table, const std::vector<double>& initial_tops)
-      : table_(&table), tops_(&initial_tops), n_(table.n_columns()), dt_(n_), dz_(n_), a_(n_), b_(n_) {}
+  FrontTangents(const TangentTable& table, const std::vector<double>& initial_tops, CloseSpeed close_speed)
+      : table_(&table),
+        tops_(&initial_tops),
+        close_speed_(std::move(close_speed)),
+        n_(table.n_columns()),
+        dt_(n_),
+        dz_(n_),
+        a_(n_),
+        b_(n_) {}
 
   template <class Grid>
   void collision(const Grid& grid, const CollisionView<double>& view) {
@@ -115,8 +127,8 @@ class FrontTangents {
     if (view.boundary != CollisionView<double>::kNoBoundary)
       dz = table_->boundary(view.boundary);
     else
-      dz = table_->top(static_cast<std::size_t>(std::lower_bound(tops_->begin(), tops_->end(), view.z) -
-                                                tops_->begin()));
+      dz = table_->top(
+          static_cast<std::size_t>(std::lower_bound(tops_->begin(), tops_->end(), view.z) - tops_->begin()));
     for (std::size_t j = 0; j < n_; ++j) dz_[j] = dz[j], dt_[j] = dt ? dt[j] : 0;
   }
   void meet(const CollisionView<double>& view) {
@@ -131,7 +143,7 @@ class FrontTangents {
       moved(b, view.t, b_.data());
       const double closing = a.speed - b.speed;
       for (std::size_t j = 0; j < n_; ++j) {
-        dt_[j] = (b_[j] - a_[j]) / closing;
+        dt_[j] = closing != 0 ? (b_[j] - a_[j]) / closing : 0;
         dz_[j] = a_[j] + a.speed * dt_[j];
       }
     }
@@ -145,28 +157,43 @@ class FrontTangents {
   void merge(const Grid& grid, const CollisionView<double>& view) {
     const FrontView<double>&a = view.incoming.front(), &f = view.outgoing.front();
     const double phi_l = grid.phi(f.layer, f.below), phi_r = grid.phi(f.layer, f.above),
-                 share = (phi_r - grid.phi(f.layer, a.above)) / (phi_r - phi_l);  // of b
+                 share =
+                     phi_r != phi_l ? (phi_r - grid.phi(f.layer, a.above)) / (phi_r - phi_l) : 0.5;  // of b
     double* row = row_of(f.slot);
     for (std::size_t j = 0; j < n_; ++j) row[j] = a_[j] + share * (b_[j] - a_[j]);
   }
   template <class Grid>
-  void set_speed(const Grid& grid, const FrontView<double>& f, double* speed) const {
+  void set_speed(const Grid& grid, const FrontView<double>& f, double* speed) {
     const double *phi_l = table_->phi(f.layer, f.below), *phi_r = table_->phi(f.layer, f.above);
     const double *flux_l = table_->flux(f.layer, f.below), *flux_r = table_->flux(f.layer, f.above);
-    const double jump = 1 / (grid.phi(f.layer, f.above) - grid.phi(f.layer, f.below));
+    const double rise = grid.phi(f.layer, f.above) - grid.phi(f.layer, f.below), jump = 1 / rise;
+    if (widths_.empty()) find_widths(grid);
+    if (!(std::abs(rise) > kClose * widths_[f.layer])) {
+      for (std::size_t j = 0; j < n_; ++j) speed[j] = close_speed_(j, f.layer, f.below, f.above);
+      return;
+    }
     for (std::size_t j = 0; j < n_; ++j)
       speed[j] = (flux_r[j] - flux_l[j] - f.speed * (phi_r[j] - phi_l[j])) * jump;
+  }
+  template <class Grid>
+  void find_widths(const Grid& grid) {
+    for (std::size_t k = 0; k < grid.n_layers(); ++k)
+      widths_.push_back(std::abs(grid.phi(k, grid.n_states(k) / 2) - grid.phi(k, 0)));
   }
   [[nodiscard]] double* row_of(std::uint32_t slot) {
     if (rows_.size() < 3 * n_ * (std::size_t{slot} + 1)) rows_.resize(3 * n_ * (std::size_t{slot} + 1));
     return &rows_[3 * n_ * slot];
   }
 
+  static constexpr double kClose = 1e-5;  ///< the formula loses five of sixteen digits there
+
   const TangentTable* table_;
   const std::vector<double>* tops_;
+  CloseSpeed close_speed_;
   std::size_t n_, n_changes_ = 0;
   std::vector<double> dt_, dz_, a_, b_;  // of the point, and what two fronts have moved there
   std::vector<double> rows_;             // per slot: g, ds and dt0
+  std::vector<double> widths_;           // per layer: about half of the range of its states
   OrderCheck order_;
 };
 

@@ -110,7 +110,10 @@ class TangentRun {
     const std::vector<StateTangent> states(bed_.states.begin() + static_cast<std::ptrdiff_t>(from),
                                            bed_.states.begin() + static_cast<std::ptrdiff_t>(to));
     Tracking tracker(bed_.setup.grid, bed_.setup.pieces, bed_.setup.ends,
-                     FrontTangents(table, bed_.setup.initial.tops),
+                     FrontTangents(table, bed_.setup.initial.tops,
+                                   [&](std::size_t column, std::size_t layer, State l, State r) {
+                                     return bed_.motion.speed(scenes[column], states[column], layer, l, r);
+                                   }),
                      static_cast<std::size_t>(options_.max_fronts));
     Status status = Status::ok;
     for (std::size_t i = 0, end = 0; i < order_.size(); i = end) {

@@ -69,8 +69,10 @@ template <class AnyTracker>
     const Scalar at_begin = phi[i] - step[i] / Scalar(2), at_end = phi[i] + step[i + 1] / Scalar(2);
     const Scalar ramp_begin = step[i] != 0 ? Scalar(4) * delta[i] / step[i] : Scalar(0);
     const Scalar ramp_end = step[i + 1] != 0 ? Scalar(4) * delta[i + 1] / step[i + 1] : Scalar(0);
-    if (ramp_begin + ramp_end <= width[i]) {
-      if (ramp_begin > 0) add(snapshot.z[i] + ramp_begin, at_begin, phi[i]);
+    // A ramp that is cut off by its neighbour beyond the cell fills it but for rounding.
+    const Scalar room = width[i] * (Scalar(1) + Scalar(8) * unit_roundoff<Scalar>());
+    if (ramp_begin + ramp_end <= room) {
+      if (ramp_begin > 0) add(std::min(Scalar(snapshot.z[i] + ramp_begin), end), at_begin, phi[i]);
       add(end - ramp_end, phi[i], phi[i]);
       if (ramp_end > 0) add(end, phi[i], at_end);
       continue;

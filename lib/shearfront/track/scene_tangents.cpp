@@ -152,14 +152,16 @@ SceneTangent scene_tangent(const Scene<double>& scene, const LayerStack<double>&
   if (number.is(spec.scale))
     for (std::size_t k = 0; k < n; ++k) by.rate[k] = stack.shear_rate(k);
   if (spec.temperature)
-    add_value(*spec.temperature, by.rate, [&](std::size_t k) { return stack.rate(k) / (2 * temperature(k)); });
+    add_value(*spec.temperature, by.rate,
+              [&](std::size_t k) { return stack.rate(k) / (2 * temperature(k)); });
   if (spec.solid_fraction)
     add_value(*spec.solid_fraction, by.solid_fraction, [](std::size_t) { return 1.0; });
 
   for (std::size_t i = 0; i < spec.fluxes.size(); ++i) {
     const std::size_t own = number.of(spec.fluxes[i]);
     if (own != kNoEntry) by.moving_flux = i;
-    by.fluxes.push_back(*flux_tangent(scene.fluxes()[i], own == kNoEntry ? std::nullopt : std::optional(own)));
+    by.fluxes.push_back(
+        *flux_tangent(scene.fluxes()[i], own == kNoEntry ? std::nullopt : std::optional(own)));
   }
 
   const std::size_t jump = number.in(spec.initial_breaks), state = number.in(spec.initial_values);
@@ -169,9 +171,9 @@ SceneTangent scene_tangent(const Scene<double>& scene, const LayerStack<double>&
     const std::size_t k = initial.states[i].layer;
     const auto piece = std::upper_bound(breaks.begin(), breaks.end(), bottom) - breaks.begin();
     by.wanted.push_back(static_cast<std::size_t>(piece) == state ? 1 : 0);
-    by.top.push_back(top == stack.boundary(k + 1)               ? by.boundary[k + 1]
+    by.top.push_back(top == stack.boundary(k + 1)              ? by.boundary[k + 1]
                      : jump != kNoEntry && breaks[jump] == top ? 1
-                                                                : 0);
+                                                               : 0);
   }
   std::vector<std::pair<double, double>> changes;  // times and their derivatives
   for (const auto* outside : {&spec.outside_bottom, &spec.outside_top}) {

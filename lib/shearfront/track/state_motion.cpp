@@ -38,16 +38,27 @@ const Flux<Dual<1>>* moving_flux_of(const SceneTangent& by, std::size_t flux) {
   return by.moving_flux == flux ? &by.fluxes[flux] : nullptr;
 }
 
-/// d |rate (f'(r) - f'(l)) / (x_r - x_l)| / c.
-double fan_rate_tangent(const Flux<Dual<1>>& flux, const Dual<1>& rate, const Dual<1>& solid_fraction,
-                        const Dual<1>& x_l, const Dual<1>& x_r) {
-  const Dual<1> slope = rate * (flux.derivative(x_r) - flux.derivative(x_l)) / (x_r - x_l) / solid_fraction;
-  return abs(slope).d[0];
-}
+/// Rate and solid fraction of a layer, and the share of a state, with their derivatives.
+struct LayerTangent {
+  const Flux<Dual<1>>& flux;
+  Dual<1> rate, solid_fraction;
 
-Dual<1> share_of(double phi, double phi_by, const Dual<1>& solid_fraction) {
-  return Dual<1>(phi, phi_by) / solid_fraction;
-}
+  LayerTangent(const LayerStack<double>& stack, const SceneTangent& by, std::size_t k)
+      : flux(by.fluxes[stack.flux_index(k)]),
+        rate(stack.rate(k), by.rate[k]),
+        solid_fraction(stack.solid_fraction(k), by.solid_fraction[k]) {}
+
+  [[nodiscard]] Dual<1> share(double phi, double phi_by) const {
+    return Dual<1>(phi, phi_by) / solid_fraction;
+  }
+  /// d |rate (f'(r) - f'(l)) / (x_r - x_l)| / c.
+  [[nodiscard]] double fan_rate(const Dual<1>& x_l, const Dual<1>& x_r) const {
+    return abs(rate * (flux.derivative(x_r) - flux.derivative(x_l)) / (x_r - x_l) / solid_fraction).d[0];
+  }
+  [[nodiscard]] double speed(const Dual<1>& x_l, const Dual<1>& x_r) const {
+    return (rate * flux.secant(x_l, x_r)).d[0];
+  }
+};
 
 }  // namespace
 
@@ -217,6 +228,26 @@ double StateMotion<LevelGrid<double>>::fan_rate(const SceneTangent& by, const St
   return (Dual<1>(8) * capacity / (range * range)).d[0];
 }
 
+double StateMotion<LevelGrid<double>>::speed(const SceneTangent& by, const StateTangent& states,
+                                             std::size_t layer, State l, State r) const {
+  const Grid& grid = of_.grid;
+  const auto [l_lo, l_hi] = grid.chord(layer, l);
+  const auto [r_lo, r_hi] = grid.chord(layer, r);
+  if (l_lo == l_hi && r_lo == r_hi) {
+    const LayerTangent tangent(of_.stack, by, layer);
+    const auto share = [&](State i) {
+      return tangent.share(grid.phi(layer, i), states.phi[rows_(layer, i)]);
+    };
+    return tangent.speed(share(l), share(r));
+  }
+  // Of the chord, or of the two that meet between the states.
+  const State lo = std::min(l_lo, r_lo), hi = std::max(l_hi, r_hi);
+  const double run = grid.phi(layer, hi) - grid.phi(layer, lo),
+               speed = (grid.flux(layer, hi) - grid.flux(layer, lo)) / run;
+  const std::size_t from = rows_(layer, lo), to = rows_(layer, hi);
+  return (states.flux[to] - states.flux[from] - speed * (states.phi[to] - states.phi[from])) / run;
+}
+
 /// One column, level by level, upwards as the grid was made.
 class StateMotion<UnimodalGrid<double>>::Mover {
  public:
@@ -254,7 +285,8 @@ class StateMotion<UnimodalGrid<double>>::Mover {
     auto special = grid_.specials_.begin();
     for (State n = 0; n < static_cast<State>(grid_.levels_.size()); ++n) {
       const auto begin = special;
-      for (; special != grid_.specials_.end() && special->level == n; ++special) give(*special, special == begin);
+      for (; special != grid_.specials_.end() && special->level == n; ++special)
+        give(*special, special == begin);
       if (begin == special) step_to(n);
       for (std::size_t id = 0; id < grid_.classes_.size(); ++id) follow(id, n);
     }
@@ -331,8 +363,7 @@ class StateMotion<UnimodalGrid<double>>::Mover {
       if (n < (is_falling ? first_[id].falling : first_[id].rising)) continue;
       const State i = state(id, n, is_falling);
       if (is_given_[id][Grid::index(i)]) continue;
-      share_by_[id][Grid::index(i)] =
-          flux_of(id).inverse(share(id, i), sign() * level_by_[Grid::index(n)]);
+      share_by_[id][Grid::index(i)] = flux_of(id).inverse(share(id, i), sign() * level_by_[Grid::index(n)]);
       is_given_[id][Grid::index(i)] = true;
     }
   }
@@ -357,12 +388,20 @@ StateTangent StateMotion<UnimodalGrid<double>>::tangent(const SceneTangent& by) 
 
 double StateMotion<UnimodalGrid<double>>::fan_rate(const SceneTangent& by, const StateTangent& states,
                                                    std::size_t layer, State l, State r) const {
-  const Dual<1> rate(of_.stack.rate(layer), by.rate[layer]),
-      fraction(of_.stack.solid_fraction(layer), by.solid_fraction[layer]);
+  const LayerTangent tangent(of_.stack, by, layer);
   const auto share = [&](State i) {
-    return share_of(of_.grid.phi(layer, i), states.phi[rows_(layer, i)], fraction);
+    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
   };
-  return fan_rate_tangent(by.fluxes[of_.stack.flux_index(layer)], rate, fraction, share(l), share(r));
+  return tangent.fan_rate(share(l), share(r));
+}
+
+double StateMotion<UnimodalGrid<double>>::speed(const SceneTangent& by, const StateTangent& states,
+                                                std::size_t layer, State l, State r) const {
+  const LayerTangent tangent(of_.stack, by, layer);
+  const auto share = [&](State i) {
+    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
+  };
+  return tangent.speed(share(l), share(r));
 }
 
 StateTangent StateMotion<OneLayerGrid<double>>::tangent(const SceneTangent& by) const {
@@ -418,12 +457,20 @@ StateTangent StateMotion<OneLayerGrid<double>>::tangent(const SceneTangent& by) 
 
 double StateMotion<OneLayerGrid<double>>::fan_rate(const SceneTangent& by, const StateTangent& states,
                                                    std::size_t layer, State l, State r) const {
-  const Dual<1> rate(of_.stack.rate(layer), by.rate[layer]),
-      fraction(of_.stack.solid_fraction(layer), by.solid_fraction[layer]);
+  const LayerTangent tangent(of_.stack, by, layer);
   const auto share = [&](State i) {
-    return share_of(of_.grid.phi(layer, i), states.phi[rows_(layer, i)], fraction);
+    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
   };
-  return fan_rate_tangent(by.fluxes[of_.stack.flux_index(layer)], rate, fraction, share(l), share(r));
+  return tangent.fan_rate(share(l), share(r));
+}
+
+double StateMotion<OneLayerGrid<double>>::speed(const SceneTangent& by, const StateTangent& states,
+                                                std::size_t layer, State l, State r) const {
+  const LayerTangent tangent(of_.stack, by, layer);
+  const auto share = [&](State i) {
+    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
+  };
+  return tangent.speed(share(l), share(r));
 }
 
 }  // namespace shearfront

@@ -79,9 +79,11 @@ class StateMotion<LevelGrid<double>> {
   explicit StateMotion(const GridOfScene<LevelGrid<double>>& of) : of_(of), rows_(of.grid) {}
   [[nodiscard]] const StateRows& rows() const { return rows_; }
   [[nodiscard]] StateTangent tangent(const SceneTangent& by) const;
-  /// Derivative of fan_rate().
-  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
-                                State r) const;
+  /// Derivatives of fan_rate(), and of speed() also for states so close that those of phi and flux cancel.
+  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer,
+                                State l, State r) const;
+  [[nodiscard]] double speed(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
+                             State r) const;
 
  private:
   using Grid = LevelGrid<double>;
@@ -103,8 +105,10 @@ class StateMotion<UnimodalGrid<double>> {
   explicit StateMotion(const GridOfScene<UnimodalGrid<double>>& of) : of_(of), rows_(of.grid) {}
   [[nodiscard]] const StateRows& rows() const { return rows_; }
   [[nodiscard]] StateTangent tangent(const SceneTangent& by) const;
-  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
-                                State r) const;
+  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer,
+                                State l, State r) const;
+  [[nodiscard]] double speed(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
+                             State r) const;
 
  private:
   using Grid = UnimodalGrid<double>;
@@ -120,8 +124,10 @@ class StateMotion<OneLayerGrid<double>> {
   explicit StateMotion(const GridOfScene<OneLayerGrid<double>>& of) : of_(of), rows_(of.grid) {}
   [[nodiscard]] const StateRows& rows() const { return rows_; }
   [[nodiscard]] StateTangent tangent(const SceneTangent& by) const;
-  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
-                                State r) const;
+  [[nodiscard]] double fan_rate(const SceneTangent& by, const StateTangent& states, std::size_t layer,
+                                State l, State r) const;
+  [[nodiscard]] double speed(const SceneTangent& by, const StateTangent& states, std::size_t layer, State l,
+                             State r) const;
 
  private:
   using Grid = OneLayerGrid<double>;

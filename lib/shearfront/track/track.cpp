@@ -57,7 +57,8 @@ std::string refusal_of(const Scene<double>& scene, const LayerStack<double>& sta
   if (options.reconstruct != Reconstruction::constant && has_smooth_solid_fraction(scene))
     return "the linear reconstruction is not known where c varies smoothly";
   if (LevelGrid<double>::refusal(stack).empty()) return refusal_of_levels(stack, options);
-  if (track_detail::has_several_extrema(scene)) return OneLayerGrid<double>::refusal(stack, options.resolution);
+  if (track_detail::has_several_extrema(scene))
+    return OneLayerGrid<double>::refusal(stack, options.resolution);
   if (std::string why = UnimodalGrid<double>::refusal(stack, options.resolution); !why.empty()) return why;
   return refusal_between_layers(scene);
 }

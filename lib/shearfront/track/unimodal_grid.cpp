@@ -180,7 +180,8 @@ class UnimodalGrid<S>::Draft {
       const S branch = is_falling ? curve.middle() : S(curve.width() - curve.middle());
       const S distance = is_falling ? S(curve.middle() - y) : S(y - curve.middle());
       const S to_middle = branch > 0 ? S(distance / branch) : S(0);
-      specials.push_back({std::min(curve.h(y), curve.capacity()), y, to_middle, id, is_falling, role, number});
+      specials.push_back(
+          {std::min(curve.h(y), curve.capacity()), y, to_middle, id, is_falling, role, number});
     };
     for (std::size_t id = 0; id < curves_.size(); ++id) {
       add(id, S(0), Role::first_end);

@@ -136,7 +136,7 @@ class UnimodalGrid {
     std::uint32_t id = kNone;
     bool is_falling = false;
   };
-  class Draft;                          // levels under construction
+  class Draft;  // levels under construction
   template <class>
   friend class StateMotion;
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
@@ -152,7 +152,7 @@ class UnimodalGrid {
   std::vector<Flux<S>> fluxes_;
   std::vector<Layer> layers_;
   std::vector<Class> classes_;
-  std::vector<S> levels_;  // ascending
+  std::vector<S> levels_;          // ascending
   std::vector<Maker> makers_;      // per level
   std::vector<Special> specials_;  // by level
   S resolution_{1};
