@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Derivatives that fronts carry, of every flux, against differences of the same tracker in 110 digits.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "shearfront/digits/real110.hpp"
 #include "shearfront/model/flux/all.hpp"
 #include "shearfront/scene/entries.hpp"
+#include "shearfront/track/gradient.hpp"
 #include "shearfront/track/linearise.hpp"
 #include "shearfront/track/one_layer_grid.hpp"
 #include "shearfront/track/reconstruct.hpp"
@@ -168,6 +170,138 @@ INSTANTIATE_TEST_SUITE_P(Fluxes, TrackingDerivatives, testing::ValuesIn(support:
                          });
 
 TEST_P(TrackingDerivatives, AgreeWithDifferencesIn110Digits) { compare_random_scenes(22, 6, 8100); }
+
+/// One pass backwards gives what as many columns forwards do.
+TEST_P(TrackingDerivatives, BackwardsAreThoseForwards) {
+  int compared = 0;
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    const std::uint64_t seed = support::seed_of(8300 + n);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    SceneMaker make(seed);
+    const Scene<double> scene(support::random_tracked_scene(make, GetParam()));
+    const TrackOptions options{.resolution = 0.05};
+    const std::vector<Entry> all = entries(scene.spec());
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (FrontTrackingSolver::derivative_refusal(scene, options, all[i]).empty()) wanted.push_back(i);
+    std::vector<Place> places = support::random_places(make, scene, 4);
+    places.push_back({places[1].t, scene.top()});
+    places.push_back({places[1].t, places[0].z});
+    std::vector<Sample> weights;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      weights.push_back({make.uniform(-1, 1), make.uniform(-1, 1)});
+    std::any memory;
+    const Linearisation forward = FrontTrackingSolver::linearise(scene, options, places, wanted, memory);
+    const TrackingGradient backward = tracking_gradient(
+        scene, options, places, [&](const std::vector<Sample>&) { return weights; }, wanted);
+    EXPECT_EQ(backward.summary.remark, forward.summary.remark);
+    for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(backward.samples[i].M, forward.samples[i].M);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      double sum = 0, size = 0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const Sample& by = forward.derivatives[i * wanted.size() + k];
+        sum += weights[i].phi * by.phi + weights[i].M * by.M;
+        size += std::abs(weights[i].phi * by.phi) + std::abs(weights[i].M * by.M);
+      }
+      EXPECT_NEAR(backward.gradient[k], sum, 1e-9 * size + 1e-11 * (1 + scene.top() - scene.bottom()))
+          << all[wanted[k]].name();
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
+/// Between walls M at the top moves as the mass does, whatever happens below.
+TEST(TrackingDerivativesOfMass, AreThoseOfTheScene) {
+  int compared = 0;
+  for (const std::string& flux : support::flux_names())
+    for (std::uint64_t n = 0; n < 30; ++n) {
+      const std::uint64_t seed = support::seed_of(8500 + n);
+      SceneMaker make(seed);
+      const Scene<double> scene(support::random_tracked_scene(make, flux));
+      if (!scene.has_walls()) continue;
+      const std::vector<Entry> all = entries(scene.spec());
+      for (std::size_t j = 0; j < all.size(); ++j) {
+        const bool is_value = all[j].field == "initial.values";
+        if (!is_value && all[j].field != "initial.breaks") continue;
+        for (const Reconstruction how : {Reconstruction::constant, Reconstruction::linear}) {
+          const TrackOptions options{.resolution = 0.05, .reconstruct = how};
+          if (!FrontTrackingSolver::derivative_refusal(scene, options, all[j]).empty() ||
+              is_torn(scene, options, j))
+            continue;
+          const auto& breaks = scene.initial_breaks();
+          const std::size_t i = all[j].index;
+          const double lo = i == 0 ? scene.bottom() : breaks[i - 1],
+                       hi = i == breaks.size() ? scene.top() : breaks[i];
+          const auto& values = scene.initial_values();
+          const double expected = is_value ? scene.solid(lo, hi)
+                                           : scene.solid_fraction_at(breaks[i]) * (values[i] - values[i + 1]);
+          std::any memory;
+          const Linearisation at =
+              FrontTrackingSolver::linearise(scene, options, {{1.5, scene.top()}}, {j}, memory);
+          EXPECT_NEAR(at.derivatives[0].M, expected, 1e-11 * (1 + scene.top() - scene.bottom()))
+              << flux << " seed " << seed << " d " << all[j].name();
+          ++compared;
+        }
+      }
+    }
+  EXPECT_GT(compared, 200);
+}
+
+SceneSpec<double> three_shocks(double third) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  // States u_0 > u_1 > u_2 > u_3 with shocks of speed 1 - u_i - u_(i+1) that meet in one point at t = 0.5.
+  spec.initial_values = {0.9, 0.6, 0.4, 0.2};
+  spec.initial_breaks = {0.5 - 0.5 * 0.5, 0.5, third};
+  return spec;
+}
+
+/// Three shocks meet in one point: which two of them meet first depends on the side to which a number moves.
+TEST(TrackingDerivativesWhereThereAreNone, AreReported) {
+  const auto remark = [](const SceneSpec<double>& spec, const std::string& name) {
+    const Scene<double> scene(spec);
+    const std::vector<Entry> all = entries(spec);
+    const auto entry = static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.name() == name; }) - all.begin());
+    std::any memory;
+    return FrontTrackingSolver::linearise(scene, {}, {{0.8, 0.5}}, {entry}, memory).summary.remark;
+  };
+  EXPECT_THAT(remark(three_shocks(0.7), "initial.breaks[1]"), testing::StartsWith("the order of events"));
+  EXPECT_EQ(remark(three_shocks(0.72), "initial.breaks[1]"), "");
+
+  // One of two equal states, an extremum, an end of the range: moved apart, and said.
+  SceneSpec<double> equal = three_shocks(0.72);
+  equal.initial_values = {0.3, 0.9, 0.3, 0.7};
+  EXPECT_THAT(remark(equal, "initial.values[0]"), testing::HasSubstr("moved by some 1e-9"));
+  EXPECT_EQ(remark(equal, "initial.values[1]"), "");
+  equal.initial_values = {0, 0.9, 0.5, 0.7};
+  EXPECT_THAT(remark(equal, "initial.values[0]"), testing::HasSubstr("moved by some 1e-9"));
+  EXPECT_THAT(remark(equal, "initial.values[2]"), testing::HasSubstr("moved by some 1e-9"));
+  equal.shear_rate = Piecewise<double>{{0.4}, {1, 1}};
+  EXPECT_THAT(remark(equal, "shear_rate.values[1]"), testing::HasSubstr("moved by some 1e-9"));
+  EXPECT_EQ(remark(equal, "shear_rate.scale"), "");
+}
+
+/// Steps that make another layer, and what front tracking does not differentiate.
+TEST(TrackingDerivativesWhereThereAreNone, AreRefused) {
+  const auto refusal = [](const SceneSpec<double>& spec, const std::string& name, TrackOptions options = {}) {
+    const Scene<double> scene(spec);
+    for (const Entry& entry : entries(spec))
+      if (entry.name() == name) return FrontTrackingSolver::derivative_refusal(scene, options, entry);
+    return std::string("no such entry");
+  };
+  SceneSpec<double> spec = three_shocks(0.72);
+  spec.shear_rate = Piecewise<double>{{0.5}, {1, 2}};
+  EXPECT_EQ(refusal(spec, "initial.breaks[1]"), "initial.breaks[1] lies on another height of the scene");
+  EXPECT_EQ(refusal(spec, "shear_rate.breaks[0]"),
+            "shear_rate.breaks[0] lies on another height of the scene");
+  EXPECT_EQ(refusal(spec, "initial.breaks[0]"), "");
+  EXPECT_EQ(refusal(spec, "shear_rate.values[0]", {.grid = GridKind::singular_mapping}),
+            "the states of this grid are rounded");
+  spec.shear_rate = Exponential<double>{};
+  EXPECT_EQ(refusal(spec, "shear_rate.amplitude"), "fronts are curved");
+}
 
 }  // namespace
 }  // namespace shearfront

@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "shearfront/numeric/number_text.hpp"
 #include "shearfront/solver/solver.hpp"
 #include "shearfront/track/observers.hpp"
 #include "shearfront/track/state_motion.hpp"
@@ -46,13 +47,53 @@ class TangentTable {
   std::vector<double> phi_, flux_, boundary_, top_, change_;
 };
 
-/// Where in a run another order of events is as good as the one it took: within rounding of each other.
-struct OrderCheck {
-  std::size_t n_undecided = 0;
-  std::optional<Place> first;
-  void add(double t, double z) {
-    if (n_undecided++ == 0) first = Place{t, z};
+/// Which states are so close that a difference of their derivatives has lost too much.
+class CloseStates {
+ public:
+  template <class Grid>
+  [[nodiscard]] bool are(const Grid& grid, std::size_t layer, double rise) {
+    constexpr double kClose = 1e-5;  // five of sixteen digits
+    if (widths_.empty())
+      for (std::size_t k = 0; k < grid.n_layers(); ++k)
+        widths_.push_back(std::abs(grid.phi(k, grid.n_states(k) / 2) - grid.phi(k, 0)));
+    return !(std::abs(rise) > kClose * widths_[layer]);
   }
+
+ private:
+  std::vector<double> widths_;  // per layer: about half of the range of its states
+};
+
+/// Counts where in a run another order of events would be as good as the one it took: more fronts in a point than it takes, or two events
+/// at a boundary or in the life of a front, within 64 roundings of their time.
+class OrderCheck {
+ public:
+  /// A point that takes so many fronts.
+  void see(const CollisionView<double>& view, std::size_t n_needed) {
+    constexpr double kRoundings = 64;
+    const double soon = kRoundings * std::numeric_limits<double>::epsilon() * view.t;
+    bool is_undecided = view.incoming.size() > n_needed;
+    for (const FrontView<double>& f : view.incoming) is_undecided = is_undecided || view.t - f.t <= soon;
+    if (view.boundary != CollisionView<double>::kNoBoundary && view.t > 0) {
+      if (last_.size() <= view.boundary) last_.resize(view.boundary + 1, -1.0);
+      double& last = last_[view.boundary];
+      is_undecided = is_undecided || view.t - last <= soon;
+      last = view.t;
+    }
+    if (is_undecided && n_undecided_++ == 0) first_ = {view.t, view.z};
+  }
+  [[nodiscard]] std::size_t n_undecided() const { return n_undecided_; }
+  /// Why derivatives hold to one side at most; empty if they hold.
+  [[nodiscard]] std::string remark() const {
+    if (n_undecided_ == 0) return {};
+    return "the order of events is not decided in " + std::to_string(n_undecided_) +
+           " points, the first at t = " + number_text(first_.t) + ", z = " + number_text(first_.z) +
+           ": derivatives hold to one side of the numbers at most";
+  }
+
+ private:
+  std::size_t n_undecided_ = 0;
+  Place first_;
+  std::vector<double> last_;  // event at each boundary
 };
 
 /// An observer that makes fronts carry derivatives.
@@ -147,11 +188,7 @@ class FrontTangents {
         dz_[j] = a_[j] + a.speed * dt_[j];
       }
     }
-    constexpr double kRoundings = 64;
-    const double soon = kRoundings * std::numeric_limits<double>::epsilon() * view.t;
-    bool is_undecided = view.incoming.size() > n_needed;
-    for (const FrontView<double>& f : view.incoming) is_undecided = is_undecided || view.t - f.t <= soon;
-    if (is_undecided) order_.add(view.t, view.z);
+    order_.see(view, n_needed);
   }
   template <class Grid>
   void merge(const Grid& grid, const CollisionView<double>& view) {
@@ -167,25 +204,17 @@ class FrontTangents {
     const double *phi_l = table_->phi(f.layer, f.below), *phi_r = table_->phi(f.layer, f.above);
     const double *flux_l = table_->flux(f.layer, f.below), *flux_r = table_->flux(f.layer, f.above);
     const double rise = grid.phi(f.layer, f.above) - grid.phi(f.layer, f.below), jump = 1 / rise;
-    if (widths_.empty()) find_widths(grid);
-    if (!(std::abs(rise) > kClose * widths_[f.layer])) {
+    if (close_.are(grid, f.layer, rise)) {
       for (std::size_t j = 0; j < n_; ++j) speed[j] = close_speed_(j, f.layer, f.below, f.above);
       return;
     }
     for (std::size_t j = 0; j < n_; ++j)
       speed[j] = (flux_r[j] - flux_l[j] - f.speed * (phi_r[j] - phi_l[j])) * jump;
   }
-  template <class Grid>
-  void find_widths(const Grid& grid) {
-    for (std::size_t k = 0; k < grid.n_layers(); ++k)
-      widths_.push_back(std::abs(grid.phi(k, grid.n_states(k) / 2) - grid.phi(k, 0)));
-  }
   [[nodiscard]] double* row_of(std::uint32_t slot) {
     if (rows_.size() < 3 * n_ * (std::size_t{slot} + 1)) rows_.resize(3 * n_ * (std::size_t{slot} + 1));
     return &rows_[3 * n_ * slot];
   }
-
-  static constexpr double kClose = 1e-5;  ///< the formula loses five of sixteen digits there
 
   const TangentTable* table_;
   const std::vector<double>* tops_;
@@ -193,7 +222,7 @@ class FrontTangents {
   std::size_t n_, n_changes_ = 0;
   std::vector<double> dt_, dz_, a_, b_;  // of the point, and what two fronts have moved there
   std::vector<double> rows_;             // per slot: g, ds and dt0
-  std::vector<double> widths_;           // per layer: about half of the range of its states
+  CloseStates close_;
   OrderCheck order_;
 };
 

@@ -11,6 +11,7 @@
 #include "shearfront/track/curved_tracking.hpp"
 #include "shearfront/track/front_tangents.hpp"
 #include "shearfront/track/grid_choice.hpp"
+#include "shearfront/track/moving_bed.hpp"
 #include "shearfront/track/setup.hpp"
 #include "shearfront/track/state_motion.hpp"
 #include "shearfront/track/tangent_profile.hpp"
@@ -19,67 +20,16 @@
 namespace shearfront {
 namespace {
 
+using track_detail::add_remark;
+using track_detail::BedApart;
+using track_detail::by_time;
+
 constexpr std::size_t kColumnsAtOnce = 8;  // fill vector registers
-
-/// Places by time: begin and end of the places of each time.
-std::vector<std::size_t> by_time(const std::vector<Place>& places) {
-  std::vector<std::size_t> order(places.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return places[a].t < places[b].t; });
-  return order;
-}
-
-/// A scene with a grid and how its states move.
-template <class Grid>
-struct MovingBed {
-  TrackingSetup<double, Grid> setup;
-  StateMotion<Grid> motion;
-  std::vector<SceneTangent> scenes;  ///< per entry
-  std::vector<StateTangent> states;
-  std::vector<std::size_t> torn;  ///< entries
-
-  MovingBed(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
-      : setup(scene, tracking_layers(scene, options.resolution), options.resolution, options.grid),
-        motion(GridOfScene<Grid>{setup.grid, setup.stack, setup.wanted, setup.wanted_states}) {
-    for (const std::size_t entry : wanted) {
-      scenes.push_back(scene_tangent(scene, setup.stack, setup.initial, entry));
-      states.push_back(motion.tangent(scenes.back()));
-      if (states.back().is_torn) torn.push_back(entry);
-    }
-  }
-};
-
-/// The entries given moved by some 1e-9 of their size, each by another part of it, so that what is equal is so no more.
-Scene<double> moved_apart(const Scene<double>& scene, const TrackOptions& options,
-                          const std::vector<std::size_t>& torn) {
-  constexpr double kPart = 1e-9, kGolden = 0.6180339887498949;
-  const std::vector<Entry> all = entries(scene.spec());
-  SceneSpec<double> spec = scene.spec();
-  const std::vector<double*> places = entry_places(spec);
-  const StateRange<double> range = scene.fluxes().front().range();
-  const auto is_tracked = [&] {
-    return find_complaints(spec).empty() && Tracking::refusal(Scene<double>(spec), options).empty();
-  };
-  for (std::size_t n = 0; n < torn.size(); ++n) {
-    double& number = *places[torn[n]];
-    const double here = number, turn = kGolden * static_cast<double>(n + 1);
-    const double size = all[torn[n]].range == Range::positive    ? here
-                        : all[torn[n]].measure == Measure::state ? range.highest - range.lowest
-                                                                 : std::max(1.0, std::abs(here));
-    const double step = kPart * size * (1 + (turn - std::floor(turn)));
-    number = here + step;
-    if (is_tracked()) continue;
-    number = here - step;
-    if (!is_tracked()) number = here;
-  }
-  return Scene<double>(std::move(spec));
-}
 
 template <class Grid>
 class TangentRun {
  public:
-  using Bed = MovingBed<Grid>;
+  using Bed = track_detail::MovingBed<Grid>;
   using Tracking = Tracker<Grid, FrontTangents>;
 
   TangentRun(const Bed& bed, const TrackOptions& options, const std::vector<Place>& places,
@@ -157,12 +107,7 @@ class TangentRun {
     summary.fronts_max = tracker.n_fronts_max();
     summary.levels = bed_.setup.grid.n_levels();
     summary.layers = bed_.setup.stack.n_layers();
-    const OrderCheck& order = tracker.observer().order();
-    if (order.n_undecided > 0)
-      summary.remark = "the order of events is not decided in " + std::to_string(order.n_undecided) +
-                       " points, the first at t = " + number_text(order.first->t) +
-                       ", z = " + number_text(order.first->z) +
-                       ": derivatives hold to one side of the numbers at most";
+    summary.remark = tracker.observer().order().remark();
   }
 
   const Bed& bed_;
@@ -173,24 +118,13 @@ class TangentRun {
   Linearisation result_;
 };
 
-void add_remark(Summary& summary, const std::string& text) {
-  summary.remark += (summary.remark.empty() ? "" : "; ") + text;
-}
-
 template <class Grid>
 Linearisation linearised_on(const Scene<double>& scene, const TrackOptions& options,
                             const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                             const Progress& progress) {
-  const MovingBed<Grid> bed(scene, options, wanted);
-  if (bed.torn.empty()) return TangentRun<Grid>(bed, options, places, progress).run();
-  const MovingBed<Grid> apart(moved_apart(scene, options, bed.torn), options, wanted);
-  Linearisation result = TangentRun<Grid>(apart, options, places, progress).run();
-  if (apart.torn.empty())
-    add_remark(result.summary, "moved by some 1e-9, as equal states have no derivative: " +
-                                   std::to_string(bed.torn.size()) + " of the numbers");
-  else
-    add_remark(result.summary,
-               "two states that are one move apart: derivatives hold to one side of the numbers at most");
+  const BedApart<Grid> bed(scene, options, wanted);
+  Linearisation result = TangentRun<Grid>(bed.bed(), options, places, progress).run();
+  add_remark(result.summary, bed.remark());
   return result;
 }
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shearfront/scene/entries.hpp"
+#include "shearfront/solution/summary.hpp"
+#include "shearfront/solver/solver.hpp"
+#include "shearfront/track/setup.hpp"
+#include "shearfront/track/state_motion.hpp"
+#include "shearfront/track/track.hpp"
+
+namespace shearfront::track_detail {
+
+/// Numbers of the places in the order of their times.
+[[nodiscard]] inline std::vector<std::size_t> by_time(const std::vector<Place>& places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return places[a].t < places[b].t; });
+  return order;
+}
+
+/// A scene with a grid and how its states move.
+template <class Grid>
+struct MovingBed {
+  TrackingSetup<double, Grid> setup;
+  StateMotion<Grid> motion;
+  std::vector<SceneTangent> scenes;  ///< per entry
+  std::vector<StateTangent> states;
+  std::vector<std::size_t> torn;  ///< entries
+
+  MovingBed(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
+      : setup(scene, tracking_layers(scene, options.resolution), options.resolution, options.grid),
+        motion(GridOfScene<Grid>{setup.grid, setup.stack, setup.wanted, setup.wanted_states}) {
+    for (const std::size_t entry : wanted) {
+      scenes.push_back(scene_tangent(scene, setup.stack, setup.initial, entry));
+      states.push_back(motion.tangent(scenes.back()));
+      if (states.back().is_torn) torn.push_back(entry);
+    }
+  }
+};
+
+/// The entries given moved by some 1e-9 of their size, each by another part of it, so that what is equal is so no more.
+[[nodiscard]] inline Scene<double> moved_apart(const Scene<double>& scene, const TrackOptions& options,
+                                               const std::vector<std::size_t>& torn) {
+  constexpr double kPart = 1e-9, kGolden = 0.6180339887498949;
+  const std::vector<Entry> all = entries(scene.spec());
+  SceneSpec<double> spec = scene.spec();
+  const std::vector<double*> places = entry_places(spec);
+  const StateRange<double> range = scene.fluxes().front().range();
+  const auto is_tracked = [&] {
+    return find_complaints(spec).empty() && Tracking::refusal(Scene<double>(spec), options).empty();
+  };
+  for (std::size_t n = 0; n < torn.size(); ++n) {
+    double& number = *places[torn[n]];
+    const double here = number, turn = kGolden * static_cast<double>(n + 1);
+    const double size = all[torn[n]].range == Range::positive    ? here
+                        : all[torn[n]].measure == Measure::state ? range.highest - range.lowest
+                                                                 : std::max(1.0, std::abs(here));
+    const double step = kPart * size * (1 + (turn - std::floor(turn)));
+    number = here + step;
+    if (is_tracked()) continue;
+    number = here - step;
+    if (!is_tracked()) number = here;
+  }
+  return Scene<double>(std::move(spec));
+}
+
+/// The bed of a scene whose numbers move, or if that tears states which are one in its grid, of one that is moved apart by so little.
+template <class Grid>
+class BedApart {
+ public:
+  BedApart(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
+      : bed_(std::make_unique<MovingBed<Grid>>(scene, options, wanted)) {
+    if (bed_->torn.empty()) return;
+    n_moved_ = bed_->torn.size();
+    bed_ = std::make_unique<MovingBed<Grid>>(moved_apart(scene, options, bed_->torn), options, wanted);
+  }
+  [[nodiscard]] const MovingBed<Grid>& bed() const { return *bed_; }
+  /// What was done, or could not be; empty if nothing had to be.
+  [[nodiscard]] std::string remark() const {
+    if (n_moved_ == 0) return {};
+    if (!bed_->torn.empty())
+      return "two states that are one move apart: derivatives hold to one side of the numbers at most";
+    return std::to_string(n_moved_) +
+           " of the numbers moved by some 1e-9, as equal states have no derivative";
+  }
+
+ private:
+  std::unique_ptr<MovingBed<Grid>> bed_;
+  std::size_t n_moved_ = 0;
+};
+
+inline void add_remark(Summary& summary, const std::string& text) {
+  if (text.empty()) return;
+  summary.remark += (summary.remark.empty() ? "" : "; ") + text;
+}
+
+}  // namespace shearfront::track_detail
