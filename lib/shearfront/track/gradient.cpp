@@ -1,23 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shearfront/track/gradient.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "shearfront/track/front_tape.hpp"
 #include "shearfront/track/grid_choice.hpp"
 #include "shearfront/track/moving_bed.hpp"
+#include "shearfront/track/start_entries.hpp"
 #include "shearfront/track/tracker.hpp"
+#include "shearfront/track/wanted_motion.hpp"
 
 namespace shearfront {
 namespace {
+
+/// What a gradient is taken in: entries that are numbers of the start each by itself, all others by how they move all states.
+template <class Grid>
+class GradientBed {
+ public:
+  GradientBed(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
+      : wanted_(wanted) {
+    make(scene, options);
+    const std::vector<std::size_t> torn = this->torn();
+    if (torn.empty()) return;
+    make(track_detail::moved_apart(scene, options, torn), options);
+    remark_ = track_detail::apart_remark(torn.size(), this->torn().empty());
+  }
+  [[nodiscard]] const track_detail::MovingBed<Grid>& bed() const { return *bed_; }
+  [[nodiscard]] const std::string& remark() const { return remark_; }
+
+  [[nodiscard]] std::vector<double> gradient(const Adjoints& adjoints) const {
+    // Speeds of fronts between close states change with these.
+    std::vector<double> phi = adjoints.phi, flux = adjoints.flux;
+    std::vector<StateShift> shifts;
+    for (const Adjoints::Speed& close : adjoints.close) {
+      shifts.clear();
+      motion_->speed(close.layer, close.below, close.above, shifts);
+      for (const StateShift& s : shifts)
+        phi[s.row] += close.weight * s.phi, flux[s.row] += close.weight * s.flux;
+    }
+    std::vector<double> all;
+    std::size_t n_general = 0;
+    for (const std::size_t entry : wanted_) {
+      const StartEntries::Entry& start = (*starts_)[entry];
+      if (!start.is_any()) {
+        all.push_back(adjoints.along(bed_->motion, bed_->scenes[n_general], bed_->states[n_general]));
+        ++n_general;
+        continue;
+      }
+      shifts.clear();
+      for (auto n = start.wanted.begin(); n != start.wanted.end(); ++n)
+        if (std::none_of(start.wanted.begin(), n, [&](std::size_t m) { return motion_->is_same(m, *n); }))
+          motion_->shifts(*n, shifts);
+      double sum = 0;
+      for (const StateShift& s : shifts) sum += phi[s.row] * s.phi + flux[s.row] * s.flux;
+      if (start.top != StartEntries::kNone) sum += adjoints.top[start.top];
+      if (start.change != StartEntries::kNone) sum += adjoints.change[start.change];
+      all.push_back(sum);
+    }
+    return all;
+  }
+
+ private:
+  void make(const Scene<double>& scene, const TrackOptions& options) {
+    bed_ = std::make_unique<track_detail::MovingBed<Grid>>(scene, options);
+    starts_.emplace(scene, bed_->setup.initial);
+    std::vector<std::size_t> general;
+    for (const std::size_t entry : wanted_)
+      if (!(*starts_)[entry].is_any()) general.push_back(entry);
+    bed_->move(scene, general);
+    motion_.emplace(bed_->of(), bed_->motion.rows());
+  }
+  [[nodiscard]] std::vector<std::size_t> torn() const {
+    std::vector<std::size_t> all = bed_->torn;
+    for (const std::size_t entry : wanted_)
+      if (const auto& group = (*starts_)[entry].wanted; !group.empty() && motion_->is_torn(group))
+        all.push_back(entry);
+    return all;
+  }
+
+  const std::vector<std::size_t>& wanted_;
+  std::unique_ptr<track_detail::MovingBed<Grid>> bed_;
+  std::optional<StartEntries> starts_;
+  std::optional<WantedMotion<Grid>> motion_;
+  std::string remark_;
+};
 
 template <class Grid>
 TrackingGradient gradient_on(const Scene<double>& scene, const TrackOptions& options,
                              const std::vector<Place>& places,
                              const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
                              const std::vector<std::size_t>& wanted, const Progress& progress) {
-  const track_detail::BedApart<Grid> apart(scene, options, wanted);
+  const GradientBed<Grid> apart(scene, options, wanted);
   const track_detail::MovingBed<Grid>& bed = apart.bed();
   Tracker<Grid, FrontTape> tracker(bed.setup.grid, bed.setup.pieces, bed.setup.ends,
                                    FrontTape(bed.setup.initial.tops),
@@ -53,8 +131,7 @@ TrackingGradient gradient_on(const Scene<double>& scene, const TrackOptions& opt
   const Adjoints adjoints = tracker.observer().adjoints(
       bed.setup.grid, bed.motion.rows(), bed.setup.pieces.size(), bed.setup.ends.changes.size(), snapshots,
       places, snapshot_of, weigh(result.samples));
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    result.gradient.push_back(adjoints.along(bed.motion, bed.scenes[k], bed.states[k]));
+  result.gradient = apart.gradient(adjoints);
   return result;
 }
 

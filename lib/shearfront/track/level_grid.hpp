@@ -18,6 +18,8 @@ namespace shearfront {
 
 template <class Grid>
 class StateMotion;
+template <class Grid>
+class WantedMotion;
 
 /// Grids of states for layers whose fluxes are parabolas, built on flux LEVELS shared by all layers: the
 /// quadratic flux r_k phi (phi - 1), r_k = s a_k, and its affine images.
@@ -281,6 +283,8 @@ class LevelGrid {
   struct Draft;  // levels under construction
   template <class>
   friend class StateMotion;
+  template <class>
+  friend class WantedMotion;
 
   void set_classes(const LayerStack<S>& stack);
 

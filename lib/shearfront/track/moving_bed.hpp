@@ -36,14 +36,19 @@ struct MovingBed {
   std::vector<StateTangent> states;
   std::vector<std::size_t> torn;  ///< entries
 
-  MovingBed(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
+  MovingBed(const Scene<double>& scene, const TrackOptions& options)
       : setup(scene, tracking_layers(scene, options.resolution), options.resolution, options.grid),
-        motion(GridOfScene<Grid>{setup.grid, setup.stack, setup.wanted, setup.wanted_states}) {
+        motion(of()) {}
+  /// By these entries.
+  void move(const Scene<double>& scene, const std::vector<std::size_t>& wanted) {
     for (const std::size_t entry : wanted) {
       scenes.push_back(scene_tangent(scene, setup.stack, setup.initial, entry));
       states.push_back(motion.tangent(scenes.back()));
       if (states.back().is_torn) torn.push_back(entry);
     }
+  }
+  [[nodiscard]] GridOfScene<Grid> of() const {
+    return {setup.grid, setup.stack, setup.wanted, setup.wanted_states};
   }
 };
 
@@ -73,29 +78,34 @@ struct MovingBed {
   return Scene<double>(std::move(spec));
 }
 
+/// What was done to a scene whose numbers were moved apart.
+[[nodiscard]] inline std::string apart_remark(std::size_t n_moved, bool are_apart) {
+  if (!are_apart)
+    return "two states that are one move apart: derivatives hold to one side of the numbers at most";
+  return std::to_string(n_moved) + " of the numbers moved by some 1e-9, as equal states have no derivative";
+}
+
 /// The bed of a scene whose numbers move, or if that tears states which are one in its grid, of one that is moved apart by so little.
 template <class Grid>
 class BedApart {
  public:
   BedApart(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
-      : bed_(std::make_unique<MovingBed<Grid>>(scene, options, wanted)) {
+      : bed_(std::make_unique<MovingBed<Grid>>(scene, options)) {
+    bed_->move(scene, wanted);
     if (bed_->torn.empty()) return;
-    n_moved_ = bed_->torn.size();
-    bed_ = std::make_unique<MovingBed<Grid>>(moved_apart(scene, options, bed_->torn), options, wanted);
+    const std::vector<std::size_t> torn = bed_->torn;
+    const Scene<double> apart = moved_apart(scene, options, torn);
+    bed_ = std::make_unique<MovingBed<Grid>>(apart, options);
+    bed_->move(apart, wanted);
+    remark_ = apart_remark(torn.size(), bed_->torn.empty());
   }
   [[nodiscard]] const MovingBed<Grid>& bed() const { return *bed_; }
   /// What was done, or could not be; empty if nothing had to be.
-  [[nodiscard]] std::string remark() const {
-    if (n_moved_ == 0) return {};
-    if (!bed_->torn.empty())
-      return "two states that are one move apart: derivatives hold to one side of the numbers at most";
-    return std::to_string(n_moved_) +
-           " of the numbers moved by some 1e-9, as equal states have no derivative";
-  }
+  [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
   std::unique_ptr<MovingBed<Grid>> bed_;
-  std::size_t n_moved_ = 0;
+  std::string remark_;
 };
 
 inline void add_remark(Summary& summary, const std::string& text) {

@@ -15,6 +15,8 @@ namespace shearfront {
 
 template <class Grid>
 class StateMotion;
+template <class Grid>
+class WantedMotion;
 
 /// Grids of states for a bed of one layer, whose flux may have any number of extrema and straight pieces.
 ///
@@ -75,6 +77,8 @@ class OneLayerGrid {
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
   template <class>
   friend class StateMotion;
+  template <class>
+  friend class WantedMotion;
 
   std::vector<S> boundaries_;
   Flux<S> flux_;

@@ -16,6 +16,8 @@ namespace shearfront {
 
 template <class Grid>
 class StateMotion;
+template <class Grid>
+class WantedMotion;
 
 /// Grids of states for layers of any fluxes with one extremum each, of one kind (all minima or all maxima),
 /// convex or not, built on flux LEVELS shared by all layers; or of fluxes that all rise, or all fall: each has
@@ -139,6 +141,8 @@ class UnimodalGrid {
   class Draft;  // levels under construction
   template <class>
   friend class StateMotion;
+  template <class>
+  friend class WantedMotion;
   static constexpr int kLongChord = 8;  // part of the range over which fluxes can be subtracted
 
   [[nodiscard]] static std::size_t index(State i) { return static_cast<std::size_t>(i); }
