@@ -236,8 +236,7 @@ TEST(FitCovariance, AShapeDoesNotSpreadIgnorance) {
 TEST(FitCovariance, NumericJacobiansKnowTheirError) {
   FitSpec spec = two_layers(Quantity::bin, true);
   spec.unknown.parameters = {"shear_rate.scale", "shear_rate.values"};
-  spec.forward.method = Method("front-tracking");
-  spec.forward.method.prefer_smooth(spec.scene);
+  spec.forward.method = Method("godunov");
   const Parts<BinMisfit> parts(spec);
   ASSERT_EQ(parts.at.column_error.size(), 3);
   EXPECT_GT(parts.at.column_error.maxCoeff(), 0);
