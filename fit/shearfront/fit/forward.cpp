@@ -40,7 +40,10 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
     if (!method_.has_linear_integrals()) return;
   }
   const std::vector<Entry> all = shearfront::entries(scene.spec());
-  const auto has_derivative = [&](const Entry& entry) { return method_.has_derivative(scene, entry); };
+  const bool is_staircase = observable == Observable::phi && method_.has_steps();
+  const auto has_derivative = [&](const Entry& entry) {
+    return !is_staircase && method_.has_derivative(scene, entry);
+  };
   has_derivatives_ =
       std::all_of(entries_.begin(), entries_.end(), [&](std::size_t i) { return has_derivative(all[i]); });
   can_linearise_ = has_derivatives_ || std::any_of(all.begin(), all.end(), has_derivative);

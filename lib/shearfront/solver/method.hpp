@@ -45,6 +45,7 @@ class AnySolver {
   [[nodiscard]] virtual LinearTimeline linearise_timeline(const Scene<double>&,
                                                           const std::vector<std::size_t>&,
                                                           std::any&) const = 0;
+  [[nodiscard]] virtual bool has_steps() const = 0;
 };
 
 template <Solver S>
@@ -139,6 +140,12 @@ class Configured final : public AnySolver {
       return {};
     }
   }
+  [[nodiscard]] bool has_steps() const override {
+    if constexpr (requires { S::has_steps(options_); })
+      return S::has_steps(options_);
+    else
+      return false;
+  }
 
  private:
   static constexpr bool kHasLinearIntegrals = requires { &S::linearise_integrals; };
@@ -221,6 +228,8 @@ class Method {
     check_places(scene, places);
     return solver_->linearise(scene, places, entries, memory, progress);
   }
+  /// Whether derivatives of phi say nothing of jumps that move (DifferentiableSolver).
+  [[nodiscard]] bool has_steps() const { return solver_->has_steps(); }
   /// Whether linearise_integrals() and linearise_timeline() do for the entries for which has_derivative().
   [[nodiscard]] bool has_linear_integrals() const { return solver_->has_linear_integrals(); }
   [[nodiscard]] bool has_linear_timeline() const { return solver_->has_linear_timeline(); }

@@ -142,6 +142,8 @@ template <Solver S>
 ///                       `entries` (none: samples only). `memory` is what the solver likes to keep from one call to the
 ///                       next, with numbers near by; empty at first. `progress` as in Watch. Preconditions: both refusals
 ///                       are empty
+///   has_steps           optional: whether phi is constant between jumps that move with the entries. Its derivative at a place is then 0 or
+///                       that of a state, and what a misfit of phi changes with the jumps is not in it
 ///   linearise_integrals, linearise_timeline  optional: the same of int c g(phi / c) dz at some times, 0 <= t <= infinity, where g
 ///                       has a slope, and of the event times
 template <class S>

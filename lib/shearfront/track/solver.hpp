@@ -42,6 +42,7 @@ struct FrontTrackingSolver {
   /// Where every front may cross every layer: how many collisions that may be, from 1e8 on, which take a minute.
   static std::string forewarning(const Scene<double>& scene, const Options& options);
   static std::unique_ptr<Run> start(const Scene<double>& scene, const Options& options, const Watch& watch);
+  static bool has_steps(const Options& options) { return options.reconstruct == Reconstruction::constant; }
   /// See track/linearise.hpp.
   static std::string derivative_refusal(const Scene<double>& scene, const Options& options,
                                         const Entry& entry);
