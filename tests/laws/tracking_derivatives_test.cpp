@@ -157,19 +157,26 @@ class TrackingDerivatives : public testing::TestWithParam<std::string> {
     std::cout << GetParam() << ": " << count.scenes << " scenes, " << count.compared << " compared, "
               << count.other_order << " with another order, " << count.kinks << " kinks\n";
     EXPECT_EQ(count.scenes, n_scenes);
-    EXPECT_GT(count.compared, 3 * n_scenes);
+    EXPECT_GT(count.compared, n_scenes * n_entries);
     EXPECT_LT(count.other_order, n_scenes);
     EXPECT_LT(count.kinks, 2 * n_scenes);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Fluxes, TrackingDerivatives, testing::ValuesIn(support::flux_names()),
-                         [](const auto& flux) {
-                           std::string name = flux.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+std::string test_name(const testing::TestParamInfo<std::string>& flux) {
+  std::string name = flux.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Fluxes, TrackingDerivatives, testing::ValuesIn(support::flux_names()), test_name);
+class SlowTrackingDerivatives : public TrackingDerivatives {};
+INSTANTIATE_TEST_SUITE_P(Fluxes, SlowTrackingDerivatives, testing::ValuesIn(support::flux_names()),
+                         test_name);
 
-TEST_P(TrackingDerivatives, AgreeWithDifferencesIn110Digits) { compare_random_scenes(22, 6, 8100); }
+TEST_P(TrackingDerivatives, AgreeWithDifferencesIn110Digits) { compare_random_scenes(3, 2, 8100); }
+/// More than 200 in all. A power of the settling flux takes a tenth of a millisecond in so many digits.
+TEST_P(SlowTrackingDerivatives, AgreeWithDifferencesIn110Digits) {
+  compare_random_scenes(23, GetParam() == "richardson-zaki" ? 3 : 8, 8200);
+}
 
 /// One pass backwards gives what as many columns forwards do.
 TEST_P(TrackingDerivatives, BackwardsAreThoseForwards) {

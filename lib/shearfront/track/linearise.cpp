@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "shearfront/numeric/number_text.hpp"
@@ -72,9 +71,11 @@ class TangentRun {
       status = tracker.advance_to(t, {options_.max_collisions, progress_});
       if (status != Status::ok && status != Status::steady) break;
       take_samples(tracker, i, end);
-      for (std::size_t first = 0; first < to - from; first += kColumnsAtOnce)
-        take_derivatives(TangentProfile(tracker, bed_.motion, scenes, states, first), i, end, from + first,
-                         std::min(from + first + kColumnsAtOnce, to));
+      if (options_.reconstruct == Reconstruction::constant)
+        take_constant(tracker, i, end, from);
+      else
+        for (std::size_t first = 0; first < to - from; first += kColumnsAtOnce)
+          take_linear(tracker, scenes, states, first, i, end, from);
     }
     summarise(tracker, status);
   }
@@ -86,17 +87,32 @@ class TangentRun {
       result_.samples[order_[i]] = {at.phi, at.M};
     }
   }
-  template <class Tangents>
-  void take_derivatives(const Tangents& tangents, std::size_t begin, std::size_t end, std::size_t from,
-                        std::size_t to) {
-    const auto profile =
-        options_.reconstruct == Reconstruction::linear ? tangents.linear() : tangents.constant();
-    const std::size_t n = bed_.scenes.size();
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto at = profile.at(typename Tangents::Scalar(places_[order_[i]].z));
-      for (std::size_t j = from; j < to; ++j)
-        result_.derivatives[order_[i] * n + j] = {at.phi.d[j - from], at.M.d[j - from]};
-    }
+  void take_constant(const Tracking& tracker, std::size_t begin, std::size_t end, std::size_t from) {
+    std::vector<double> heights;
+    for (std::size_t i = begin; i < end; ++i) heights.push_back(places_[order_[i]].z);
+    const std::size_t n = bed_.scenes.size(), n_columns = tracker.observer().table().n_columns();
+    for_each_constant_tangent(tracker, heights, [&](std::size_t i, const double* phi, const double* M) {
+      Sample* to = &result_.derivatives[order_[begin + i] * n + from];
+      for (std::size_t j = 0; j < n_columns; ++j) to[j] = {phi[j], M[j]};
+    });
+  }
+  /// Of a few columns, with numbers no longer than it takes.
+  void take_linear(const Tracking& tracker, const std::vector<SceneTangent>& scenes,
+                   const std::vector<StateTangent>& states, std::size_t first, std::size_t begin,
+                   std::size_t end, std::size_t from) {
+    const std::size_t n = bed_.scenes.size(), n_columns = std::min(kColumnsAtOnce, scenes.size() - first);
+    const auto take = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
+      const TangentProfile<N, Tracking> tangents(tracker, bed_.motion, scenes, states, first);
+      const Profile<Dual<N>> profile = tangents.linear();
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto at = profile.at(Dual<N>(places_[order_[i]].z));
+        for (std::size_t j = 0; j < n_columns; ++j)
+          result_.derivatives[order_[i] * n + from + first + j] = {at.phi.d[j], at.M.d[j]};
+      }
+    };
+    if (n_columns <= 2) return take(std::integral_constant<std::size_t, 2>{});
+    if (n_columns <= 4) return take(std::integral_constant<std::size_t, 4>{});
+    take(std::integral_constant<std::size_t, kColumnsAtOnce>{});
   }
   void summarise(const Tracking& tracker, Status status) {
     Summary& summary = result_.summary;

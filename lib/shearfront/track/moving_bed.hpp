@@ -18,12 +18,12 @@
 
 namespace shearfront::track_detail {
 
-/// Numbers of the places in the order of their times.
+/// Numbers of the places in the order of their times and heights.
 [[nodiscard]] inline std::vector<std::size_t> by_time(const std::vector<Place>& places) {
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return places[a].t < places[b].t; });
+                   [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
   return order;
 }
 

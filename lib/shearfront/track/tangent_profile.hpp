@@ -16,7 +16,7 @@ namespace shearfront {
 
 /// The solution of a tracker whose fronts carry derivatives, at its time, N entries at once: what a tracker is to linear_profile(), with
 /// numbers that carry their derivatives. So derivatives are those of the lines that the run itself returns.
-template <class AnyTracker, std::size_t N = 8>
+template <std::size_t N, class AnyTracker>
 class TangentProfile {
  public:
   using Scalar = Dual<N>;
@@ -67,12 +67,6 @@ class TangentProfile {
     s.state.pop_back();
     return s;
   }
-  [[nodiscard]] Profile<Scalar> constant() const {
-    Snapshot<Scalar> s = snapshot();
-    std::vector<Scalar> values;
-    for (std::size_t i = 0; i < s.state.size(); ++i) values.push_back(phi(s.layer[i], s.state[i]));
-    return {std::move(s.z), values, values};
-  }
   [[nodiscard]] Profile<Scalar> linear() const { return linear_profile(*this); }
 
  private:
@@ -91,5 +85,45 @@ class TangentProfile {
   const std::vector<StateTangent>& states_;
   std::size_t first_;
 };
+
+/// Derivatives of the solution that is constant between fronts, all columns at once, at heights in ascending order: calls
+/// take(i, phi, M) with the derivatives at heights[i] by column. By one sweep from the bottom up,
+///
+///     dM = sum over the cells below (dphi_j (z_j+1 - z_j) + phi_j (dz_j+1 - dz_j)).
+///
+/// Cost: O(columns (fronts + heights)).
+template <class AnyTracker, class Take>
+void for_each_constant_tangent(const AnyTracker& tracker, const std::vector<double>& heights, Take&& take) {
+  const FrontTangents& tangents = tracker.observer();
+  const TangentTable& table = tangents.table();
+  const std::size_t n = table.n_columns();
+  std::vector<double> sum(n, 0.0), low(n), high(n), M(n);
+  double z_low = 0;
+  std::size_t layer = 0, next = 0;
+  State state = 0;
+  bool is_first = true;
+  tracker.for_each_node([&](bool is_boundary, const FrontView<double>& node, double z) {
+    const bool is_top = is_boundary && node.layer == tracker.grid().n_layers();
+    if (is_boundary) {
+      std::copy_n(table.boundary(node.layer), n, high.begin());
+    } else {
+      tangents.moved(node, tracker.time(), high.data());
+      z = std::max(std::min(z, tracker.grid().boundary(node.layer + 1)), z_low);
+    }
+    if (!is_first) {
+      const double phi = tracker.grid().phi(layer, state), width = z - z_low;
+      const double* by = table.phi(layer, state);
+      for (; next < heights.size() && (is_top || heights[next] < z); ++next) {
+        const double above = heights[next] - z_low;
+        for (std::size_t j = 0; j < n; ++j) M[j] = sum[j] + by[j] * above - phi * low[j];
+        take(next, by, M.data());
+      }
+      for (std::size_t j = 0; j < n; ++j) sum[j] += by[j] * width + phi * (high[j] - low[j]);
+    }
+    is_first = false;
+    z_low = z, layer = node.layer, state = node.above;
+    low.swap(high);
+  });
+}
 
 }  // namespace shearfront
