@@ -91,10 +91,10 @@ class GradientBed {
 };
 
 template <class Grid>
-TrackingGradient gradient_on(const Scene<double>& scene, const TrackOptions& options,
-                             const std::vector<Place>& places,
-                             const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
-                             const std::vector<std::size_t>& wanted, const Progress& progress) {
+TrackingGradient tracking_gradient_on(
+    const Scene<double>& scene, const TrackOptions& options, const std::vector<Place>& places,
+    const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
+    const std::vector<std::size_t>& wanted, const Progress& progress) {
   const GradientBed<Grid> apart(scene, options, wanted);
   const track_detail::MovingBed<Grid>& bed = apart.bed();
   Tracker<Grid, FrontTape> tracker(bed.setup.grid, bed.setup.pieces, bed.setup.ends,
@@ -142,7 +142,7 @@ TrackingGradient tracking_gradient(
     const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
     const std::vector<std::size_t>& wanted, const Progress& progress) {
   return track_detail::with_grid(scene, exact_layers(scene), [&]<class Grid>(std::type_identity<Grid>) {
-    return gradient_on<Grid>(scene, options, places, weigh, wanted, progress);
+    return tracking_gradient_on<Grid>(scene, options, places, weigh, wanted, progress);
   });
 }
 

@@ -19,10 +19,6 @@
 namespace shearfront {
 namespace {
 
-using track_detail::add_remark;
-using track_detail::BedApart;
-using track_detail::by_time;
-
 constexpr std::size_t kColumnsAtOnce = 8;  // fill vector registers
 
 template <class Grid>
@@ -33,7 +29,11 @@ class TangentRun {
 
   TangentRun(const Bed& bed, const TrackOptions& options, const std::vector<Place>& places,
              const Progress& progress)
-      : bed_(bed), options_(options), places_(places), order_(by_time(places)), progress_(progress) {
+      : bed_(bed),
+        options_(options),
+        places_(places),
+        order_(track_detail::by_time(places)),
+        progress_(progress) {
     result_.samples.resize(places.size());
     result_.derivatives.resize(places.size() * bed.scenes.size());
   }
@@ -135,22 +135,22 @@ class TangentRun {
 };
 
 template <class Grid>
-Linearisation linearised_on(const Scene<double>& scene, const TrackOptions& options,
-                            const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
-                            const Progress& progress) {
-  const BedApart<Grid> bed(scene, options, wanted);
+Linearisation linearised_tracking_on(const Scene<double>& scene, const TrackOptions& options,
+                                     const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
+                                     const Progress& progress) {
+  const track_detail::BedApart<Grid> bed(scene, options, wanted);
   Linearisation result = TangentRun<Grid>(bed.bed(), options, places, progress).run();
-  add_remark(result.summary, bed.remark());
+  track_detail::add_remark(result.summary, bed.remark());
   return result;
 }
 
 /// A run without derivatives.
-Linearisation sampled(const Scene<double>& scene, const TrackOptions& options,
-                      const std::vector<Place>& places, const Progress& progress) {
+Linearisation tracked_samples(const Scene<double>& scene, const TrackOptions& options,
+                              const std::vector<Place>& places, const Progress& progress) {
   Linearisation result;
   result.samples.resize(places.size());
   Tracking tracking(scene, options, progress);
-  const std::vector<std::size_t> order = by_time(places);
+  const std::vector<std::size_t> order = track_detail::by_time(places);
   for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
     const double t = places[order[i]].t;
     const Status status = tracking.advance(t);
@@ -177,7 +177,7 @@ std::string tracking_derivative_refusal(const Scene<double>& scene, const TrackO
 Linearisation linearise_tracking(const Scene<double>& scene, const TrackOptions& options,
                                  const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                                  const Progress& progress) {
-  if (wanted.empty()) return sampled(scene, options, places, progress);
+  if (wanted.empty()) return tracked_samples(scene, options, places, progress);
   if (scene.spec().is_periodic &&
       std::any_of(places.begin(), places.end(), [](const Place& p) { return !std::isfinite(p.t); })) {
     Linearisation result;
@@ -186,7 +186,7 @@ Linearisation linearise_tracking(const Scene<double>& scene, const TrackOptions&
     return result;
   }
   return track_detail::with_grid(scene, exact_layers(scene), [&]<class Grid>(std::type_identity<Grid>) {
-    return linearised_on<Grid>(scene, options, places, wanted, progress);
+    return linearised_tracking_on<Grid>(scene, options, places, wanted, progress);
   });
 }
 

@@ -76,7 +76,7 @@ void for_each_layer_height(const NumberOfScene& number, Visit&& visit) {
   for (std::size_t i = 0; i < spec.flux_breaks.size(); ++i) visit(spec.flux_breaks[i], i == above);
 }
 
-std::size_t entry_number(const Scene<double>& scene, const Entry& entry) {
+std::size_t number_among_entries(const Scene<double>& scene, const Entry& entry) {
   const std::vector<Entry> all = entries(scene.spec());
   const auto it = std::find_if(all.begin(), all.end(), [&](const Entry& other) {
     return other.field == entry.field && other.index == entry.index;
@@ -94,7 +94,7 @@ std::string tangent_refusal(const Scene<double>& scene, const Entry& entry) {
     if (!flux_tangent(flux)) return "flux " + std::string(flux.name()) + " is not one of the toolkit";
   for (const char* other : {"diffusion.", "close_packing."})
     if (entry.field.starts_with(other)) return entry.name() + " moves no front";
-  const std::size_t i = entry_number(scene, entry);
+  const std::size_t i = number_among_entries(scene, entry);
   if (i == kNoEntry) return entry.name() + " is no entry of the scene";
   const NumberOfScene number(scene, i);
   // How many of the heights lie where this one does.

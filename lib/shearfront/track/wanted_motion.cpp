@@ -6,7 +6,7 @@
 namespace shearfront {
 namespace {
 
-std::size_t place(State i) { return static_cast<std::size_t>(i); }
+std::size_t state_place(State i) { return static_cast<std::size_t>(i); }
 
 /// d(rate secant(x_l, x_r)) / d(phi) of both states, which are x times the solid fraction.
 void add_secant(const Flux<double>& flux, double rate, double solid_fraction, double x_l, double x_r,
@@ -31,21 +31,21 @@ void add_chord(const Grid& grid, const StateRows& rows, std::size_t layer, State
 
 WantedMotion<LevelGrid<double>>::WantedMotion(const GridOfScene<Grid>& of, const StateRows& rows)
     : of_(of), rows_(rows), n_wanted_(of.grid.levels_.size()) {
-  for (std::size_t n = 0; n < of.wanted.size(); ++n) ++n_wanted_[place(level(n))];
+  for (std::size_t n = 0; n < of.wanted.size(); ++n) ++n_wanted_[state_place(level(n))];
 }
 
 bool WantedMotion<LevelGrid<double>>::is_torn(const std::vector<std::size_t>& group) const {
   const Grid& grid = of_.grid;
   return std::any_of(group.begin(), group.end(), [&](std::size_t n) {
     const State i = level(n);
-    const Grid::Level& at = grid.levels_[place(i)];
+    const Grid::Level& at = grid.levels_[state_place(i)];
     const auto n_own = std::count_if(group.begin(), group.end(), [&](std::size_t m) {
       return level(m) == i && of_.wanted[m].phi == of_.wanted[n].phi;
     });
     return at.value == 0 || (at.home >= 0 && at.p + at.p == 1) ||
            (at.home >= 0 &&
             at.home != static_cast<std::int32_t>(grid.layer_capacity_[of_.wanted[n].layer])) ||
-           n_wanted_[place(i)] != static_cast<std::uint32_t>(n_own);
+           n_wanted_[state_place(i)] != static_cast<std::uint32_t>(n_own);
   });
 }
 
@@ -57,7 +57,7 @@ void WantedMotion<LevelGrid<double>>::shifts(std::size_t n, std::vector<StateShi
   const Grid& grid = of_.grid;
   const std::size_t layer = of_.wanted[n].layer, home = grid.layer_capacity_[layer];
   const State i = level(n);
-  const Grid::Level& at = grid.levels_[place(i)];
+  const Grid::Level& at = grid.levels_[state_place(i)];
   const StateRange<double> range = of_.stack.flux(layer).range();
   const double width = range.highest - range.lowest;
   // Of p, the smaller of u and 1 - u.
@@ -67,10 +67,9 @@ void WantedMotion<LevelGrid<double>>::shifts(std::size_t n, std::vector<StateShi
   };
   const bool is_on_chord = at.home == Grid::kOnChord;
   const double along = is_on_chord ? p_by / chord(layer) : 0;
-  const double level_by =
-      is_on_chord
-          ? along * (grid.levels_[place(at.vertex_above)].value - grid.levels_[place(at.vertex_below)].value)
-          : 4 * grid.classes_[home].capacity * (1 - 2 * at.p) * p_by;
+  const double level_by = is_on_chord ? along * (grid.levels_[state_place(at.vertex_above)].value -
+                                                 grid.levels_[state_place(at.vertex_below)].value)
+                                      : 4 * grid.classes_[home].capacity * (1 - 2 * at.p) * p_by;
   for (std::size_t k = 0; k < grid.n_layers(); ++k) {
     const std::size_t id = grid.layer_capacity_[k];
     if (i > grid.classes_[id].top) continue;
@@ -115,7 +114,7 @@ WantedMotion<UnimodalGrid<double>>::WantedMotion(const GridOfScene<Grid>& of, co
   using Role = Grid::Special::Role;
   for (std::size_t s = 0; s < of.grid.specials_.size(); ++s) {
     const Grid::Special& special = of.grid.specials_[s];
-    ++n_special_[place(special.level)];
+    ++n_special_[state_place(special.level)];
     if (special.role == Role::wanted) special_of_[special.number] = s;
     if (special.role == Role::first_end) first_falling_[special.id] = special.level;
     if (special.role == Role::last_end) first_rising_[special.id] = special.level;
@@ -130,7 +129,7 @@ bool WantedMotion<UnimodalGrid<double>>::is_torn(const std::vector<std::size_t>&
     const auto n_own = std::count_if(group.begin(), group.end(), [&](std::size_t m) {
       return special(m).level == special(n).level && special(m).id == special(n).id;
     });
-    return n_special_[place(special(n).level)] != static_cast<std::uint32_t>(n_own);
+    return n_special_[state_place(special(n).level)] != static_cast<std::uint32_t>(n_own);
   });
 }
 
@@ -181,8 +180,9 @@ void WantedMotion<UnimodalGrid<double>>::shifts(std::size_t n, std::vector<State
             last, all);
   // And the levels that were made by steps from this one, up to the next that was given.
   const auto n_levels = static_cast<State>(grid.levels_.size());
-  for (State i = special.level + 1; i < n_levels && grid.makers_[place(i)].id != Grid::Maker::kNone; ++i) {
-    const Grid::Maker& maker = grid.makers_[place(i)];
+  for (State i = special.level + 1; i < n_levels && grid.makers_[state_place(i)].id != Grid::Maker::kNone;
+       ++i) {
+    const Grid::Maker& maker = grid.makers_[state_place(i)];
     const double by = maker.is_falling ? last[maker.id].falling : last[maker.id].rising;
     add_level(i, level_by(maker.id, state(maker.id, i, maker.is_falling), by), last, all);
   }
@@ -199,14 +199,14 @@ WantedMotion<OneLayerGrid<double>>::WantedMotion(const GridOfScene<Grid>& of, co
     : of_(of), rows_(rows), n_roles_(rows.n()) {
   ++n_roles_.front(), ++n_roles_.back();
   for (const auto* all : {&of.grid.extrema_, &of.grid.zeros_, &of.states})
-    for (const State i : *all) ++n_roles_[place(i)];
+    for (const State i : *all) ++n_roles_[state_place(i)];
 }
 
 bool WantedMotion<OneLayerGrid<double>>::is_torn(const std::vector<std::size_t>& group) const {
   return std::any_of(group.begin(), group.end(), [&](std::size_t n) {
     const auto n_own = std::count_if(group.begin(), group.end(),
                                      [&](std::size_t m) { return of_.states[m] == of_.states[n]; });
-    return n_roles_[place(of_.states[n])] != static_cast<std::uint32_t>(n_own);
+    return n_roles_[state_place(of_.states[n])] != static_cast<std::uint32_t>(n_own);
   });
 }
 
@@ -226,7 +226,7 @@ void WantedMotion<OneLayerGrid<double>>::shifts(std::size_t n, std::vector<State
   for (const State step : {-1, 1}) {
     State end = own + step;
     if (end < 0 || end >= grid.n_states(0)) continue;
-    while (n_roles_[place(end)] == 0) end += step;
+    while (n_roles_[state_place(end)] == 0) end += step;
     const double x = grid.polygon_.share(own), x_end = grid.polygon_.share(end);
     for (State i = own + step; i != end; i += step) add(i, (grid.polygon_.share(i) - x_end) / (x - x_end));
   }
