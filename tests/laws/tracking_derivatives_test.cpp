@@ -7,7 +7,6 @@
 #include <any>
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -154,8 +153,8 @@ class TrackingDerivatives : public testing::TestWithParam<std::string> {
         wanted.erase(wanted.begin() + make.integer(0, static_cast<int>(wanted.size()) - 1));
       compare(scene, options, support::random_places(make, scene, 3), wanted, label, count);
     }
-    std::cout << GetParam() << ": " << count.scenes << " scenes, " << count.compared << " compared, "
-              << count.other_order << " with another order, " << count.kinks << " kinks\n";
+    RecordProperty("compared", count.compared);
+    RecordProperty("kinks", count.kinks);
     EXPECT_EQ(count.scenes, n_scenes);
     EXPECT_GT(count.compared, n_scenes * n_entries);
     EXPECT_LT(count.other_order, n_scenes);

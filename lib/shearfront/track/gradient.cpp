@@ -48,8 +48,8 @@ class GradientBed {
     for (const std::size_t entry : wanted_) {
       const StartEntries::Entry& start = (*starts_)[entry];
       if (!start.is_any()) {
-        all.push_back(adjoints.along(bed_->motion, bed_->scenes[n_general], bed_->states[n_general]));
-        ++n_general;
+        const track_detail::MotionColumn column = bed_->column(n_general++);
+        all.push_back(adjoints.along(bed_->motion(), column.scene, column.states));
         continue;
       }
       shifts.clear();
@@ -68,15 +68,15 @@ class GradientBed {
  private:
   void make(const Scene<double>& scene, const TrackOptions& options) {
     bed_ = std::make_unique<track_detail::MovingBed<Grid>>(scene, options);
-    starts_.emplace(scene, bed_->setup.initial);
+    starts_.emplace(scene, bed_->setup().initial);
     std::vector<std::size_t> general;
     for (const std::size_t entry : wanted_)
       if (!(*starts_)[entry].is_any()) general.push_back(entry);
-    bed_->move(scene, general);
-    motion_.emplace(bed_->of(), bed_->motion.rows());
+    bed_->move(general);
+    motion_.emplace(bed_->of(), bed_->motion().rows());
   }
   [[nodiscard]] std::vector<std::size_t> torn() const {
-    std::vector<std::size_t> all = bed_->torn;
+    std::vector<std::size_t> all = bed_->torn();
     for (const std::size_t entry : wanted_)
       if (const auto& group = (*starts_)[entry].wanted; !group.empty() && motion_->is_torn(group))
         all.push_back(entry);
@@ -97,8 +97,8 @@ TrackingGradient tracking_gradient_on(
     const std::vector<std::size_t>& wanted, const Progress& progress) {
   const GradientBed<Grid> apart(scene, options, wanted);
   const track_detail::MovingBed<Grid>& bed = apart.bed();
-  Tracker<Grid, FrontTape> tracker(bed.setup.grid, bed.setup.pieces, bed.setup.ends,
-                                   FrontTape(bed.setup.initial.tops),
+  Tracker<Grid, FrontTape> tracker(bed.setup().grid, bed.setup().pieces, bed.setup().ends,
+                                   FrontTape(bed.setup().initial.tops),
                                    static_cast<std::size_t>(options.max_fronts));
   TrackingGradient result;
   result.samples.resize(places.size());
@@ -123,14 +123,14 @@ TrackingGradient tracking_gradient_on(
   summary.message = track_detail::message_of(status, tracker.n_collisions(), tracker.n_unreachable());
   summary.collisions = tracker.n_collisions();
   summary.fronts_max = tracker.n_fronts_max();
-  summary.levels = bed.setup.grid.n_levels();
-  summary.layers = bed.setup.stack.n_layers();
+  summary.levels = bed.setup().grid.n_levels();
+  summary.layers = bed.setup().stack.n_layers();
   if (!summary.usable()) return result;
   summary.remark = tracker.observer().order().remark();
   track_detail::add_remark(summary, apart.remark());
   const Adjoints adjoints = tracker.observer().adjoints(
-      bed.setup.grid, bed.motion.rows(), bed.setup.pieces.size(), bed.setup.ends.changes.size(), snapshots,
-      places, snapshot_of, weigh(result.samples));
+      bed.setup().grid, bed.motion().rows(), bed.setup().pieces.size(), bed.setup().ends.changes.size(),
+      snapshots, places, snapshot_of, weigh(result.samples));
   result.gradient = apart.gradient(adjoints);
   return result;
 }

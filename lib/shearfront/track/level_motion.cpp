@@ -7,6 +7,7 @@ namespace shearfront {
 /// Of one column: per class its capacity, per level its value and, where that is known by itself, the place of its state.
 struct StateMotion<LevelGrid<double>>::Moved {
   std::vector<double> capacity, level, chord;
+  std::vector<std::size_t> layer_of;    ///< per class: one of its layers
   std::vector<double> lowest, highest;  ///< per layer: of the states
   std::vector<double> place;            ///< per level: of p at home
   std::vector<bool> is_wanted;
@@ -16,6 +17,7 @@ struct StateMotion<LevelGrid<double>>::Moved {
 void StateMotion<LevelGrid<double>>::move_classes(const SceneTangent& by, Moved& moved) const {
   const Grid& grid = of_.grid;
   moved.capacity.assign(grid.classes_.size(), 0.0);
+  moved.layer_of.assign(grid.classes_.size(), 0);
   std::vector<bool> is_known(grid.classes_.size());
   for (std::size_t k = 0; k < grid.n_layers(); ++k) {
     const std::size_t f = of_.stack.flux_index(k);
@@ -30,6 +32,7 @@ void StateMotion<LevelGrid<double>>::move_classes(const SceneTangent& by, Moved&
     if (is_known[id]) moved.capacities.compare(capacity, moved.capacity[id]);
     moved.capacities.see(capacity);
     moved.capacity[id] = capacity;
+    moved.layer_of[id] = k;
     is_known[id] = true;
   }
 }
@@ -94,8 +97,7 @@ double StateMotion<LevelGrid<double>>::place_tangent(std::size_t id, State i, co
   const Grid::Level& level = grid.levels_[Grid::index(i)];
   if (level.value == 0) return 0;
   if (level.home == static_cast<std::int32_t>(id)) return moved.place[Grid::index(i)];
-  std::size_t layer = 0;
-  while (grid.layer_capacity_[layer] != id) ++layer;
+  const std::size_t layer = moved.layer_of[id];
   if (level.home == Grid::kOnChord) {
     const double lo = place_tangent(id, level.vertex_below, moved),
                  hi = place_tangent(id, level.vertex_above, moved);
@@ -107,7 +109,7 @@ double StateMotion<LevelGrid<double>>::place_tangent(std::size_t id, State i, co
   return (moved.level[Grid::index(i)] - 4 * p * (1 - p) * moved.capacity[id]) / (4 * c * (1 - 2 * p));
 }
 
-void StateMotion<LevelGrid<double>>::move_chords(const SceneTangent&, Moved& moved) const {
+void StateMotion<LevelGrid<double>>::move_chords(Moved& moved) const {
   const Grid& grid = of_.grid;
   for (std::size_t i = 0; i < grid.levels_.size(); ++i) {
     const Grid::Level& level = grid.levels_[i];
@@ -136,7 +138,7 @@ StateTangent StateMotion<LevelGrid<double>>::tangent(const SceneTangent& by) con
   move_classes(by, moved);
   move_wanted(by, moved);
   move_levels(moved);
-  move_chords(by, moved);
+  move_chords(moved);
   StateTangent all;
   all.is_torn = moved.capacities.are_any() || moved.places.are_any();
   all.phi.resize(rows_.n()), all.flux.resize(rows_.n());
@@ -148,9 +150,10 @@ StateTangent StateMotion<LevelGrid<double>>::tangent(const SceneTangent& by) con
       if (grid.layer_capacity_[k] != id) continue;
       for (State s = 0; s < grid.n_states(k); ++s) {
         const State i = grid.level(k, s);
-        const double p_by = place[Grid::index(i)], u_by = s == i ? p_by : -p_by, u = grid.unit_phi(k, s);
+        const double p_by = place[Grid::index(i)], u_by = s == i ? p_by : -p_by;
+        const double range_by = moved.highest[k] - moved.lowest[k],
+                     u = range_by != 0 ? grid.unit_phi(k, s) : 0;
         const std::size_t row = rows_(k, s);
-        const double range_by = moved.highest[k] - moved.lowest[k];
         all.phi[row] = grid.is_reversed_ ? moved.highest[k] - range_by * u - width(k) * u_by
                                          : moved.lowest[k] + range_by * u + width(k) * u_by;
         all.flux[row] = grid.is_reversed_ ? moved.level[Grid::index(i)] : -moved.level[Grid::index(i)];

@@ -35,16 +35,14 @@ class TangentRun {
         order_(track_detail::by_time(places)),
         progress_(progress) {
     result_.samples.resize(places.size());
-    result_.derivatives.resize(places.size() * bed.scenes.size());
+    result_.derivatives.resize(places.size() * bed.n_columns());
   }
 
   /// All columns, as many at once as memory should hold.
   [[nodiscard]] Linearisation run() {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-    const std::size_t per_column = 2 * sizeof(double) * (bed_.motion.rows().n() + 1);
-    const std::size_t most = std::max(kColumnsAtOnce, kMostBytes / per_column);
-    for (std::size_t from = 0; from < bed_.scenes.size(); from += most) {
-      run_columns(from, std::min(from + most, bed_.scenes.size()));
+    const std::size_t most = bed_.most_columns();
+    for (std::size_t from = 0; from < bed_.n_columns(); from += most) {
+      run_columns(from, std::min(from + most, bed_.n_columns()));
       if (!result_.summary.usable()) break;
     }
     return std::move(result_);
@@ -52,16 +50,17 @@ class TangentRun {
 
  private:
   void run_columns(std::size_t from, std::size_t to) {
-    TangentTable table(bed_.motion.rows(), to - from);
-    for (std::size_t j = from; j < to; ++j) table.set(j - from, bed_.scenes[j], bed_.states[j]);
-    const std::vector<SceneTangent> scenes(bed_.scenes.begin() + static_cast<std::ptrdiff_t>(from),
-                                           bed_.scenes.begin() + static_cast<std::ptrdiff_t>(to));
-    const std::vector<StateTangent> states(bed_.states.begin() + static_cast<std::ptrdiff_t>(from),
-                                           bed_.states.begin() + static_cast<std::ptrdiff_t>(to));
-    Tracking tracker(bed_.setup.grid, bed_.setup.pieces, bed_.setup.ends,
-                     FrontTangents(table, bed_.setup.initial.tops,
+    TangentTable table(bed_.motion().rows(), to - from);
+    std::vector<track_detail::MotionColumn> columns;
+    for (std::size_t j = from; j < to; ++j) {
+      columns.push_back(bed_.column(j));
+      table.set(j - from, columns.back().scene, columns.back().states);
+    }
+    Tracking tracker(bed_.setup().grid, bed_.setup().pieces, bed_.setup().ends,
+                     FrontTangents(table, bed_.setup().initial.tops,
                                    [&](std::size_t column, std::size_t layer, State l, State r) {
-                                     return bed_.motion.speed(scenes[column], states[column], layer, l, r);
+                                     return bed_.motion().speed(columns[column].scene, columns[column].states,
+                                                                layer, l, r);
                                    }),
                      static_cast<std::size_t>(options_.max_fronts));
     Status status = Status::ok;
@@ -75,7 +74,7 @@ class TangentRun {
         take_constant(tracker, i, end, from);
       else
         for (std::size_t first = 0; first < to - from; first += kColumnsAtOnce)
-          take_linear(tracker, scenes, states, first, i, end, from);
+          take_linear(tracker, columns, first, i, end, from);
     }
     summarise(tracker, status);
   }
@@ -90,19 +89,18 @@ class TangentRun {
   void take_constant(const Tracking& tracker, std::size_t begin, std::size_t end, std::size_t from) {
     std::vector<double> heights;
     for (std::size_t i = begin; i < end; ++i) heights.push_back(places_[order_[i]].z);
-    const std::size_t n = bed_.scenes.size(), n_columns = tracker.observer().table().n_columns();
+    const std::size_t n = bed_.n_columns(), n_columns = tracker.observer().table().n_columns();
     for_each_constant_tangent(tracker, heights, [&](std::size_t i, const double* phi, const double* M) {
       Sample* to = &result_.derivatives[order_[begin + i] * n + from];
       for (std::size_t j = 0; j < n_columns; ++j) to[j] = {phi[j], M[j]};
     });
   }
   /// Of a few columns, with numbers no longer than it takes.
-  void take_linear(const Tracking& tracker, const std::vector<SceneTangent>& scenes,
-                   const std::vector<StateTangent>& states, std::size_t first, std::size_t begin,
-                   std::size_t end, std::size_t from) {
-    const std::size_t n = bed_.scenes.size(), n_columns = std::min(kColumnsAtOnce, scenes.size() - first);
+  void take_linear(const Tracking& tracker, const std::vector<track_detail::MotionColumn>& columns,
+                   std::size_t first, std::size_t begin, std::size_t end, std::size_t from) {
+    const std::size_t n = bed_.n_columns(), n_columns = std::min(kColumnsAtOnce, columns.size() - first);
     const auto take = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
-      const TangentProfile<N, Tracking> tangents(tracker, bed_.motion, scenes, states, first);
+      const TangentProfile<N, Tracking> tangents(tracker, bed_.motion(), columns, first);
       const Profile<Dual<N>> profile = tangents.linear();
       for (std::size_t i = begin; i < end; ++i) {
         const auto at = profile.at(Dual<N>(places_[order_[i]].z));
@@ -121,8 +119,8 @@ class TangentRun {
     if (tracker.has_too_many_fronts()) summary.message = "stopped at more fronts than allowed";
     summary.collisions = tracker.n_collisions();
     summary.fronts_max = tracker.n_fronts_max();
-    summary.levels = bed_.setup.grid.n_levels();
-    summary.layers = bed_.setup.stack.n_layers();
+    summary.levels = bed_.setup().grid.n_levels();
+    summary.layers = bed_.setup().stack.n_layers();
     summary.remark = tracker.observer().order().remark();
   }
 

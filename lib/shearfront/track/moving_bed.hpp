@@ -27,29 +27,65 @@ namespace shearfront::track_detail {
   return order;
 }
 
-/// A scene with a grid and how its states move.
-template <class Grid>
-struct MovingBed {
-  TrackingSetup<double, Grid> setup;
-  StateMotion<Grid> motion;
-  std::vector<SceneTangent> scenes;  ///< per entry
-  std::vector<StateTangent> states;
-  std::vector<std::size_t> torn;  ///< entries
+/// Derivatives with respect to one entry of all that a run is made of.
+struct MotionColumn {
+  SceneTangent scene;
+  StateTangent states;
+};
 
+/// A scene with its grid and how its states move with some entries.
+template <class Grid>
+class MovingBed {
+ public:
   MovingBed(const Scene<double>& scene, const TrackOptions& options)
-      : setup(scene, tracking_layers(scene, options.resolution), options.resolution, options.grid),
-        motion(of()) {}
-  /// By these entries.
-  void move(const Scene<double>& scene, const std::vector<std::size_t>& wanted) {
-    for (const std::size_t entry : wanted) {
-      scenes.push_back(scene_tangent(scene, setup.stack, setup.initial, entry));
-      states.push_back(motion.tangent(scenes.back()));
-      if (states.back().is_torn) torn.push_back(entry);
+      : scene_(scene),
+        setup_(scene_, tracking_layers(scene_, options.resolution), options.resolution, options.grid),
+        motion_(of()) {}
+  MovingBed(const MovingBed&) = delete;  // the motion refers to the grid
+  MovingBed& operator=(const MovingBed&) = delete;
+
+  void move(const std::vector<std::size_t>& entries) {
+    entries_ = entries;
+    std::size_t bytes = 0;
+    for (const std::size_t entry : entries_) {
+      MotionColumn made = make(entry);
+      if (made.states.is_torn) torn_.push_back(entry);
+      bytes += bytes_per_column();
+      if (bytes <= kMostBytes) kept_.push_back(std::move(made));
     }
   }
-  [[nodiscard]] GridOfScene<Grid> of() const {
-    return {setup.grid, setup.stack, setup.wanted, setup.wanted_states};
+  [[nodiscard]] std::size_t n_columns() const { return entries_.size(); }
+  /// With respect to the entry of number j among those given.
+  [[nodiscard]] MotionColumn column(std::size_t j) const {
+    return j < kept_.size() ? kept_[j] : make(entries_[j]);
   }
+  /// How many columns a table of them should have at most.
+  [[nodiscard]] std::size_t most_columns() const {
+    constexpr std::size_t kLeast = 8;
+    return std::max(kLeast, kMostBytes / bytes_per_column());
+  }
+  /// Entries that move states apart which are one in the grid.
+  [[nodiscard]] const std::vector<std::size_t>& torn() const { return torn_; }
+  [[nodiscard]] const TrackingSetup<double, Grid>& setup() const { return setup_; }
+  [[nodiscard]] const StateMotion<Grid>& motion() const { return motion_; }
+  [[nodiscard]] GridOfScene<Grid> of() const {
+    return {setup_.grid, setup_.stack, setup_.wanted, setup_.wanted_states};
+  }
+
+ private:
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  [[nodiscard]] std::size_t bytes_per_column() const { return 2 * sizeof(double) * (motion_.rows().n() + 1); }
+  [[nodiscard]] MotionColumn make(std::size_t entry) const {
+    SceneTangent by = scene_tangent(scene_, setup_.stack, setup_.initial, entry);
+    StateTangent states = motion_.tangent(by);
+    return {std::move(by), std::move(states)};
+  }
+
+  Scene<double> scene_;
+  TrackingSetup<double, Grid> setup_;
+  StateMotion<Grid> motion_;
+  std::vector<std::size_t> entries_, torn_;
+  std::vector<MotionColumn> kept_;  ///< the first ones, as far as memory should go
 };
 
 /// The entries given moved by some 1e-9 of their size, each by another part of it, so that what is equal is so no more.
@@ -91,13 +127,12 @@ class BedApart {
  public:
   BedApart(const Scene<double>& scene, const TrackOptions& options, const std::vector<std::size_t>& wanted)
       : bed_(std::make_unique<MovingBed<Grid>>(scene, options)) {
-    bed_->move(scene, wanted);
-    if (bed_->torn.empty()) return;
-    const std::vector<std::size_t> torn = bed_->torn;
-    const Scene<double> apart = moved_apart(scene, options, torn);
-    bed_ = std::make_unique<MovingBed<Grid>>(apart, options);
-    bed_->move(apart, wanted);
-    remark_ = apart_remark(torn.size(), bed_->torn.empty());
+    bed_->move(wanted);
+    if (bed_->torn().empty()) return;
+    const std::vector<std::size_t> torn = bed_->torn();
+    bed_ = std::make_unique<MovingBed<Grid>>(moved_apart(scene, options, torn), options);
+    bed_->move(wanted);
+    remark_ = apart_remark(torn.size(), bed_->torn().empty());
   }
   [[nodiscard]] const MovingBed<Grid>& bed() const { return *bed_; }
   /// What was done, or could not be; empty if nothing had to be.

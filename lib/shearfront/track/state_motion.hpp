@@ -91,7 +91,7 @@ class StateMotion<LevelGrid<double>> {
   void move_classes(const SceneTangent& by, Moved& moved) const;
   void move_wanted(const SceneTangent& by, Moved& moved) const;
   void move_levels(Moved& moved) const;
-  void move_chords(const SceneTangent& by, Moved& moved) const;
+  void move_chords(Moved& moved) const;
   [[nodiscard]] double place_tangent(std::size_t id, State level, const Moved& moved) const;
   [[nodiscard]] double width(std::size_t layer) const;
 

@@ -2,12 +2,14 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "shearfront/numeric/dual.hpp"
 #include "shearfront/solution/profile.hpp"
 #include "shearfront/track/front_tangents.hpp"
+#include "shearfront/track/moving_bed.hpp"
 #include "shearfront/track/reconstruct.hpp"
 #include "shearfront/track/snapshot.hpp"
 #include "shearfront/track/state_motion.hpp"
@@ -24,9 +26,8 @@ class TangentProfile {
 
   /// Columns first ... first + N - 1; those beyond the last are 0.
   TangentProfile(const AnyTracker& tracker, const StateMotion<Grid>& motion,
-                 const std::vector<SceneTangent>& scenes, const std::vector<StateTangent>& states,
-                 std::size_t first)
-      : tracker_(tracker), motion_(motion), scenes_(scenes), states_(states), first_(first) {}
+                 const std::vector<track_detail::MotionColumn>& columns, std::size_t first)
+      : tracker_(tracker), motion_(motion), columns_(columns), first_(first) {}
 
   [[nodiscard]] const TangentProfile& grid() const { return *this; }
   [[nodiscard]] Scalar phi(std::size_t layer, State i) const {
@@ -38,7 +39,7 @@ class TangentProfile {
   [[nodiscard]] Scalar fan_rate(std::size_t layer, State l, State r) const {
     Scalar rate(tracker_.grid().fan_rate(layer, l, r));
     for (std::size_t j = 0; j < n(); ++j)
-      rate.d[j] = motion_.fan_rate(scenes_[first_ + j], states_[first_ + j], layer, l, r);
+      rate.d[j] = motion_.fan_rate(columns_[first_ + j].scene, columns_[first_ + j].states, layer, l, r);
     return rate;
   }
   /// As snapshot_of() has it.
@@ -81,8 +82,7 @@ class TangentProfile {
 
   const AnyTracker& tracker_;
   const StateMotion<Grid>& motion_;
-  const std::vector<SceneTangent>& scenes_;
-  const std::vector<StateTangent>& states_;
+  const std::vector<track_detail::MotionColumn>& columns_;
   std::size_t first_;
 };
 
