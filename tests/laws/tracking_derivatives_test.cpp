@@ -305,6 +305,11 @@ TEST(TrackingDerivativesWhereThereAreNone, AreRefused) {
   EXPECT_EQ(refusal(spec, "initial.breaks[0]"), "");
   EXPECT_EQ(refusal(spec, "shear_rate.values[0]", {.grid = GridKind::singular_mapping}),
             "the states of this grid are rounded");
+  SceneMaker make(1);
+  spec.shear_rate = make.layers(65, SceneMaker::Order::random);
+  EXPECT_EQ(refusal(spec, "shear_rate.scale"), "the bed has more than 64 layers");
+  spec.shear_rate = make.layers(64, SceneMaker::Order::random);
+  EXPECT_EQ(refusal(spec, "shear_rate.scale"), "");
   spec.shear_rate = Exponential<double>{};
   EXPECT_EQ(refusal(spec, "shear_rate.amplitude"), "fronts are curved");
 }

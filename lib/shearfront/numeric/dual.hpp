@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "shearfront/numeric/number_text.hpp"
+#include "shearfront/numeric/sum.hpp"
 
 namespace shearfront {
 
@@ -55,7 +56,8 @@ struct Dual {
   }
   constexpr Dual& operator/=(const Dual& y) {
     v /= y.v;
-    for (std::size_t j = 0; j < N; ++j) d[j] = (d[j] - v * y.d[j]) / y.v;
+    const double inverse = 1 / y.v;
+    for (std::size_t j = 0; j < N; ++j) d[j] = (d[j] - v * y.d[j]) * inverse;
     return *this;
   }
   friend constexpr Dual operator+(Dual x, const Dual& y) { return x += y; }
@@ -99,3 +101,14 @@ struct Dual {
 /// Those of its value.
 template <std::size_t N>
 class std::numeric_limits<shearfront::Dual<N>> : public std::numeric_limits<double> {};
+
+namespace shearfront {
+
+/// Sum and rounding error of one addition: the error is that of the values, derivatives are rounded.
+template <std::size_t N>
+struct TwoSum<Dual<N>> {
+  Dual<N> high, low;
+  TwoSum(const Dual<N>& a, const Dual<N>& b) : high(a + b), low(TwoSum<double>(a.v, b.v).low) {}
+};
+
+}  // namespace shearfront

@@ -25,13 +25,24 @@ class TangentTable {
     phi_.assign(rows.n() * n_, 0.0), flux_.assign(rows.n() * n_, 0.0);
   }
 
-  void set(std::size_t column, const SceneTangent& scene, const StateTangent& states) {
-    const auto put = [&](std::vector<double>& table, const std::vector<double>& by) {
-      table.resize(by.size() * n_);
-      for (std::size_t i = 0; i < by.size(); ++i) table[i * n_ + column] = by[i];
+  /// Columns `first` and the following ones; several at once are several times faster.
+  struct Column {
+    const SceneTangent* scene;
+    const StateTangent* states;
+  };
+  void set(std::size_t first, const std::vector<Column>& columns) {
+    const auto put = [&](std::vector<double>& table, const auto& of) {
+      const std::size_t n_rows = of(columns.front()).size();
+      table.resize(n_rows * n_);
+      for (std::size_t i = 0; i < n_rows; ++i)
+        for (std::size_t j = 0; j < columns.size(); ++j) table[i * n_ + first + j] = of(columns[j])[i];
     };
-    put(phi_, states.phi), put(flux_, states.flux);
-    put(boundary_, scene.boundary), put(top_, scene.top), put(change_, scene.change);
+    using Numbers = const std::vector<double>&;
+    put(phi_, [](const Column& c) -> Numbers { return c.states->phi; });
+    put(flux_, [](const Column& c) -> Numbers { return c.states->flux; });
+    put(boundary_, [](const Column& c) -> Numbers { return c.scene->boundary; });
+    put(top_, [](const Column& c) -> Numbers { return c.scene->top; });
+    put(change_, [](const Column& c) -> Numbers { return c.scene->change; });
   }
 
   [[nodiscard]] std::size_t n_columns() const { return n_; }

@@ -7,17 +7,25 @@ namespace shearfront {
 /// Of one column: per class its capacity, per level its value and, where that is known by itself, the place of its state.
 struct StateMotion<LevelGrid<double>>::Moved {
   std::vector<double> capacity, level, chord;
-  std::vector<std::size_t> layer_of;    ///< per class: one of its layers
   std::vector<double> lowest, highest;  ///< per layer: of the states
   std::vector<double> place;            ///< per level: of p at home
   std::vector<bool> is_wanted;
   Tears levels, places, capacities;
 };
 
+StateMotion<LevelGrid<double>>::StateMotion(const GridOfScene<Grid>& of) : of_(of), rows_(of.grid) {
+  const Grid& grid = of.grid;
+  std::vector<std::size_t> layer_of(grid.classes_.size());
+  for (std::size_t k = 0; k < grid.n_layers(); ++k) layer_of[grid.layer_capacity_[k]] = k;
+  for (std::size_t id = 0; id < grid.classes_.size(); ++id) {
+    first_.push_back(places_.size());
+    for (State i = 0; i <= grid.classes_[id].top; ++i) places_.push_back(grid.falling_phi(layer_of[id], i));
+  }
+}
+
 void StateMotion<LevelGrid<double>>::move_classes(const SceneTangent& by, Moved& moved) const {
   const Grid& grid = of_.grid;
   moved.capacity.assign(grid.classes_.size(), 0.0);
-  moved.layer_of.assign(grid.classes_.size(), 0);
   std::vector<bool> is_known(grid.classes_.size());
   for (std::size_t k = 0; k < grid.n_layers(); ++k) {
     const std::size_t f = of_.stack.flux_index(k);
@@ -32,7 +40,6 @@ void StateMotion<LevelGrid<double>>::move_classes(const SceneTangent& by, Moved&
     if (is_known[id]) moved.capacities.compare(capacity, moved.capacity[id]);
     moved.capacities.see(capacity);
     moved.capacity[id] = capacity;
-    moved.layer_of[id] = k;
     is_known[id] = true;
   }
 }
@@ -97,16 +104,16 @@ double StateMotion<LevelGrid<double>>::place_tangent(std::size_t id, State i, co
   const Grid::Level& level = grid.levels_[Grid::index(i)];
   if (level.value == 0) return 0;
   if (level.home == static_cast<std::int32_t>(id)) return moved.place[Grid::index(i)];
-  const std::size_t layer = moved.layer_of[id];
   if (level.home == Grid::kOnChord) {
     const double lo = place_tangent(id, level.vertex_below, moved),
                  hi = place_tangent(id, level.vertex_above, moved);
-    const double length =
-        grid.falling_phi(layer, level.vertex_above) - grid.falling_phi(layer, level.vertex_below);
+    const double length = place_of(id, level.vertex_above) - place_of(id, level.vertex_below);
     return lo + level.p * (hi - lo) + moved.chord[Grid::index(i)] * length;
   }
-  const double c = grid.classes_[id].capacity, p = grid.falling_phi(layer, i);
-  return (moved.level[Grid::index(i)] - 4 * p * (1 - p) * moved.capacity[id]) / (4 * c * (1 - 2 * p));
+  const double rise = moved.level[Grid::index(i)], capacity = moved.capacity[id];
+  if (rise == 0 && capacity == 0) return 0;
+  const double c = grid.classes_[id].capacity, p = place_of(id, i);
+  return (rise - 4 * p * (1 - p) * capacity) / (4 * c * (1 - 2 * p));
 }
 
 void StateMotion<LevelGrid<double>>::move_chords(Moved& moved) const {
@@ -118,8 +125,7 @@ void StateMotion<LevelGrid<double>>::move_chords(Moved& moved) const {
     const std::size_t id = grid.layer_capacity_[layer];
     const double lo = place_tangent(id, level.vertex_below, moved),
                  hi = place_tangent(id, level.vertex_above, moved);
-    const double length =
-        grid.falling_phi(layer, level.vertex_above) - grid.falling_phi(layer, level.vertex_below);
+    const double length = place_of(id, level.vertex_above) - place_of(id, level.vertex_below);
     moved.chord[i] = (moved.place[i] - lo - level.p * (hi - lo)) / length;
     const std::size_t below = Grid::index(level.vertex_below), above = Grid::index(level.vertex_above);
     moved.level[i] = moved.level[below] + level.p * (moved.level[above] - moved.level[below]) +

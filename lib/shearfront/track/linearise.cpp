@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -52,9 +53,13 @@ class TangentRun {
   void run_columns(std::size_t from, std::size_t to) {
     TangentTable table(bed_.motion().rows(), to - from);
     std::vector<track_detail::MotionColumn> columns;
-    for (std::size_t j = from; j < to; ++j) {
-      columns.push_back(bed_.column(j));
-      table.set(j - from, columns.back().scene, columns.back().states);
+    columns.reserve(to - from);
+    for (std::size_t j = from; j < to; ++j) columns.push_back(bed_.column(j));
+    for (std::size_t first = 0; first < columns.size(); first += kColumnsAtOnce) {
+      std::vector<TangentTable::Column> some;
+      for (std::size_t j = first; j < std::min(first + kColumnsAtOnce, columns.size()); ++j)
+        some.push_back({&columns[j].scene, &columns[j].states});
+      table.set(first, some);
     }
     Tracking tracker(bed_.setup().grid, bed_.setup().pieces, bed_.setup().ends,
                      FrontTangents(table, bed_.setup().initial.tops,
@@ -169,6 +174,10 @@ std::string tracking_derivative_refusal(const Scene<double>& scene, const TrackO
                                         const Entry& entry) {
   if (options.grid != GridKind::levels) return "the states of this grid are rounded";
   if (track_detail::wants_curves(scene, options)) return "fronts are curved";
+  // Each entry moves the states of all layers: with so many layers that is more work than two runs.
+  constexpr std::size_t kMostLayers = 64;
+  if (scene.knots().size() >= kMostLayers)
+    return "the bed has more than " + std::to_string(kMostLayers) + " layers";
   return tangent_refusal(scene, entry);
 }
 

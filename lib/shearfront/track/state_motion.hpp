@@ -76,7 +76,7 @@ class Tears {
 template <>
 class StateMotion<LevelGrid<double>> {
  public:
-  explicit StateMotion(const GridOfScene<LevelGrid<double>>& of) : of_(of), rows_(of.grid) {}
+  explicit StateMotion(const GridOfScene<LevelGrid<double>>& of);
   [[nodiscard]] const StateRows& rows() const { return rows_; }
   [[nodiscard]] StateTangent tangent(const SceneTangent& by) const;
   /// Derivatives of fan_rate(), and of speed() also for states so close that those of phi and flux cancel.
@@ -94,9 +94,14 @@ class StateMotion<LevelGrid<double>> {
   void move_chords(Moved& moved) const;
   [[nodiscard]] double place_tangent(std::size_t id, State level, const Moved& moved) const;
   [[nodiscard]] double width(std::size_t layer) const;
+  [[nodiscard]] double place_of(std::size_t id, State level) const {
+    return places_[first_[id] + static_cast<std::size_t>(level)];
+  }
 
   GridOfScene<Grid> of_;
   StateRows rows_;
+  std::vector<double> places_;      // p of every level in every class
+  std::vector<std::size_t> first_;  // of them, per class
 };
 
 template <>
