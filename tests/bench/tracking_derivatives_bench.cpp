@@ -63,10 +63,9 @@ BENCHMARK(us_101_plain)->Unit(benchmark::kMillisecond);
 void us_101_gradient(benchmark::State& state) {
   const Road road;
   for (auto _ : state) {
-    const TrackingGradient result =
-        tracking_gradient(road.scene, kOptions, road.places,
-                          [&](const std::vector<Sample>& samples) { return road.weigh(samples); },
-                          road.outside);
+    const TrackingGradient result = tracking_gradient(
+        road.scene, kOptions, road.places,
+        [&](const std::vector<Sample>& samples) { return road.weigh(samples); }, road.outside);
     benchmark::DoNotOptimize(result.gradient.data());
     state.counters["collisions"] = static_cast<double>(result.summary.collisions);
   }

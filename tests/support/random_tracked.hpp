@@ -46,7 +46,7 @@ inline Piecewise<double> random_layers(SceneMaker& make, double lo, double hi, d
 inline SceneSpec<double> draw_tracked(SceneMaker& make, const std::string& name) {
   SceneSpec<double> spec;
   const Flux<double> flux = random_sample_of(make, name);
-  const auto [lowest, highest] = flux.range();
+  const double lowest = flux.range().lowest, highest = flux.range().highest;
   const bool has_walls = flux.value(lowest) == 0 && flux.value(highest) == 0;
   const bool has_layers = flux.extrema().size() <= 1 && (has_walls || flux.extrema().empty());
   spec.fluxes = {flux};
