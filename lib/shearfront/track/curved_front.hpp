@@ -3,63 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <optional>
 
-#include "shearfront/riemann/state.hpp"
-#include "shearfront/track/front_list.hpp"
+#include "shearfront/track/curved_mean_time.hpp"
+#include "shearfront/track/curved_node.hpp"
 #include "shearfront/track/level_curves.hpp"
 
 namespace shearfront {
 
-/// A front between two levels, or a boundary (wall, jump or kink of the rate), which rests.
-///
-/// By Rankine and Hugoniot a front between the states l, r of levels i != j moves such that
-///
-///     dt/dz = 2 (s_r q_j(z) - s_l q_i(z)) / (h_i - h_j),   s = -1 or 1 for low and high states,
-///
-/// so its time is a closed form of its height. Since q_i - q_j over h_j - h_i is a mean of the 1 / (r q) / 2 of the levels
-/// between, a front between neighbouring levels is the mean of the characteristics of these fluxes.
-struct CurvedNode {
-  double z = 0, t = 0;              ///< passes z at t
-  double rate = 0;                  ///< r(z)
-  double q_below = 0, q_above = 0;  ///< of its levels at z
-  double end = 0;                   ///< height at which it ends or turns
-  double end_t = 0;                 ///< when it turns there
-  double meets = 0, meeting_z = 0;  ///< next event: when, and where
-  double turned = kNever;           ///< when a mean characteristic of its levels turned there; kEarlier
-  State below = 0, above = 0;
-  FrontIndex prev = kNoFront, next = kNoFront;
-  std::uint32_t layer = 0;  ///< piece of a front; of a boundary the piece above it
-  std::uint32_t stamp = 0;
-  std::int8_t direction = 0;  ///< 1 up, -1 down, 0 it stands
-  bool turns = false;         ///< it turns at its end
-  bool turns_next = false;    ///< its next event is that
-  bool is_edge = false;       ///< the edge of a fan next to a state that was there before
-  double edge_t = 0;          ///< of an edge: when the characteristic of that state was at z
-
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-  static constexpr double kEarlier = -kNever;  ///< it did in an earlier part of a smooth rate
-  /// At its next event.
-  [[nodiscard]] double position(double /*time*/) const { return meeting_z; }
-};
-
-/// When a front is at a height, and dt/dz there.
-struct Passage {
-  double t, slope;
-};
-
 namespace curved_front_detail {
-
-/// Levels whose capacities differ by less than this part are taken for one where a difference would be rounding.
-inline constexpr double kNearLevels = 1e-7;
-/// Between levels nearer to each other than this part of r q^2 means are taken by Gauss's rule of three points, of which this is one.
-inline constexpr double kCloseLevels = 0.0125, kOuterNode = 0.11270166537925831;
-/// Times are functions of q at one end on the scale of q at the other; Gauss's rule takes them over an interval this much shorter.
-inline constexpr double kFarFromOrigin = 64;
-/// So near that q, which is at most the root of that where the lower one turns, changes less than the rule needs.
-inline constexpr double kVeryCloseLevels = 1e-6;
 
 /// front_slope() for fluxes that are no parabola.
 [[nodiscard]] inline double branch_slope(const LevelCurves& grid, const CurvedNode& f, double rate,
@@ -168,106 +119,6 @@ namespace curved_front_detail {
       std::log1p((delta_below * b + delta_above * a + delta_below * delta_above) / (a * b));
   const double way = 2 * d + scale * (logarithm - delta_below - delta_above);
   return {f.t + over * s_above * way, over * s_above * (q_below + q_above)};
-}
-
-/// When a front of one side is at z after it was at its origin, as the mean over its levels of the times of characteristics, by Gauss's
-/// rule of three points: a relative error of 1e-15 where levels are near to each other, while the difference of their areas loses what
-/// their distance is of their flux. Next to the turning heights of levels very near to each other in q at z, of which times are smooth
-/// functions, and those that have turned apart. Nothing where they are not near. `shrink`: in an exponential piece, as there.
-[[nodiscard]] inline std::optional<double> mean_time(const LevelCurves& grid, const CurvedNode& f,
-                                                     double h_below, double h_above, double z, double rate,
-                                                     double q_below, double q_above, double shrink = 0) {
-  const double spread = std::abs(h_below - h_above), least = std::min(q_below, q_above);
-  const bool is_far = spread < kCloseLevels * rate * least * least;
-  if (!is_far && !(spread < kVeryCloseLevels * rate)) return std::nullopt;
-  // A joint of a tabulated flux is no place for Gauss.
-  if (grid.flux(f.layer) && !(spread < kNearLevels * std::max(h_below, h_above))) return std::nullopt;
-  const bool is_from_turn = f.q_below == 0 && f.q_above == 0;
-  const double least_before = std::min(f.q_below, f.q_above), most_before = std::max(f.q_below, f.q_above);
-  const bool is_close_before = spread < kCloseLevels * (is_from_turn ? std::min(h_below, h_above)
-                                                                     : f.rate * least_before * least_before);
-  const double beyond =
-      std::max(0.0, std::max(h_below, h_above) - f.rate);  // part of the flux that turns ahead
-  const bool is_near_turn_before =
-      is_far && kFarFromOrigin * most_before < least && spread < kVeryCloseLevels * f.rate;
-  if (!is_close_before && !is_near_turn_before) return std::nullopt;
-  const RatePiece& piece = grid.piece(f.layer);
-  // Of the rate: how much it has grown, as a part of what it is then; and by its logarithm.
-  const auto change_of = [&](double to_rate) { return (to_rate - f.rate) / to_rate; };
-  double change_here = 0, log_here = 0;
-  if (!is_from_turn && !grid.flux(f.layer)) {
-    const double along = piece.bend * (z - f.z);
-    const bool is_linear = piece.curve == RateCurve::linear;
-    change_here = is_linear ? along / rate : -shrink;
-    if (is_linear) log_here = rate < f.rate / 2 ? std::log(rate / f.rate) : std::log1p(along / f.rate);
-  }
-  const auto between = [](double below, double above, double share) {  // q^2 is linear in h
-    return std::sqrt(std::max(0.0, below * below + share * ((above - below) * (above + below))));
-  };
-  // Of the characteristic of the flux that is this share of the way from the lower level to the upper one, from the origin, where q is
-  // `before`, or from where it turns if that is 0, to where r and q are these.
-  const auto time = [&](double share, double before, double q, double to_rate) {
-    const double h = h_below + share * (h_above - h_below);
-    const bool begins_at_turn = before == 0;
-    if (grid.flux(f.layer)) {
-      const LevelCurves::Place origin{begins_at_turn ? piece.height_of(h) : f.z, begins_at_turn ? h : f.rate,
-                                      before},
-          here{to_rate == rate ? z : piece.height_of(to_rate), to_rate, q};
-      const bool rises = here.z > origin.z;
-      const double way = grid.characteristic_time(f.layer, grid.is_high(f.above), h, rises ? origin : here,
-                                                  rises ? here : origin);
-      return rises ? way : -way;
-    }
-    const bool is_exponential = piece.curve == RateCurve::exponential;
-    if (begins_at_turn) return is_exponential ? 2 * q / (h * piece.bend) : 2 * std::atanh(q) / piece.bend;
-    const double change = to_rate == rate ? change_here : change_of(to_rate);
-    if (is_exponential) return 2 * change / (f.rate * piece.bend * (before + q));
-    const double logarithm = to_rate == rate ? log_here : RatePiece::log_ratio(f.rate, to_rate);
-    return (2 * std::log1p(h * change / (f.rate * (before + q) * (1 + before))) + logarithm) / piece.bend;
-  };
-  // Mean of a function over an interval.
-  const auto mean = [](double from, double to, const auto& value) {
-    const auto at = [&](double part) { return value(from + part * (to - from)); };
-    return (5 * (at(kOuterNode) + at(1 - kOuterNode)) + 8 * at(0.5)) / 18;
-  };
-  // Where the time is a smooth function of q, not of h, weights come from q: capacities so near to each other differ by rounding.
-  const auto share_above_low = [&](double share) { return h_below < h_above ? share : 1 - share; };
-  if (is_far) {
-    const auto time_of = [&](double share, double before) {
-      return time(share, before, between(q_below, q_above, share), rate);
-    };
-    if (is_close_before)
-      return mean(0, 1, [&](double share) { return time_of(share, between(f.q_below, f.q_above, share)); });
-    const double begun = f.rate * ((most_before - least_before) * (most_before + least_before)),
-                 all = begun + beyond;
-    if (!(all > 0)) return std::nullopt;
-    double sum = 0;
-    if (begun > 0)
-      sum += (most_before - least_before) * mean(least_before, most_before, [&](double q) {
-               const double above_low = f.rate * ((most_before - q) * (most_before + q)) / all;
-               return 2 * f.rate * q * time_of(share_above_low(above_low), q);
-             });
-    if (beyond > 0)
-      sum += beyond * mean(begun / all, 1, [&](double share) { return time_of(share_above_low(share), 0); });
-    return sum / all;
-  }
-  const double low = std::min(h_below, h_above), high = std::max(h_below, h_above);
-  const double most = std::max(q_below, q_above),
-               live = std::clamp(rate, low, high);  // those above it have turned
-  const double alive = rate * ((most - least) * (most + least)), all = alive + (high - live);
-  if (!(all > 0)) return std::nullopt;
-  double sum = 0;
-  if (most > least)
-    sum += (most - least) * mean(least, most, [&](double q) {
-             const double share = share_above_low(rate * ((most - q) * (most + q)) / all);
-             return 2 * rate * q * time(share, between(f.q_below, f.q_above, share), q, rate);
-           });
-  if (high > live && !is_from_turn)
-    sum += (high - live) * mean(alive / all, 1, [&](double share) {
-             const double of = share_above_low(share);
-             return time(of, between(f.q_below, f.q_above, of), 0, low + share * (high - low));
-           });
-  return sum / all;
 }
 
 }  // namespace curved_front_detail
