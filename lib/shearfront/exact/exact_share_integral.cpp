@@ -198,7 +198,7 @@ class ShareIntegralDerivatives final : public ShareStretches {
       if (!(cuts[i + 1] - cuts[i] > 4 * tiny)) continue;
       const double middle = cuts[i] + (cuts[i + 1] - cuts[i]) / 2;
       sum_ += (cuts[i + 1] - cuts[i]) * by(middle);
-      if (i > 0) add_moving(at(cuts[i] - tiny), at(cuts[i] + tiny));
+      if (cuts[i] > cuts.front()) add_moving(at(cuts[i] - tiny), at(cuts[i] + tiny));
     }
     return sum_;
   }

@@ -302,7 +302,7 @@ class ObservationsReader {
   }
 
   void check_places() {
-    if (format_.replicates == Replicates::kept) return;
+    if (!columns_ || format_.replicates == Replicates::kept) return;
     if (format_.replicates == Replicates::averaged) return average();
     const Column at = columns_->has(Column::z) ? Column::z : Column::t;
     const char* const of_same = at == Column::t                ? ""
