@@ -36,7 +36,7 @@ class Folder {
 
 Scene<double> in_one_file(const std::string& text) { return parse_scene<double>(text, "scene.toml"); }
 
-constexpr const char* kRest =
+constexpr const char* kRestOfScene =
     "[initial]\nbreaks = [21]\nvalues = [0, 1]\n[domain]\ntop = 42\n[units]\nz = \"mm\"\nt = \"s\"\n";
 
 void expect_same_rate(const Scene<double>& a, const Scene<double>& b) {
@@ -45,8 +45,9 @@ void expect_same_rate(const Scene<double>& a, const Scene<double>& b) {
 }
 
 TEST(SceneColumns, ATableIsThatOfTheFile) {
-  const auto inside = in_one_file(
-      "[shear_rate]\nmodel = \"table\"\nz = [0, 21, 42]\nvalues = [2.5, 1.25, 0.5]\n" + std::string(kRest));
+  const auto inside =
+      in_one_file("[shear_rate]\nmodel = \"table\"\nz = [0, 21, 42]\nvalues = [2.5, 1.25, 0.5]\n" +
+                  std::string(kRestOfScene));
   const std::string scene =
       "[shear_rate]\nmodel = \"table\"\nfile = \"@a.csv\"\nz = \"height\"\nvalues = \"rate\"\n";
   // In mm, in cm with rates in cm per minute, with decimal commas, between blanks, with more columns.
@@ -55,16 +56,17 @@ TEST(SceneColumns, ATableIsThatOfTheFile) {
         "height (cm);rate\n0;2,5\n2,1;1,25\n4,2;,5\n", "height rate\n 0   2.5\n21 1.25\n42 .5\n",
         "# by laser\nrun 7\nx,rate,height\n,mm/s,mm\n1,2.5,0\n,1.25,21\n\n2,0.5,42\n,,\n"}) {
     SCOPED_TRACE(csv);
-    expect_same_rate(Folder("table").with("a.csv", csv).scene(scene + kRest), inside);
+    expect_same_rate(Folder("table").with("a.csv", csv).scene(scene + kRestOfScene), inside);
   }
 }
 
 TEST(SceneColumns, PiecesBeginWhereTheirRowsSay) {
-  const auto inside = in_one_file(
-      "[shear_rate]\nmodel = \"piecewise\"\nbreaks = [12, 30]\nvalues = [3, 2, 1]\n" + std::string(kRest));
+  const auto inside =
+      in_one_file("[shear_rate]\nmodel = \"piecewise\"\nbreaks = [12, 30]\nvalues = [3, 2, 1]\n" +
+                  std::string(kRestOfScene));
   const std::string scene = "[shear_rate]\nmodel = \"piecewise\"\nfile = \"@b.csv\"\nbreaks = \"from\"\n";
   for (const char* csv : {"from,values\n0,3\n12,2\n30,1\n", "from,values\n,3\n12,2\n30,1\n"}) {
-    const auto outside = Folder("pieces").with("b.csv", csv).scene(scene + kRest);
+    const auto outside = Folder("pieces").with("b.csv", csv).scene(scene + kRestOfScene);
     expect_same_rate(outside, inside);
     EXPECT_EQ(outside.knots(), inside.knots());
   }
@@ -86,14 +88,14 @@ TEST(SceneColumns, StatesInPercentAndTimesInMinutes) {
 }
 
 TEST(SceneColumns, NumbersBesideAFileAndWithoutOneStayWhatTheyWere) {
-  const auto scene =
-      Folder("mixed")
-          .with("c.csv", "values\n3\n2\n")
-          .scene("[shear_rate]\nmodel = \"table\"\nfile = \"@c.csv\"\nz = [0, 42]\n" + std::string(kRest));
+  const auto scene = Folder("mixed")
+                         .with("c.csv", "values\n3\n2\n")
+                         .scene("[shear_rate]\nmodel = \"table\"\nfile = \"@c.csv\"\nz = [0, 42]\n" +
+                                std::string(kRestOfScene));
   EXPECT_GT(scene.mean_rate(0.0, 1.0), 2.9);
   EXPECT_LT(scene.mean_rate(0.0, 1.0), 3);
   EXPECT_THROW((void)in_one_file("[shear_rate]\nmodel = \"table\"\nz = \"height\"\nvalues = [1, 2]\n" +
-                                 std::string(kRest)),
+                                 std::string(kRestOfScene)),
                InputError);
 }
 

@@ -37,12 +37,12 @@ class TangentTable {
       for (std::size_t i = 0; i < n_rows; ++i)
         for (std::size_t j = 0; j < columns.size(); ++j) table[i * n_ + first + j] = of(columns[j])[i];
     };
-    using Numbers = const std::vector<double>&;
-    put(phi_, [](const Column& c) -> Numbers { return c.states->phi; });
-    put(flux_, [](const Column& c) -> Numbers { return c.states->flux; });
-    put(boundary_, [](const Column& c) -> Numbers { return c.scene->boundary; });
-    put(top_, [](const Column& c) -> Numbers { return c.scene->top; });
-    put(change_, [](const Column& c) -> Numbers { return c.scene->change; });
+    using ByRow = const std::vector<double>&;
+    put(phi_, [](const Column& c) -> ByRow { return c.states->phi; });
+    put(flux_, [](const Column& c) -> ByRow { return c.states->flux; });
+    put(boundary_, [](const Column& c) -> ByRow { return c.scene->boundary; });
+    put(top_, [](const Column& c) -> ByRow { return c.scene->top; });
+    put(change_, [](const Column& c) -> ByRow { return c.scene->change; });
   }
 
   [[nodiscard]] std::size_t n_columns() const { return n_; }
