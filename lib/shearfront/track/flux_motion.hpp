@@ -62,4 +62,20 @@ struct LayerTangent {
   }
 };
 
+/// The shares of two states of a grid whose states all lie on the flux, with their derivatives, and what moves in their layer.
+struct SharesTangent {
+  LayerTangent layer;
+  Dual<1> l, r;
+
+  template <class GridOf, class Rows>
+  SharesTangent(const GridOf& of, const Rows& rows, const SceneTangent& by, const std::vector<double>& phi_by,
+                std::size_t k, State below, State above)
+      : layer(of.stack, by, k),
+        l(layer.share(of.grid.phi(k, below), phi_by[rows(k, below)])),
+        r(layer.share(of.grid.phi(k, above), phi_by[rows(k, above)])) {}
+
+  [[nodiscard]] double fan_rate() const { return layer.fan_rate(l, r); }
+  [[nodiscard]] double speed() const { return layer.speed(l, r); }
+};
+
 }  // namespace shearfront::track_detail

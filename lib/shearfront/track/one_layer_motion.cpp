@@ -57,20 +57,12 @@ StateTangent StateMotion<OneLayerGrid<double>>::tangent(const SceneTangent& by) 
 
 double StateMotion<OneLayerGrid<double>>::fan_rate(const SceneTangent& by, const StateTangent& states,
                                                    std::size_t layer, State l, State r) const {
-  const track_detail::LayerTangent tangent(of_.stack, by, layer);
-  const auto share = [&](State i) {
-    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
-  };
-  return tangent.fan_rate(share(l), share(r));
+  return track_detail::SharesTangent(of_, rows_, by, states.phi, layer, l, r).fan_rate();
 }
 
 double StateMotion<OneLayerGrid<double>>::speed(const SceneTangent& by, const StateTangent& states,
                                                 std::size_t layer, State l, State r) const {
-  const track_detail::LayerTangent tangent(of_.stack, by, layer);
-  const auto share = [&](State i) {
-    return tangent.share(of_.grid.phi(layer, i), states.phi[rows_(layer, i)]);
-  };
-  return tangent.speed(share(l), share(r));
+  return track_detail::SharesTangent(of_, rows_, by, states.phi, layer, l, r).speed();
 }
 
 }  // namespace shearfront
