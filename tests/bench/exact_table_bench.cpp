@@ -18,7 +18,7 @@ namespace {
 using namespace shearfront;
 using support::SceneMaker;
 
-enum Bed { smooth, noisy, many_jumps };
+enum Bed { smooth, noisy, many_jumps, two_jumps };
 
 /// A rate that falls by e^4 over the bed, at so many knots.
 Scene<double> scene_of(int bed, int knots) {
@@ -28,13 +28,19 @@ Scene<double> scene_of(int bed, int knots) {
   for (int i = 0; i < knots; ++i) {
     const double z = static_cast<double>(i) / (knots - 1);
     table.z.push_back(z);
-    table.values.push_back(4 * std::exp(-4 * z) * (bed == smooth ? 1 : std::exp(make.uniform(-0.3, 0.3))));
+    table.values.push_back(4 * std::exp(-4 * z) *
+                           (bed == smooth || bed == two_jumps ? 1 : std::exp(make.uniform(-0.3, 0.3))));
   }
   spec.shear_rate = table;
-  spec.initial_breaks =
-      bed == many_jumps ? std::vector<double>{0.1, 0.25, 0.4, 0.55, 0.7, 0.85} : std::vector<double>{0.5};
-  spec.initial_values =
-      bed == many_jumps ? std::vector<double>{0.2, 0.8, 0.1, 1, 0.4, 0.9, 0.6} : std::vector<double>{0, 1};
+  spec.initial_breaks = {0.5};
+  spec.initial_values = {0, 1};
+  if (bed == two_jumps) {
+    spec.initial_breaks = {0.3, 0.6};
+    spec.initial_values = {0.1, 0.9, 0.4};
+  } else if (bed == many_jumps) {
+    spec.initial_breaks = {0.1, 0.25, 0.4, 0.55, 0.7, 0.85};
+    spec.initial_values = {0.2, 0.8, 0.1, 1, 0.4, 0.9, 0.6};
+  }
   return Scene<double>(spec);
 }
 
@@ -60,9 +66,7 @@ void BM_TablePlaces(benchmark::State& state) {
     for (const Place& place : places) benchmark::DoNotOptimize(solution.at(place.z, place.t));
   per_place(state, places.size());
 }
-void BM_TablePlacesWithDerivatives(benchmark::State& state) {
-  const auto scene = scene_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  const auto places = places_of(scene);
+void linearise(benchmark::State& state, const Scene<double>& scene, const std::vector<Place>& places) {
   std::vector<std::size_t> wanted;
   const std::vector<Entry> all = entries(scene.spec());
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -73,25 +77,42 @@ void BM_TablePlacesWithDerivatives(benchmark::State& state) {
   }
   per_place(state, places.size());
 }
-/// 1000 heights at each of five times.
-void BM_TableProfiles(benchmark::State& state) {
+void BM_TablePlacesWithDerivatives(benchmark::State& state) {
   const auto scene = scene_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  linearise(state, scene, places_of(scene));
+}
+/// 1000 heights at each of five times.
+SolverRequest profiles_of(const Scene<double>& scene) {
   const double t_star = *exact_timeline(scene).t_star;
   SolverRequest request;
   for (const double share : {0.05, 0.15, 0.3, 0.5, 0.8}) request.times.push_back(share * t_star);
   for (int i = 0; i < 1000; ++i) request.heights.push_back((i + 0.5) / 1000);
+  return request;
+}
+void BM_TableProfiles(benchmark::State& state) {
+  const auto scene = scene_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const SolverRequest request = profiles_of(scene);
   const Method exact = Method::of<ExactSolver>();
   for (auto _ : state) benchmark::DoNotOptimize(solve(scene, exact, request));
   per_place(state, request.times.size() * request.heights.size());
 }
+void BM_TableProfilesWithDerivatives(benchmark::State& state) {
+  const auto scene = scene_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const SolverRequest request = profiles_of(scene);
+  std::vector<Place> places;
+  for (const double t : request.times)
+    for (const double z : request.heights) places.push_back({t, z});
+  linearise(state, scene, places);
+}
 
 void beds(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"bed", "knots"})->Unit(benchmark::kMicrosecond);
-  for (const int bed : {smooth, noisy, many_jumps})
+  for (const int bed : {smooth, noisy, many_jumps, two_jumps})
     for (const int knots : {8, 20, 64, 256}) bench->Args({bed, knots});
 }
 BENCHMARK(BM_TablePlaces)->Apply(beds);
 BENCHMARK(BM_TablePlacesWithDerivatives)->Apply(beds);
 BENCHMARK(BM_TableProfiles)->Apply(beds);
+BENCHMARK(BM_TableProfilesWithDerivatives)->Apply(beds);
 
 }  // namespace

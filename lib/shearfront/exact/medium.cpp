@@ -16,23 +16,6 @@
 
 namespace shearfront::exact {
 
-template <Real Scalar>
-Path<Scalar> Medium<Scalar>::best_path(const Scalar& z, const Scalar& t) const {
-  Path<Scalar> wall;
-  if (is_reached_from(true, z, t)) wall = bottom_path(z);
-  // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
-  // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
-  // decide.
-  const bool at_top = z == top();
-  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (top() - bottom());
-  const bool full = at_top && wall.value <= mass_ + tie;
-  if (!(mass_ > wall.value) && !full && is_reached_from(false, z, t)) wall = top_path();
-  Path<Scalar> free = best_free(z, t, wall.value);
-  if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
-    return free;
-  return free.better_than(wall) ? free : wall;
-}
-
 namespace {
 
 /// The knots of a smooth start, and heights between them: of the form's number of parts of the bed.

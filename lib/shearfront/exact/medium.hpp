@@ -100,7 +100,9 @@ class Medium {
                                                       const Scalar& t) const = 0;
 
   /// The best of all paths, those from the walls included.
-  [[nodiscard]] Path<Scalar> best_path(const Scalar& z, const Scalar& t) const;
+  [[nodiscard]] Path<Scalar> best_path(const Scalar& z, const Scalar& t) const {
+    return best_with_walls(z, t, [&](const Scalar& upper) { return best_free(z, t, upper); });
+  }
   /// The same at many heights, ascending.
   [[nodiscard]] virtual std::vector<Path<Scalar>> best_paths(const std::vector<Scalar>& z,
                                                              const Scalar& t) const {
@@ -111,6 +113,10 @@ class Medium {
   }
 
  protected:
+  /// The best of the paths from the walls and of what best_free(upper) gives.
+  template <class BestFree>
+  [[nodiscard]] Path<Scalar> best_with_walls(const Scalar& z, const Scalar& t,
+                                             const BestFree& best_free) const;
   /// phi = 1 from the bottom.
   [[nodiscard]] Path<Scalar> bottom_path(const Scalar& z) const {
     Path<Scalar> wall;
@@ -133,6 +139,25 @@ class Medium {
   Cells<Scalar> cells_;
   Scalar mass_;
 };
+
+template <Real Scalar>
+template <class BestFree>
+Path<Scalar> Medium<Scalar>::best_with_walls(const Scalar& z, const Scalar& t,
+                                             const BestFree& best_free) const {
+  Path<Scalar> wall;
+  if (is_reached_from(true, z, t)) wall = bottom_path(z);
+  // At the top the state below the wall is asked for: the wall's own path (value m for every t) counts only
+  // where it is strictly better. A path with H = 0 and p = 1 has the value m as well; rounding must not
+  // decide.
+  const bool at_top = z == top();
+  const Scalar tie = Scalar(64) * unit_roundoff<Scalar>() * (top() - bottom());
+  const bool full = at_top && wall.value <= mass_ + tie;
+  if (!(mass_ > wall.value) && !full && is_reached_from(false, z, t)) wall = top_path();
+  Path<Scalar> free = best_free(wall.value);
+  if (at_top && free.kind != PathKind::none && free.H == 0 && free.upward && free.value <= wall.value + tie)
+    return free;
+  return free.better_than(wall) ? free : wall;
+}
 
 /// The medium of a canonical form: layers of parabolas, of other fluxes, or pieces with a linear or an
 /// exponential rate.

@@ -123,30 +123,27 @@ class SlopedCandidates : protected SlopedStarts<Scalar> {
     return base + (s.X - s.X_falling) + s.h / Scalar(4) * (t_ - s.T_rising);
   }
 
-  /// The path of one fan along a route, from what its h is about: true if Newton finds it at once, with the sign of dT/dh that it must
-  /// have, and between h_least and h_most.
-  [[nodiscard]] bool fan_near(const Route& route, std::size_t node, bool turned, std::size_t j,
-                              const Scalar& top, const Scalar& h, const Scalar& h_least,
-                              const Scalar& h_most) {
+  /// The straight path of one fan along a route, from what its h is about, if Newton finds it at once between h_least and h_most: T
+  /// rises with h, so there is no other.
+  void fan_near(const Route& route, std::size_t node, const Scalar& h, const Scalar& h_least,
+                const Scalar& h_most) {
     using std::sqrt;
     const Scalar close = sqrt(unit_roundoff<Scalar>()), most = w_of(h_most, route.least),
                  least = w_of(h_least, route.least);
     Scalar w = w_of(h, route.least);
     constexpr int kMost = 5;
     for (int n = 0; n < kMost; ++n) {
-      if (!(w > 0 && w < Scalar(1))) return false;
+      if (!(w > 0 && w < Scalar(1))) return;
       const Sample s = fan_sample(route, w);
-      if (!is_finite(s.T) || (turned ? !(s.F() < 0) : !(s.F() > 0))) return false;
+      if (!is_finite(s.T) || !(s.F() > 0)) return;
       const Scalar step = fan_slope(s) * ((t_ - s.T) / t_);
-      if (!(w + step >= least && w + step <= most)) return false;
+      if (!(w + step >= least && w + step <= most)) return;
       if ((step < 0 ? Scalar(-step) : step) > close * w) {
         w += step;
         continue;
       }
-      finish_fan(route, node, view_.M[node] + gained(view_.x[node], top), s, step, turned, j);
-      return true;
+      return finish_fan(route, node, view_.M[node] + gained(view_.x[node], z_), s, step, false, 0);
     }
-    return false;
   }
 
   // Whether a time along a route may be t.

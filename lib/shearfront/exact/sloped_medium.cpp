@@ -42,15 +42,19 @@ Path<Scalar> SlopedMedium<Scalar>::best_moving(const Scalar& z, const Scalar& t)
 
 template <Real Scalar>
 Path<Scalar> SlopedMedium<Scalar>::search(const Scalar& z, const Scalar& t, const Scalar& upper,
-                                          bool moving_only) const {
+                                          bool moving_only, const Starts& starts) const {
   if (fluxes_) return search_for_law(SlopedPlace<Scalar>(up_, z), t, upper, moving_only);
   if (pieces_.size() == 1 && !cells_.shape)
     return OnePieceSearch<Scalar>(up_, z, pieces_.rate(0, z), t).run(moving_only);
   Path<Scalar> best;
   const SlopedPlace<Scalar> place(up_, z);
-  SlopedSearch<Scalar, SlopedCandidates<Scalar>>(up_, place, t, upper, moving_only, best).run();
-  SlopedSearch<Scalar, SlopedCandidates<Scalar>>(down_, place.turned_over(up_), t, upper, moving_only, best)
-      .run();
+  using Search = SlopedSearch<Scalar, SlopedCandidates<Scalar>>;
+  Search upwards(up_, place, t, upper, moving_only, best);
+  upwards.start_between(starts.least, starts.most);
+  upwards.run();
+  Search downwards(down_, place.turned_over(up_), t, upper, moving_only, best);
+  downwards.start_between(Scalar(-starts.most), Scalar(-starts.least));
+  downwards.run();
   throats_.search(up_, place, t, upper, best);
   rest(place, t, best);
   settle(place, t, best);
@@ -104,57 +108,66 @@ void SlopedMedium<Scalar>::settle(const SlopedPlace<Scalar>& place, const Scalar
 }
 
 template <Real Scalar>
-Path<Scalar> SlopedMedium<Scalar>::path_between(const Path<Scalar>& low, const Path<Scalar>& high,
-                                                const Scalar& part, const Scalar& z, const Scalar& t) const {
-  if (low.kind == PathKind::bottom_wall) return this->bottom_path(z);
-  if (low.kind == PathKind::top_wall) return this->top_path();
+Path<Scalar> SlopedMedium<Scalar>::fan_between(const Known& low, const Known& high, const Scalar& z,
+                                               const Scalar& t) const {
   Path<Scalar> best;
-  if (low.kind != PathKind::fan || fluxes_) return best;
+  const Path<Scalar>&a = low.path, &b = high.path;
+  if (a.kind != PathKind::fan || fluxes_) return best;
   const SlopedPlace<Scalar> place(up_, z);
   // What does not leave its piece has a closed form.
-  const std::size_t source = low.source, n = up_.n_cells();
-  const bool is_set_up = low.upward != low.turned;
+  const std::size_t source = a.source, n = up_.n_cells();
+  const bool is_set_up = a.upward != a.turned;
   const std::size_t first = is_set_up ? source : source - 1;
   for (const std::size_t cell : {place.below, place.above})
     if (up_.piece[cell] == up_.piece[first]) return best;
-  // h as it is at both, and some more.
-  const Scalar four(4), a = four * low.H, b = four * high.H, apart = b > a ? Scalar(b - a) : Scalar(a - b);
-  const Scalar h = a + (b - a) * part, least = std::min(a, b) - apart, most = std::max(a, b) + apart;
   const SlopedView<Scalar>& side = view(!is_set_up);
-  const std::size_t node = is_set_up ? source : n - source,
-                    j = is_set_up ? low.interface : n - 1 - low.interface;
+  const std::size_t node = is_set_up ? source : n - source, j = is_set_up ? a.interface : n - 1 - a.interface;
+  // A path between two that turn in one piece turns there; one between two straight ones may rest or turn on its way from the nearer
+  // of their ends to the other, unless r rises all that way.
+  const std::size_t cell = place.above;
+  if (!a.turned && !(low.z > up_.x[cell] && high.z < up_.x[cell + 1] &&
+                     (is_set_up ? up_.bend[cell] >= 0 : up_.bend[cell] <= 0)))
+    return best;
+  const Scalar h_low = Scalar(4) * a.H, h_high = Scalar(4) * b.H, part = (z - low.z) / (high.z - low.z);
+  const Scalar least = std::min(h_low, h_high), most = std::max(h_low, h_high);
+  const Scalar margin = (most - least) / Scalar(64) + Scalar(64) * unit_roundoff<Scalar>() * most;
   SlopedSearch<Scalar, SlopedCandidates<Scalar>> search(side, is_set_up ? place : place.turned_over(up_), t,
                                                         infinity<Scalar>(), false, best);
-  if (!search.run_near(node, low.turned, j, h, std::max(Scalar(0), least), most)) return {};
+  search.run_between(node, a.turned, j, h_low + (h_high - h_low) * part,
+                     std::max(Scalar(0), Scalar(least - margin)), most + margin);
   settle(place, t, best);
   return best;
 }
 
 template <Real Scalar>
+Path<Scalar> SlopedMedium<Scalar>::best_between(const Known& low, const Known& high, const Scalar& z,
+                                                const Scalar& t) const {
+  const Path<Scalar>&a = low.path, &b = high.path;
+  const bool is_one = a.kind == b.kind && a.upward == b.upward && a.source == b.source &&
+                      a.turned == b.turned && a.interface == b.interface;
+  if (is_one && low.z < z && z < high.z) {
+    if (a.kind == PathKind::bottom_wall) return this->bottom_path(z);
+    if (a.kind == PathKind::top_wall) return this->top_path();
+    const Path<Scalar> fan = fan_between(low, high, z, t);
+    if (fan.kind != PathKind::none) return fan;
+  }
+  // Starts are known to rounding, and where time hardly depends on them to less.
+  const Scalar margin = (this->top() - this->bottom()) / Scalar(1 << 20);
+  Starts starts;
+  if (a.kind != PathKind::bottom_wall) starts.least = a.foot - margin;
+  if (b.kind != PathKind::top_wall) starts.most = b.foot + margin;
+  return this->best_with_walls(z, t, [&](const Scalar& upper) { return search(z, t, upper, false, starts); });
+}
+
+template <Real Scalar>
 std::vector<Path<Scalar>> SlopedMedium<Scalar>::best_paths(const std::vector<Scalar>& z,
                                                            const Scalar& t) const {
-  // So close together that paths in between are of one branch: a path along a given route may turn at several h.
-  constexpr std::size_t kBlock = 8;
   std::vector<Path<Scalar>> paths(z.size());
   if (z.empty()) return paths;
-  const auto is_wall = [](const Path<Scalar>& path) {
-    return path.kind == PathKind::bottom_wall || path.kind == PathKind::top_wall;
-  };
   const auto fill = [&](const auto& self, std::size_t lo, std::size_t hi) -> void {
     if (hi < lo + 2) return;
-    const Path<Scalar>&low = paths[lo], &high = paths[hi];
-    const bool is_one = low.kind == high.kind && low.upward == high.upward && low.source == high.source &&
-                        low.turned == high.turned && low.interface == high.interface;
-    if (is_one && (is_wall(low) || (low.kind == PathKind::fan && hi - lo <= kBlock))) {
-      for (std::size_t i = lo + 1; i < hi; ++i) {
-        const Scalar part = z[hi] > z[lo] ? Scalar((z[i] - z[lo]) / (z[hi] - z[lo])) : Scalar(0);
-        paths[i] = path_between(low, high, part, z[i], t);
-        if (paths[i].kind == PathKind::none) paths[i] = this->best_path(z[i], t);
-      }
-      return;
-    }
     const std::size_t middle = lo + (hi - lo) / 2;
-    paths[middle] = this->best_path(z[middle], t);
+    paths[middle] = best_between({z[lo], paths[lo]}, {z[hi], paths[hi]}, z[middle], t);
     self(self, lo, middle);
     self(self, middle, hi);
   };

@@ -36,8 +36,8 @@ class SlopedMedium final : public Medium<Scalar> {
   [[nodiscard]] std::size_t numbers_per_piece() const override { return 2; }
   [[nodiscard]] Path<Scalar> best_free(const Scalar& z, const Scalar& t, const Scalar& upper) const override;
   [[nodiscard]] Path<Scalar> best_moving(const Scalar& z, const Scalar& t) const override;
-  /// Optimal paths do not cross: between two heights served by one source in one way all are. Blocks of heights between such
-  /// two take one root from what its neighbours found; walls take none.
+  /// Optimal paths do not cross: one between two others starts between them, and stays there. So between two that come from one wall
+  /// all do, between two fans of a node that turn in one piece all turn there, with an H between theirs, and elsewhere few starts are left.
   [[nodiscard]] std::vector<Path<Scalar>> best_paths(const std::vector<Scalar>& z,
                                                      const Scalar& t) const override;
   [[nodiscard]] Scalar pure_travel_time(const Scalar& from, const Scalar& to) const override;
@@ -67,11 +67,23 @@ class SlopedMedium final : public Medium<Scalar> {
   void settle(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const;
   /// The path that has been at z all the time, where no better one is known.
   void rest(const SlopedPlace<Scalar>& place, const Scalar& t, Path<Scalar>& best) const;
-  /// The path to z between two paths of one family; kind none where it is not found at once.
-  [[nodiscard]] Path<Scalar> path_between(const Path<Scalar>& low, const Path<Scalar>& high,
-                                          const Scalar& part, const Scalar& z, const Scalar& t) const;
-  [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper,
-                                    bool moving_only) const;
+  /// Heights between which a path starts.
+  struct Starts {
+    Scalar least = -infinity<Scalar>(), most = infinity<Scalar>();
+  };
+  [[nodiscard]] Path<Scalar> search(const Scalar& z, const Scalar& t, const Scalar& upper, bool moving_only,
+                                    const Starts& starts = {}) const;
+  /// A height with its best path.
+  struct Known {
+    const Scalar& z;
+    const Path<Scalar>& path;
+  };
+  /// The best path to z, low.z <= z <= high.z, which starts between theirs.
+  [[nodiscard]] Path<Scalar> best_between(const Known& low, const Known& high, const Scalar& z,
+                                          const Scalar& t) const;
+  /// The same between two fans of one source and one way, where it must be one, too; kind none where that is not known.
+  [[nodiscard]] Path<Scalar> fan_between(const Known& low, const Known& high, const Scalar& z,
+                                         const Scalar& t) const;
   /// Fluxes that are no parabolas.
   [[nodiscard]] Path<Scalar> search_for_law(const SlopedPlace<Scalar>& place, const Scalar& t,
                                             const Scalar& upper, bool moving_only) const;

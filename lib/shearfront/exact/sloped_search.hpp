@@ -12,7 +12,7 @@ namespace shearfront::exact {
 template <Real Scalar, class Candidates>
 class SlopedSearch : private Candidates {
  public:
-  using Candidates::Candidates;
+  using Candidates::Candidates, Candidates::start_between;
 
   void run() {
     if constexpr (Candidates::kKnowsPieces) {
@@ -25,12 +25,12 @@ class SlopedSearch : private Candidates {
     from_above();
   }
 
-  /// The same among fans of one node of the view that go straight, or turn in cell j, with an h close to `h`: false where that is not
-  /// found at once.
-  [[nodiscard]] bool run_near(std::size_t node, bool turned, std::size_t j, const Scalar& h,
-                              const Scalar& h_least, const Scalar& h_most) {
+  /// The same among fans of one node of the view that go straight, or turn in cell j, with an h from h_least to h_most, of straight ones
+  /// about `h`: these only where they are found at once.
+  void run_between(std::size_t node, bool turned, std::size_t j, const Scalar& h, const Scalar& h_least,
+                   const Scalar& h_most) {
     const bool is_below = node <= below_;
-    if (turned ? j < std::max(node, above_) : !is_below) return false;
+    if (turned ? j < std::max(node, above_) : !is_below) return;
     Route way(false);
     if (is_below) {
       way.add(view_, below_, down_, Passes::upwards, false);
@@ -57,7 +57,11 @@ class SlopedSearch : private Candidates {
       least = std::max(least, view_.high[j]);
     }
     most = std::min(most, way.least);
-    return least < most && this->fan_near(way, node, turned, j, top, std::clamp(h, least, most), least, most);
+    if (!(least < most)) return;
+    if (turned)
+      turned_fan(way, node, j, least, most, top);
+    else
+      this->fan_near(way, node, std::clamp(h, least, most), least, most);
   }
 
  private:
@@ -65,7 +69,8 @@ class SlopedSearch : private Candidates {
   using Base::above_, Base::below_, Base::best_, Base::down_, Base::late_, Base::moving_only_, Base::n_,
       Base::rate_above_, Base::up_, Base::rate_below_, Base::slack_, Base::back_above_, Base::t_,
       Base::time_above_, Base::time_below_, Base::view_, Base::z_;
-  using Base::flat_state, Base::gained, Base::limit, Base::offer, Base::range_of, Base::search_state,
+  using Base::flat_state, Base::gained, Base::least_start_, Base::limit, Base::may_start_at,
+      Base::may_start_in, Base::most_start_, Base::offer, Base::range_of, Base::search_state,
       Base::straight_fan, Base::turned_fan;
   using typename Base::Leaves;
   using typename Base::Range;
@@ -86,7 +91,7 @@ class SlopedSearch : private Candidates {
     while (last + 1 < n_ && is_of_piece(last + 1, cell)) ++last;
     const auto state = [&](std::size_t k) {
       const bool is_pure = !view_.is_curved(k) && (view_.p[k] == 0 || view_.missing[k] == 0);
-      if (view_.is_mirror || (moving_only_ && is_pure)) return;
+      if (view_.is_mirror || (moving_only_ && is_pure) || !may_start_in(k)) return;
       // A pure state of the cell of z comes from its end at the latest.
       if (is_pure && k == cell) {
         const Scalar& from_end = view_.missing[k] == 0 ? (cell == below_ ? time_below_ : view_.pure_time[k])
@@ -96,7 +101,7 @@ class SlopedSearch : private Candidates {
       state_inside(cell, k, first, last);
     };
     const auto fan = [&](std::size_t k) {
-      if (k > 0 && view_.emits[k]) fan_inside(cell, k, first, last);
+      if (k > 0 && view_.emits[k] && may_start_at(k)) fan_inside(cell, k, first, last);
     };
     // Outwards from z, as far as pure states come.
     state(cell);
@@ -192,7 +197,7 @@ class SlopedSearch : private Candidates {
   /// Everything that starts below z and leaves its cell at the top.
   void from_below() {
     Route route(Candidates::has_bounds(n_));
-    if (below_ != above_) {
+    if (below_ != above_ && may_start_in(below_)) {
       if (!is_known(below_, below_)) state(route, below_, Scalar(0));
       if (view_.has_moving_state(below_)) turned_states(route, below_, Scalar(0), at_z());
     }
@@ -201,13 +206,15 @@ class SlopedSearch : private Candidates {
     for (std::size_t k = below_; k-- > view_.first_start; time += view_.pure_time[k]) {
       // Node k + 1, and the state of the cell below it.
       const std::size_t node = k + 1;
-      if (time > late_) return;
-      if (view_.emits[node]) {
+      if (time > late_ || view_.x[node] < least_start_) return;
+      if (view_.emits[node] && may_start_at(node)) {
         if (!is_known(node, below_)) straight_fan(route, node, time);
         turned_fans(route, node, time, at_z());
       }
-      if (!is_known(k, below_)) state(route, k, time);
-      if (view_.has_moving_state(k)) turned_states(route, k, time, at_z());
+      if (may_start_in(k)) {
+        if (!is_known(k, below_)) state(route, k, time);
+        if (view_.has_moving_state(k)) turned_states(route, k, time, at_z());
+      }
       route.add(view_, k, view_.downwards[k], Passes::upwards, false);
     }
   }
@@ -215,20 +222,20 @@ class SlopedSearch : private Candidates {
   /// Everything that starts at or above z, sets out upwards and turns.
   void from_above() {
     Route route(Candidates::has_bounds(n_));
-    if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_])
+    if (z_ == view_.x[above_] && above_ > 0 && view_.emits[above_] && may_start_at(above_))
       turned_fans(route, above_, Scalar(0), at_z());
     Scalar time(0);
     const std::size_t end = std::min(view_.end_of_starts, view_.end_of_falls);
-    for (std::size_t k = above_; k < end; ++k) {
+    for (std::size_t k = above_; k < end && !(view_.x[k] > most_start_); ++k) {
       // Cell k: its state turns in it and leaves it at the bottom, or leaves it at the top; then its upper node.
-      if (!is_known(k, above_)) state_that_turns_at_once(route, k);
+      if (may_start_in(k) && !is_known(k, above_)) state_that_turns_at_once(route, k);
       const Entrance from = k == above_ ? at_z() : at_node(k);
       route.add(view_, k, from.run, Passes::downwards, true);
       time += from.back;
       const std::size_t node = k + 1;
       if (node == n_ || time > late_) return;
-      if (view_.has_moving_state(k)) turned_states(route, k, time, at_node(node));
-      if (view_.emits[node]) turned_fans(route, node, time, at_node(node));
+      if (view_.has_moving_state(k) && may_start_in(k)) turned_states(route, k, time, at_node(node));
+      if (view_.emits[node] && may_start_at(node)) turned_fans(route, node, time, at_node(node));
     }
   }
 

@@ -39,12 +39,23 @@ class SlopedStarts {
     slack_ = Scalar(64) * unit_roundoff<Scalar>() * (view.x.back() - view.x.front());
     late_ = t * (Scalar(1) + Scalar(256) * unit_roundoff<Scalar>());
   }
+  /// Only paths that start from `least` to `most`, heights of the view.
+  void start_between(const Scalar& least, const Scalar& most) {
+    least_start_ = least;
+    most_start_ = most;
+  }
 
  protected:
   using Route = SlopedRoute<Scalar>;
   using Sample = SlopedSample<Scalar>;
 
   [[nodiscard]] Scalar limit() const { return std::min(upper_, best_.value) + slack_; }
+  [[nodiscard]] bool may_start_at(std::size_t node) const {
+    return !(view_.x[node] < least_start_) && !(view_.x[node] > most_start_);
+  }
+  [[nodiscard]] bool may_start_in(std::size_t cell) const {
+    return !(view_.x[cell + 1] < least_start_) && !(view_.x[cell] > most_start_);
+  }
   [[nodiscard]] std::size_t true_cell(std::size_t cell) const {
     return view_.is_mirror ? n_ - 1 - cell : cell;
   }
@@ -205,6 +216,7 @@ class SlopedStarts {
     if (range.is_empty) return range;
     if (first > 0) range.begin = place_of(k, route.least, first);
     if (gain_at(k, least, h_low) > 0) range.end = place_of(k, h_low, last);
+    narrow(range);
     if (range.begin.is_near_most == range.end.is_near_most)
       range.span = range.begin.is_near_most ? Scalar(range.end.from_most - range.begin.from_most)
                                             : Scalar(range.begin.from_least - range.end.from_least);
@@ -214,9 +226,34 @@ class SlopedStarts {
     using std::log1p;
     range.log_span = size_of_bend(k) * range.span;
     if (view_.form[k] == RateForm::linear) range.log_span = log1p(Scalar(range.log_span / range.end.rate));
-    if (!range.is_capped)
-      range.qa2 = std::max(zero, Scalar(((route.least - most) + most * view_.e0[k]) / route.least));
+    if (!range.is_capped) {
+      const Scalar& rate = range.begin.rate;
+      range.qa2 = std::max(zero, Scalar(((route.least - rate) + rate * view_.e0[k]) / route.least));
+    }
     return range;
+  }
+  /// To the starts that are asked for.
+  void narrow(StateRange& range) const {
+    const std::size_t k = range.cell;
+    const Scalar &bottom = view_.x[k], &top = view_.x[k + 1];
+    if (!(least_start_ > bottom) && !(most_start_ < top)) return;
+    const bool is_rising = view_.bend[k] > 0;
+    const Scalar &most = is_rising ? view_.high[k] : view_.low[k],
+                 &least = is_rising ? view_.low[k] : view_.high[k];
+    const Scalar width = top - bottom, bend = size_of_bend(k);
+    const auto place = [&](const Scalar& from_most, const Scalar& from_least) -> Place {
+      return from_most < from_least ? Place{rate_beyond(view_.form[k], Scalar(-bend), most, from_most),
+                                            from_most, Scalar(width - from_most), true}
+                                    : Place{rate_beyond(view_.form[k], bend, least, from_least),
+                                            Scalar(width - from_least), from_least, false};
+    };
+    const Scalar below = least_start_ - bottom, above = top - most_start_;  // what is left out on both sides
+    const Scalar &from_most = is_rising ? above : below, &from_least = is_rising ? below : above;
+    if (from_most > range.begin.from_most) {
+      range.begin = place(from_most, Scalar(width - from_most));
+      range.is_capped = false;
+    }
+    if (from_least > range.end.from_least) range.end = place(Scalar(width - from_least), from_least);
   }
 
   /// A start in a range, at the part v of it or v^2, by log r.
@@ -308,8 +345,9 @@ class SlopedStarts {
           keep_where<Scalar>([&](const Scalar& y) { return Scalar(h(y) - h_low); }, lo, hi))
         sign_changes<Scalar>(late, lo, hi, found);
     };
-    search(view_.x[k], view_.crest[k]);
-    search(view_.crest[k], view_.x[k + 1]);
+    const Scalar least = std::max(view_.x[k], least_start_), most = std::min(view_.x[k + 1], most_start_);
+    search(least, std::min(view_.crest[k], most));
+    search(std::max(view_.crest[k], least), most);
   }
 
   [[nodiscard]] Scalar size_of_bend(std::size_t k) const {
@@ -325,6 +363,7 @@ class SlopedStarts {
   RunEnds<Scalar> down_, up_;                    ///< from z to the ends of its cells
   Scalar time_below_, time_above_, back_above_;  ///< of pure states from z to the ends of its cells
   Scalar slack_{0}, late_{0};
+  Scalar least_start_ = -infinity<Scalar>(), most_start_ = infinity<Scalar>();
 };
 
 }  // namespace shearfront::exact
