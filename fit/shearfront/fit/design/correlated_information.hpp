@@ -27,14 +27,17 @@ struct CorrelatedInformation {
 ///
 /// is M(S) where n w_g is 1 for the units of S and 0 for the others, and concave in w, for parallel sums of matrices are
 /// (Anderson & Duffin 1969, J. Math. Anal. Appl. 26, 576-594): the criterion is convex, and its tangent bounds all sets of n.
-/// Cost: up to 100 times c^3 / 3 flops, c candidates.
+/// Solved over few units at a time (correlated_relaxation.cpp), the bound within 1e-6 of the value where that takes no longer than what
+/// follows. Cost: the eigenvalues of C, c^3 4/3 flops, c candidates; where few units are fractional little more, at most as much again
+/// or twice that.
 [[nodiscard]] std::optional<ContinuousDesign> continuous_design(const CorrelatedInformation& information,
                                                                 const InformationCriterion& criterion,
                                                                 std::size_t n);
 
-/// n different units, from the largest weights on by exchange until no exchange of one is better. Each is taken out by the
-/// formula of partitioned inverses, and all others are tried in its place.
-/// Cost: a pass is n times c m flops and c spectra of p x p matrices, m candidates chosen; m^3 + c m^2 for each exchange.
+/// n different units by exchange until no exchange of one is better: the best that is found from the largest weights on, and from
+/// samples of the weights while these are cheap. Each in turn is taken out by the formula of partitioned inverses, and those that can
+/// be best in its place, by the tangent at the set as it is, are tried. Cost: a pass is n times c (p^2 + m) flops, m candidates
+/// chosen, and (m + c - m) m^2 before it; c m for each exchange.
 [[nodiscard]] std::vector<std::size_t> exchanged_design(const CorrelatedInformation& information,
                                                         const InformationCriterion& criterion, std::size_t n,
                                                         const ContinuousDesign& start);

@@ -29,7 +29,7 @@ using Eigen::VectorXd;
 constexpr double kUndetermined = 1e-13;
 /// Parts of an undetermined direction that are named.
 constexpr double kNamed = 0.1;
-/// Candidates with correlated noise: their covariance is dense, and is factored a hundred times.
+/// Candidates with correlated noise: their covariance is dense, and all its eigenvalues take more than a second.
 constexpr std::size_t kMostCorrelated = 2000;
 /// Of the correlated part, added to its diagonal: the same measurement again says nothing new, but must not divide by 0.
 constexpr double kRepeated = 1e-12;

@@ -76,8 +76,8 @@ struct Design {
 /// The best n units of the candidates.
 ///
 /// A unit g with Jacobian J_g of its residuals (in units of sigma) adds J_g^T J_g to the information M = C^-1. First the
-/// continuous design: n times weights 0 <= w_g <= 1/n of sum 1, by NLopt's L-BFGS; then n
-/// units by exchange: each in turn for the one with which the criterion is least, until none is. What it is short of the best
+/// continuous design: n times weights 0 <= w_g <= 1/n of sum 1, by NLopt's L-BFGS (by Newton's
+/// method where noise is correlated); then n units by exchange: each in turn for the one with which the criterion is least, until none is. What it is short of the best
 /// is bounded (Design::bound). Correlated noise, as the fit has it, is that of all that is chosen and of the data together
 /// (correlated_information.hpp); candidates are then at most 2000, of the quantity of the data. Over draws the criterion is averaged, which makes the design hold where
 /// the estimate is wrong.
@@ -85,7 +85,8 @@ struct Design {
 /// no finite error; bins and sums have not.
 /// Precondition: the estimate is usable. Errors: InputError (criterion, n, draws, candidates, quantity) for what cannot be done: a
 /// target that is no unknown, unknowns that all candidates together do not determine, no error bars to draw from.
-/// Cost: (draws) solutions at all candidates, then some 500 x units x p^2 x draws flops.
+/// Cost: (draws) solutions at all candidates, then some 500 x units x p^2 x draws flops;
+/// where noise is correlated as correlated_information.hpp says.
 [[nodiscard]] Design design(const FitSpec& spec, const Estimate& estimate, const DesignSpec& wanted);
 
 }  // namespace shearfront::fit
