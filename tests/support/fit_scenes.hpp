@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -13,6 +14,10 @@
 #include "shearfront/solver/solve.hpp"
 
 namespace shearfront::support {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 inline SceneSpec<double> small_above_large(std::vector<double> breaks, std::vector<double> values) {
   SceneSpec<double> scene;

@@ -12,6 +12,17 @@
 
 namespace shearfront::support {
 
+inline SceneSpec<double> bed_with(DepthFunction<double> rate, InitialState<double> start) {
+  SceneSpec<double> spec;
+  spec.shear_rate = std::move(rate);
+  spec.initial_state = std::move(start);
+  return spec;
+}
+
+inline TableInitial<double> table_start(std::vector<double> z, std::vector<double> values) {
+  return {std::move(z), std::move(values)};
+}
+
 /// A start of any kind with states from `lowest` to `highest`: one of each model of the list, tables most often, with states at
 /// both ends of the range and flats.
 inline InitialState<double> random_start(SceneMaker& make, double lowest = 0, double highest = 1) {

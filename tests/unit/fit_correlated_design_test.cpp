@@ -16,16 +16,13 @@
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/design/correlated_information.hpp"
 #include "shearfront/fit/design/design.hpp"
+#include "support/design_checks.hpp"
 #include "support/fit_scenes.hpp"
 
 namespace shearfront::fit {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-constexpr Criterion kEveryCriterion[] = {Criterion::D, Criterion::A, Criterion::E, Criterion::target};
+using namespace shearfront::support;
 
 /// Candidates at random times, one or two of them a unit.
 CorrelatedInformation random_correlated(boost::random::mt19937_64& random, std::size_t n_units, Index p,
@@ -67,48 +64,33 @@ MatrixXd dense_information(const CorrelatedInformation& information, std::size_t
   return information.before[draw] + j.transpose() * information.covariance(rows, rows).inverse() * j;
 }
 
+double dense_mean(const CorrelatedInformation& information, const InformationCriterion& criterion,
+                  const std::vector<std::size_t>& units) {
+  double sum = 0;
+  for (std::size_t k = 0; k < information.before.size(); ++k)
+    sum += criterion.value(dense_information(information, k, units));
+  return sum / static_cast<double>(information.before.size());
+}
+
 TEST(FitCorrelatedDesign, IsAsGoodAsItSaysAndBetterThanNoneIsTheBound) {
-  int n_checked = 0, n_best = 0;
-  double efficiency = 0;
+  CheckedChoices checked;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     boost::random::mt19937_64 random(seed);
-    const std::size_t n = 4, n_units = 10;
-    const CorrelatedInformation information = random_correlated(random, n_units, 3, 1 + seed % 2);
+    const CorrelatedInformation information = random_correlated(random, 10, 3, 1 + seed % 2);
     for (const Criterion kind : kEveryCriterion) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", criterion " + std::to_string(static_cast<int>(kind)));
       const InformationCriterion criterion(kind, 2);
-      const auto continuous = continuous_design(information, criterion, n);
-      ASSERT_TRUE(continuous);
-      EXPECT_NEAR(continuous->weights.sum(), 1, 1e-12);
-      EXPECT_LE(continuous->weights.maxCoeff(), 1.0 / n + 1e-12);
-      const auto chosen = exchanged_design(information, criterion, n, *continuous);
-      EXPECT_EQ(chosen.size(), n);
-      EXPECT_EQ(std::adjacent_find(chosen.begin(), chosen.end()), chosen.end());
-      double best = std::numeric_limits<double>::infinity();
-      std::vector<bool> mask(n_units, false);
-      std::fill(mask.begin(), mask.begin() + n, true);
-      do {
-        std::vector<std::size_t> some;
-        for (std::size_t g = 0; g < mask.size(); ++g)
-          if (mask[g]) some.push_back(g);
-        double sum = 0;
-        for (std::size_t k = 0; k < information.before.size(); ++k)
-          sum += criterion.value(dense_information(information, k, some));
-        best = std::min(best, sum / static_cast<double>(information.before.size()));
-      } while (std::prev_permutation(mask.begin(), mask.end()));
-      const double found = mean_criterion(information, criterion, chosen);
-      EXPECT_GE(best, continuous->bound - 1e-9);
-      EXPECT_GE(found, best - 1e-9);
-      n_best += found < best + 1e-6 ? 1 : 0;
-      efficiency += std::exp(continuous->bound - found);
-      ++n_checked;
+      check_choice(
+          information, criterion, 10, 4,
+          [&](const std::vector<std::size_t>& some) { return dense_mean(information, criterion, some); },
+          checked);
     }
   }
-  EXPECT_EQ(n_checked, 48);
+  EXPECT_EQ(checked.n, 48);
   // Exchange of one by one may end beside the best, but seldom.
-  EXPECT_GE(n_best, 46);
+  EXPECT_GE(checked.n_best, 46);
   // The bound says something: 0.81 on the average.
-  EXPECT_GT(efficiency / n_checked, 0.75);
+  EXPECT_GT(checked.efficiency / checked.n, 0.75);
 }
 
 /// The tangent at the relaxed design is as high as any, and no exchange of one unit for another, each by a dense inverse, is better.
@@ -126,21 +108,15 @@ TEST(FitCorrelatedDesign, NothingIsLeftToGain) {
       EXPECT_NEAR(continuous->weights.sum(), 1, 1e-12);
       EXPECT_GE(continuous->weights.minCoeff(), 0);
       EXPECT_LE(continuous->weights.maxCoeff(), 1.0 / n + 1e-12);
-      const auto mean_of = [&](const std::vector<std::size_t>& units) {
-        double sum = 0;
-        for (std::size_t k = 0; k < n_draws; ++k)
-          sum += criterion.value(dense_information(information, k, units));
-        return sum / static_cast<double>(n_draws);
-      };
       const auto chosen = exchanged_design(information, criterion, n, *continuous);
-      const double found = mean_of(chosen);
+      const double found = dense_mean(information, criterion, chosen);
       EXPECT_GE(found, continuous->bound);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t g = 0; g < n_units; ++g) {
           if (std::find(chosen.begin(), chosen.end(), g) != chosen.end()) continue;
           auto other = chosen;
           other[i] = g;
-          EXPECT_GE(mean_of(other), found - 1e-8) << chosen[i] << " for " << g;
+          EXPECT_GE(dense_mean(information, criterion, other), found - 1e-8) << chosen[i] << " for " << g;
         }
     }
 }
@@ -169,12 +145,6 @@ TEST(FitCorrelatedDesign, WorthIsTheSlopeOfTheRelaxedCriterion) {
   }
 }
 
-ObservationPlan correlated_plan() {
-  ObservationPlan plan{{0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0}, {}, Quantity::bin, 0.05};
-  for (int i = 1; i < 20; ++i) plan.depths.push_back(0.05 * i);
-  return plan;
-}
-
 NoiseSpec known_lengths() {
   NoiseSpec noise;
   noise.model = NoiseModel::exponential;
@@ -190,9 +160,9 @@ double covariance_of(const Observation& a, const Observation& b) {
 
 /// Two layers in bins, noise of that covariance.
 FitSpec correlated_layers(double sigma, std::uint64_t seed) {
-  const SceneSpec<double> truth = support::small_above_large({0.29}, {2.4, 0.31});
+  const SceneSpec<double> truth = small_above_large({0.29}, {2.4, 0.31});
   const Scene<double> bed(truth);
-  const ObservationPlan plan = correlated_plan();
+  const ObservationPlan plan = bins_of_layers();
   Observations data = observe(plan, bed, solve<ExactSolver>(bed, request_of(plan, bed)));
   const auto n = static_cast<Index>(data.rows.size());
   static const MatrixXd root = [&] {
@@ -213,17 +183,9 @@ FitSpec correlated_layers(double sigma, std::uint64_t seed) {
     data.rows[static_cast<std::size_t>(i)].value += noise[i];
     data.rows[static_cast<std::size_t>(i)].sigma = sigma;
   }
-  FitSpec spec = support::fit_of(truth, std::move(data), {"shear_rate.values"});
+  FitSpec spec = fit_of(truth, std::move(data), {"shear_rate.values"});
   spec.noise = known_lengths();
   return spec;
-}
-
-DesignSpec measured_again(const FitSpec& spec, std::size_t n, bool adds) {
-  DesignSpec wanted;
-  wanted.candidates = spec.observations;
-  wanted.n = n;
-  wanted.adds = adds;
-  return wanted;
 }
 
 TEST(FitCorrelatedDesign, AllThereIsHasTheErrorsOfTheFit) {
@@ -232,13 +194,7 @@ TEST(FitCorrelatedDesign, AllThereIsHasTheErrorsOfTheFit) {
   DesignSpec wanted = measured_again(spec, 8, false);
   wanted.unit = DesignUnit::time;
   const Design all = design(spec, estimate, wanted);
-  for (Index j = 0; j < 2; ++j) {
-    const double error = estimate.parameters[static_cast<std::size_t>(j)].std_error.value();
-    EXPECT_NEAR(all.errors.before[j] / error, 1, 1e-9);
-    EXPECT_NEAR(all.errors.chosen[j] / error, 1, 1e-9);
-    EXPECT_NEAR(all.errors.evenly[j] / error, 1, 1e-9);
-  }
-  EXPECT_NEAR(all.efficiency(), 1, 1e-9);
+  expect_errors_of_fit(all, estimate);
 }
 
 /// What is measured beside the data is one experiment with them: a fit of all of it, or of data alone, says so.
@@ -327,26 +283,8 @@ TEST(SlowFitCorrelatedDesign, ErrorsAreThoseOfRefits) {
   constexpr double kSigma = 0.002;
   const FitSpec whole = correlated_layers(kSigma, 1000000);
   const Design best = design(whole, fit(whole), measured_again(whole, 30, false));
-  VectorXd sum = VectorXd::Zero(2), squares = VectorXd::Zero(2);
-  constexpr int kRefits = 1000;
-  for (int k = 0; k < kRefits; ++k) {
-    FitSpec some = correlated_layers(kSigma, 1 + static_cast<std::uint64_t>(k));
-    std::vector<Observation> rows;
-    for (const DesignChoice& choice : best.choices)
-      if (choice.is_chosen) rows.push_back(some.observations.rows[choice.rows.front()]);
-    some.observations.rows = rows;
-    const Estimate refit = fit(some);
-    ASSERT_TRUE(refit.usable()) << "seed " << 1 + k;
-    for (Index j = 0; j < 2; ++j) {
-      const double p = refit.parameters[static_cast<std::size_t>(j)].estimate;
-      sum[j] += p;
-      squares[j] += p * p;
-    }
-  }
-  for (Index j = 0; j < 2; ++j) {
-    const double mean = sum[j] / kRefits, scatter = std::sqrt(squares[j] / kRefits - mean * mean);
-    EXPECT_NEAR(best.errors.chosen[j] / scatter, 1, 0.07) << best.unknowns[static_cast<std::size_t>(j)];
-  }
+  expect_errors_of_refits(best, 1000, 0.07,
+                          [&](std::uint64_t seed) { return correlated_layers(kSigma, seed); });
 }
 
 }  // namespace

@@ -13,9 +13,6 @@ namespace shearfront::fit {
 namespace {
 
 using namespace shearfront::support;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using MatrixXl = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// The same by the normal equations in long double: (J^T J)^-1 J^T B B^T J (J^T J)^-1.

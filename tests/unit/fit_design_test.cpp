@@ -14,15 +14,13 @@
 #include "shearfront/fit.hpp"
 #include "shearfront/fit/design/design.hpp"
 #include "shearfront/fit/design/information.hpp"
+#include "support/design_checks.hpp"
 #include "support/fit_scenes.hpp"
 
 namespace shearfront::fit {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-constexpr Criterion kCriteria[] = {Criterion::D, Criterion::A, Criterion::E, Criterion::target};
+using namespace shearfront::support;
 
 /// Units of one measurement each with Jacobian rows g: nothing is known before.
 UnitInformation from_rows(const std::vector<VectorXd>& rows) {
@@ -63,7 +61,7 @@ UnitInformation polynomial(int degree, int n) {
 
 TEST(FitDesign, CriteriaHaveTheSlopeOfTheirDifferences) {
   boost::random::mt19937_64 random(1);
-  for (const Criterion kind : kCriteria) {
+  for (const Criterion kind : kEveryCriterion) {
     const InformationCriterion criterion(kind, 1);
     for (int scene = 0; scene < 20; ++scene) {
       const UnitInformation units = random_units(random, 8, 3, 1);
@@ -88,7 +86,7 @@ TEST(FitDesign, StandsForTheNamesOfTheCriteria) {
   EXPECT_NEAR(InformationCriterion(Criterion::E, 0).value(information), std::log(0.25), std::log(2.0) / 32);
   EXPECT_NEAR(InformationCriterion(Criterion::target, 1).value(information), std::log(0.04), 1e-14);
   information(1, 1) = 0;
-  for (const Criterion kind : kCriteria)
+  for (const Criterion kind : kEveryCriterion)
     EXPECT_EQ(InformationCriterion(kind, 0).value(information), std::numeric_limits<double>::infinity());
 }
 
@@ -106,75 +104,41 @@ TEST(FitDesign, FindsTheDesignsOfTheTextbook) {
   EXPECT_EQ(chosen(polynomial(3, 201), 4), (std::vector<std::size_t>{0, 55, 145, 200}));
 }
 
-// Against all choices there are.
 TEST(FitDesign, IsAsGoodAsItSaysAndBetterThanNoneIsTheBound) {
-  int n_checked = 0, n_best = 0;
+  CheckedChoices checked;
   for (unsigned seed = 1; seed <= 25; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
     boost::random::mt19937_64 random(seed);
-    const std::size_t n_draws = 1 + seed % 3, n = 4;
-    const UnitInformation units = random_units(random, 11, 3, n_draws);
-    for (const Criterion kind : kCriteria) {
+    const UnitInformation units = random_units(random, 11, 3, 1 + seed % 3);
+    for (const Criterion kind : kEveryCriterion) {
       const InformationCriterion criterion(kind, 2);
-      const auto continuous = continuous_design(units, criterion, n);
-      ASSERT_TRUE(continuous) << "seed " << seed;
-      EXPECT_NEAR(continuous->weights.sum(), 1, 1e-12);
-      EXPECT_LE(continuous->weights.maxCoeff(), 1.0 / n + 1e-12);
-      const auto chosen = exchanged_design(units, criterion, n, *continuous);
-      EXPECT_EQ(chosen.size(), n);
-      EXPECT_EQ(std::adjacent_find(chosen.begin(), chosen.end()), chosen.end());
-      double best = std::numeric_limits<double>::infinity();
-      std::vector<bool> mask(11, false);
-      std::fill(mask.begin(), mask.begin() + n, true);
-      do {
-        std::vector<std::size_t> some;
-        for (std::size_t g = 0; g < mask.size(); ++g)
-          if (mask[g]) some.push_back(g);
-        best = std::min(best, mean_criterion(units, criterion, some));
-      } while (std::prev_permutation(mask.begin(), mask.end()));
-      const double found = mean_criterion(units, criterion, chosen);
-      EXPECT_GE(best, continuous->bound - 1e-9) << "seed " << seed;
-      EXPECT_GE(found, best - 1e-9) << "seed " << seed;
-      n_best += found < best + 1e-6 ? 1 : 0;
-      ++n_checked;
+      check_choice(
+          units, criterion, 11, 4,
+          [&](const std::vector<std::size_t>& some) { return mean_criterion(units, criterion, some); },
+          checked);
     }
   }
-  EXPECT_EQ(n_checked, 100);
+  EXPECT_EQ(checked.n, 100);
   // Exchange of one by one may end beside the best, but seldom.
-  EXPECT_GE(n_best, 85);
+  EXPECT_GE(checked.n_best, 85);
 }
 
-/// Two layers, seen in bins; all of them to choose from.
-FitSpec two_layers(double sigma, std::uint64_t seed) {
-  const SceneSpec<double> truth = support::small_above_large({0.29}, {2.4, 0.31});
-  ObservationPlan plan{{0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0}, {}, Quantity::bin, 0.05};
-  for (int i = 1; i < 20; ++i) plan.depths.push_back(0.05 * i);
-  return support::fit_of(truth, support::observed(truth, plan, sigma, seed, true), {"shear_rate.values"});
+FitSpec seen_layers(double sigma, std::uint64_t seed) {
+  const SceneSpec<double> truth = small_above_large({0.29}, {2.4, 0.31});
+  return fit_of(truth, observed(truth, bins_of_layers(), sigma, seed, true), {"shear_rate.values"});
 }
 
-DesignSpec all_of(const FitSpec& spec, std::size_t n) {
-  DesignSpec wanted;
-  wanted.candidates = spec.observations;
-  wanted.n = n;
-  wanted.adds = false;
-  return wanted;
-}
+DesignSpec all_of(const FitSpec& spec, std::size_t n) { return measured_again(spec, n, false); }
 
 TEST(FitDesign, AllThereIsHasTheErrorsOfTheFit) {
-  const FitSpec spec = two_layers(0.01, 1);
+  const FitSpec spec = seen_layers(0.01, 1);
   const Estimate estimate = fit(spec);
   const Design all = design(spec, estimate, all_of(spec, spec.observations.rows.size()));
-  ASSERT_EQ(all.unknowns.size(), 2U);
-  for (Eigen::Index j = 0; j < 2; ++j) {
-    const double error = estimate.parameters[static_cast<std::size_t>(j)].std_error.value();
-    EXPECT_NEAR(all.errors.before[j] / error, 1, 1e-9);
-    EXPECT_NEAR(all.errors.chosen[j] / error, 1, 1e-9);
-    EXPECT_NEAR(all.errors.evenly[j] / error, 1, 1e-9);
-  }
-  EXPECT_NEAR(all.efficiency(), 1, 1e-9);
+  expect_errors_of_fit(all, estimate);
 }
 
 TEST(FitDesign, UnitsAndDrawsAndWhatIsThereAlready) {
-  const FitSpec spec = two_layers(0.01, 1);
+  const FitSpec spec = seen_layers(0.01, 1);
   const Estimate estimate = fit(spec);
   DesignSpec wanted = all_of(spec, 2);
   wanted.unit = DesignUnit::time;
@@ -200,7 +164,7 @@ TEST(FitDesign, UnitsAndDrawsAndWhatIsThereAlready) {
 }
 
 TEST(FitDesign, RefusesWhatCannotBeChosen) {
-  const FitSpec spec = two_layers(0.01, 1);
+  const FitSpec spec = seen_layers(0.01, 1);
   const Estimate estimate = fit(spec);
   const auto refused_key = [&](const DesignSpec& wanted) {
     try {
@@ -227,29 +191,10 @@ TEST(FitDesign, RefusesWhatCannotBeChosen) {
 // linear propagation says.
 TEST(SlowFitDesign, ErrorsAreThoseOfRefits) {
   constexpr double kSigma = 0.002;
-  const FitSpec whole = two_layers(kSigma, 1000000);
+  const FitSpec whole = seen_layers(kSigma, 1000000);
   const Design best = design(whole, fit(whole), all_of(whole, 30));
   EXPECT_GT(best.efficiency(), 0.9);
-  VectorXd sum = VectorXd::Zero(2), squares = VectorXd::Zero(2);
-  constexpr int kRefits = 2000;
-  for (int k = 0; k < kRefits; ++k) {
-    FitSpec some = two_layers(kSigma, 1 + static_cast<std::uint64_t>(k));
-    std::vector<Observation> rows;
-    for (const DesignChoice& choice : best.choices)
-      if (choice.is_chosen) rows.push_back(some.observations.rows[choice.rows.front()]);
-    some.observations.rows = rows;
-    const Estimate refit = fit(some);
-    ASSERT_TRUE(refit.usable()) << "seed " << 1 + k;
-    for (Eigen::Index j = 0; j < 2; ++j) {
-      const double p = refit.parameters[static_cast<std::size_t>(j)].estimate;
-      sum[j] += p;
-      squares[j] += p * p;
-    }
-  }
-  for (Eigen::Index j = 0; j < 2; ++j) {
-    const double mean = sum[j] / kRefits, scatter = std::sqrt(squares[j] / kRefits - mean * mean);
-    EXPECT_NEAR(best.errors.chosen[j] / scatter, 1, 0.05) << best.unknowns[static_cast<std::size_t>(j)];
-  }
+  expect_errors_of_refits(best, 2000, 0.05, [&](std::uint64_t seed) { return seen_layers(kSigma, seed); });
 }
 
 }  // namespace

@@ -15,9 +15,6 @@ namespace shearfront::fit {
 namespace {
 
 using namespace shearfront::support;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// beta = 1 / (2 s) and its standard error for sigma = 1, from the regression on z / t and -1 / t.
 struct Regression {

@@ -22,9 +22,6 @@ namespace shearfront::fit {
 namespace {
 
 using namespace shearfront::support;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using Engine = std::mt19937_64;
 
 NoiseSpec noise_spec(NoiseModel model, std::optional<double> length_z = {},

@@ -24,9 +24,6 @@ namespace shearfront::fit {
 namespace {
 
 using namespace shearfront::support;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 

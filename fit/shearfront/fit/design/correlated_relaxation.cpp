@@ -24,13 +24,13 @@ using Eigen::VectorXd;
 constexpr double kWithinSpectrum = 1 - 1e-9;
 /// How far the bound may be below the relaxed criterion.
 constexpr double kGap = 1e-6;
-constexpr int kMostRounds = 40;
+constexpr int kMostWeightRounds = 40;
 /// Rows that are taken up in a round beside those that are fractional, on either side; and units, where these are large.
 constexpr std::size_t kTakenUp = 64, kTakenUpUnits = 4;
 /// Sum of m^3 over the factors of all rounds, some four seconds: after that the bound is what it is.
 constexpr double kMostWork = 3e10;
 /// Parts nearer to 0 or 1 are there.
-constexpr double kAtBound = 1e-5;
+constexpr double kPartAtBound = 1e-5;
 /// Sums of parts that differ by rounding.
 constexpr double kSameSum = 1e-13;
 
@@ -120,7 +120,7 @@ CorrelatedInformation given_full(const CorrelatedInformation& information, const
 /// Parts all but at their bounds go there, and the others take up what that leaves of the sum; nothing goes where they have no room.
 VectorXd settled(const VectorXd& parts, double sum) {
   VectorXd at = parts;
-  for (double& a : at) a = a < kAtBound ? 0 : a > 1 - kAtBound ? 1 : a;
+  for (double& a : at) a = a < kPartAtBound ? 0 : a > 1 - kPartAtBound ? 1 : a;
   const VectorXd room = at.cwiseProduct((1 - at.array()).matrix());
   if (room.sum() > 0) at += (sum - at.sum()) / room.sum() * room;
   at = at.cwiseMax(0).cwiseMin(1);
@@ -185,7 +185,7 @@ std::optional<ContinuousDesign> continuous_design(const CorrelatedInformation& i
       found.value = at.value;
     }
     found.bound = bound;
-    if (found.value - bound < kGap || round == kMostRounds || work > kMostWork) return found;
+    if (found.value - bound < kGap || round == kMostWeightRounds || work > kMostWork) return found;
     const Sorted units = sorted_units(information, parts, at.slopes, n);
     const double rest = count - static_cast<double>(units.full.size());
     if (!(rest > 0 && rest < static_cast<double>(units.free.size()))) return found;

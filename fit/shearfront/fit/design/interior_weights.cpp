@@ -21,16 +21,16 @@ using Eigen::VectorXd;
 /// Of the way to the nearest bound that a step may go.
 constexpr double kWithinBounds = 0.995;
 /// Of a start at its bounds, what becomes equal parts.
-constexpr double kInside = 0.1;
+constexpr double kPulledInside = 0.1;
 /// Of the decrease that the slope promises, what a step must bring (Armijo).
 constexpr double kPromised = 1e-4;
 constexpr double kShortest = 1e-9;
 /// Of the criterion.
-constexpr double kRounding = 1e-14;
+constexpr double kMeritRounding = 1e-14;
 /// Residuals of the conditions of optimality, in units of the barrier, at which the barrier is lowered.
 constexpr double kCentred = 10;
 /// Step of the differences of slopes, relative to the information: half the digits of a third derivative.
-constexpr double kDifference = 1e-4;
+constexpr double kTangentStep = 1e-4;
 
 /// d^2 criterion = e^T curvature e for dM = R E R^T, M = R R^T; e has the entries of E on and below the diagonal, those below
 /// times sqrt 2. By differences of the tangent, which every criterion has.
@@ -52,13 +52,13 @@ MatrixXd curvature_of(const InformationCriterion& criterion, const MatrixXd& roo
   for (Index k = 0; k < n; ++k) {
     const auto [i, j] = places[static_cast<std::size_t>(k)];
     MatrixXd along = MatrixXd::Zero(p, p);
-    along(i, j) = along(j, i) = kDifference * (i == j ? 1 : std::sqrt(0.5));
+    along(i, j) = along(j, i) = kTangentStep * (i == j ? 1 : std::sqrt(0.5));
     const MatrixXd one = MatrixXd::Identity(p, p);
     const auto above = criterion.tangent(root * (one + along) * root.transpose()),
                below = criterion.tangent(root * (one - along) * root.transpose());
     if (!above || !below) return MatrixXd::Zero(n, n);
     curvature.col(k) =
-        entries_of(root.transpose() * (above->slope - below->slope) * root) / (2 * kDifference);
+        entries_of(root.transpose() * (above->slope - below->slope) * root) / (2 * kTangentStep);
   }
   return (curvature + curvature.transpose()) / 2;
 }
@@ -220,7 +220,7 @@ InteriorParts interior_parts(const CorrelatedInformation& information, const Inf
   const Index n = start.size();
   const double last = options.tolerance / (2 * static_cast<double>(n));
   double barrier = std::clamp(options.first_gap / (2 * static_cast<double>(n)), last, 1.0);
-  VectorXd a = (1 - kInside) * start + VectorXd::Constant(n, kInside * start.mean());
+  VectorXd a = (1 - kPulledInside) * start + VectorXd::Constant(n, kPulledInside * start.mean());
   VectorXd low = barrier * a.cwiseInverse(),
            high = barrier * (1 - a.array()).inverse().matrix();  // multipliers of a > 0 and a < 1
   const auto merit = [&](double value, const VectorXd& at) {
@@ -250,7 +250,7 @@ InteriorParts interior_parts(const CorrelatedInformation& information, const Inf
     const double promised = slope.dot(change);
     if (!(promised < 0)) break;
     double length = std::min(longest(a, change), longest(room, -change));
-    const double here = merit(at.value, a), rounding = kRounding * (1 + std::abs(here));
+    const double here = merit(at.value, a), rounding = kMeritRounding * (1 + std::abs(here));
     bool is_less = false;
     VectorXd next;
     while (!is_less && length > kShortest && factors < options.most_factors) {
