@@ -8,9 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "shearfront/io/detail/cell_text.hpp"
-#include "shearfront/io/detail/dialect.hpp"
-#include "shearfront/io/detail/observation_columns.hpp"
+#include "shearfront/io/detail/observation_rows.hpp"
 #include "shearfront/io/detail/observation_sizes.hpp"
 #include "shearfront/io/detail/replicates.hpp"
 #include "shearfront/io/detail/table_lines.hpp"
@@ -21,12 +19,9 @@
 namespace shearfront {
 namespace {
 
-using detail::ComplaintReport;
 using detail::CsvField;
-using detail::Dialect;
 using detail::name_of;
 using detail::ObservationColumns;
-using detail::Position;
 using detail::SimulationCode;
 using detail::TextSource;
 
@@ -36,18 +31,12 @@ ObservationFormat format_for(bool is_chute, ObservationFormat format) {
   return format;
 }
 
-class ObservationsReader {
+/// Reads the lines of a file, and checks what they say together.
+class ObservationsReader : detail::ObservationRows {
  public:
-  ObservationsReader(const TextSource& source, double bottom, double top, const ObservationFormat& format)
-      : source_(source),
-        dialect_(dialect_of(source, format)),
-        format_(detail::format_of(dialect_.code, format)),
-        simulation_(dialect_.code),
-        report_(source.name(), kMostComplaints),
-        bottom_(bottom),
-        top_(top) {}
+  using ObservationRows::ObservationRows;
   ObservationsReader(const TextSource& source, const Scene<double>& scene, const ObservationFormat& format)
-      : ObservationsReader(source, scene.bottom(), scene.top(), format_for(scene.is_chute(), format)) {
+      : ObservationRows(source, scene.bottom(), scene.top(), format_for(scene.is_chute(), format)) {
     phi_ = phi_range(scene);
     target_ = {scene.spec().units.z, scene.spec().units.t, phi_->lowest == 0 && phi_->highest <= 1};
   }
@@ -79,11 +68,6 @@ class ObservationsReader {
   }
 
  private:
-  /// A number of the result: where it came from.
-  struct Origin {
-    std::size_t row, offset, field;
-  };
-
   void read_line(std::size_t offset, std::string_view line) {
     const std::string_view content = detail::trimmed(line);
     if (content.empty() || offset == dialect_.units) return;
@@ -136,13 +120,6 @@ class ObservationsReader {
     if (!has_many) result_.notes = columns_->notes();
   }
 
-  /// The fields of a line, with the time that stands above it.
-  std::optional<std::size_t> take_apart(std::size_t offset, std::string_view line,
-                                        std::vector<CsvField>& fields) const {
-    const auto bad_quotes = detail::split_csv(line, fields, dialect_.separator);
-    simulation_.complete(fields, offset == dialect_.header);
-    return bad_quotes;
-  }
   /// Of what a particle code wrote.
   bool is_row(std::size_t offset, std::string_view line) {
     const auto kind = simulation_.take(line);
@@ -150,144 +127,6 @@ class ObservationsReader {
       report_.add(source_.position(offset),
                   {"block", quoted_text(line), std::string(simulation_.constraint())});
     return kind == detail::SimulationRows::Line::row;
-  }
-
-  void read_row(std::size_t offset) {
-    if (fields_.size() != columns_->n_fields()) {
-      add(offset, "row", fmt::format("({} field{})", fields_.size(), fields_.size() == 1 ? "" : "s"),
-          fmt::format("must have {} ({})", columns_->n_fields(), columns_->names()));
-      return;
-    }
-    Observation o;
-    if (columns_->layout() == TableLayout::rows) {
-      const bool has_place = !columns_->has(Column::z) || read_place(offset, o);
-      const bool is_good = read_time(offset, o) && has_place;
-      read_value(offset, columns_->field(columns_->value()), o, is_good);
-      return;
-    }
-    const bool by_height = columns_->layout() == TableLayout::heights;
-    bool is_good = by_height ? read_time(offset, o) : read_place(offset, o);
-    for (const auto& [field, place] : columns_->places()) {
-      if (by_height) {
-        o.z = place * columns_->factor(Column::z);
-        if (!set_width(offset, o)) continue;
-        if (n_rows_ == 0 && !(o.z >= bottom_ && o.z <= top_))
-          is_good = refuse_place(field, Column::z, place, "must be inside the domain " + domain());
-      } else {
-        o.t = place * columns_->factor(Column::t);
-        if (n_rows_ == 0 && !(o.t >= 0)) is_good = refuse_place(field, Column::t, place, "must be >= 0");
-      }
-      read_value(offset, field, o, is_good);
-    }
-  }
-
-  bool read_time(std::size_t offset, Observation& o) {
-    if (!read_number(offset, Column::t, o.t)) return false;
-    if (dialect_.code == SimulationCode::lammps) o.t *= format_.time_step.value_or(1);
-    return o.t >= 0 || refuse(offset, Column::t, "must be >= 0");
-  }
-
-  /// The value of an observation whose place is read; `is_good`: and is right.
-  void read_value(std::size_t offset, std::size_t field, Observation o, bool is_good) {
-    const Column column = columns_->value();
-    const bool has_value = !detail::is_missing(fields_[field].text, format_.missing);
-    if (has_value)
-      is_good = read_number(offset, column, field, o.value, ", or empty or NA if it is missing") && is_good;
-    if (column == Column::phi_large) o.value = 1 - o.value;
-    if (has_value && is_good && columns_->has(Column::H) && !(o.value > 0))
-      is_good = refuse(offset, Column::H, "must be > 0");
-    is_good = read_sigma(offset, o) && is_good;
-    if (!has_value) {
-      ++result_.n_missing;
-    } else if (is_good) {
-      result_.rows.push_back(o);
-      origins_.push_back({n_rows_, offset, field});
-    }
-  }
-
-  bool read_place(std::size_t offset, Observation& o) {
-    bool is_good = read_number(offset, Column::z, o.z);
-    if (is_good && !(o.z >= bottom_ && o.z <= top_))
-      is_good = refuse(offset, Column::z, "must be inside the domain " + domain());
-    if (!columns_->has(Column::width)) return is_good && set_width(offset, o);
-    if (!read_number(offset, Column::width, o.width)) return false;
-    if (!(o.width > 0)) return refuse(offset, Column::width, "must be > 0");
-    if (is_good && !is_bin_resolved(o.z, o.width))
-      return refuse(offset, Column::width,
-                    fmt::format("must be at least {} of z", number_text(kLeastBinWidth)));
-    if (!is_good || is_bin_inside(o.z, o.width, bottom_, top_)) return is_good;
-    return refuse(offset, Column::width,
-                  fmt::format("must leave the bin z -+ width/2 = [{}, {}] inside the domain {}",
-                              number_text(o.z - o.width / 2), number_text(o.z + o.width / 2), domain()));
-  }
-
-  /// The width that the format gives to all bins.
-  bool set_width(std::size_t offset, Observation& o) {
-    o.width = width_;
-    if (width_ == 0 || (is_bin_resolved(o.z, width_) && is_bin_inside(o.z, width_, bottom_, top_)))
-      return true;
-    add(offset, "z", number_text(o.z),
-        fmt::format("must leave its bin of width {} inside the domain {}", number_text(width_), domain()));
-    return false;
-  }
-
-  bool read_sigma(std::size_t offset, Observation& o) {
-    if (!columns_->has(Column::sigma) ||
-        detail::is_missing(fields_[columns_->field(Column::sigma)].text, format_.missing))
-      return true;
-    if (!read_number(offset, Column::sigma, o.sigma)) return false;
-    return o.sigma > 0 || refuse(offset, Column::sigma, "must be > 0");
-  }
-
-  bool read_number(std::size_t offset, Column column, double& x) {
-    return read_number(offset, column, columns_->field(column), x, "");
-  }
-  bool read_number(std::size_t offset, Column column, std::size_t field, double& x,
-                   std::string_view alternative) {
-    const std::string_view text = fields_[field].text;
-    if (const auto number = detail::number_with_mark(text, dialect_.decimal)) {
-      x = *number * columns_->factor(column);
-      return true;
-    }
-    return refuse(offset, column, field,
-                  detail::why_no_number(text, dialect_.decimal) + std::string(alternative));
-  }
-
-  /// Notes what is wrong with a field of the row that is being read; false for convenience.
-  bool refuse(std::size_t offset, Column column, std::string constraint) {
-    return refuse(offset, column, columns_->field(column), std::move(constraint));
-  }
-  bool refuse(std::size_t offset, Column column, std::size_t at, std::string constraint) {
-    const CsvField& field = fields_[at];
-    add(offset + field.offset, std::string(name_of(column)), detail::shown_number(field.text),
-        std::move(constraint));
-    return false;
-  }
-  /// The same for a place that stands in the header of a wide table.
-  bool refuse_place(std::size_t field, Column column, double place, std::string constraint) {
-    report_.add(position_in(dialect_.header, field),
-                {std::string(name_of(column)), number_text(place), std::move(constraint)});
-    return false;
-  }
-
-  void add(std::size_t offset, const std::string& key, std::string value, std::string constraint) {
-    report_.add(source_.position(offset),
-                {fmt::format("{}[{}]", key, n_rows_), std::move(value), std::move(constraint)});
-  }
-
-  [[nodiscard]] std::string domain() const {
-    return fmt::format("[{}, {}]", number_text(bottom_), number_text(top_));
-  }
-
-  /// Where a field of a row of the result stands.
-  [[nodiscard]] Position position_of(const Origin& origin, Column column) {
-    const bool is_of_row = columns_->has(column) && column != columns_->value();
-    return position_in(origin.offset, is_of_row ? columns_->field(column) : origin.field);
-  }
-  [[nodiscard]] Position position_in(std::size_t line, std::size_t field) const {
-    std::vector<CsvField> fields;
-    (void)take_apart(line, detail::line_at(source_.text(), line), fields);
-    return source_.position(line + fields[field].offset);
   }
 
   void check_sigma() {
@@ -364,22 +203,10 @@ class ObservationsReader {
     if (const auto found = detail::undeclared_percent(result_)) add_value(*found);
   }
 
-  const TextSource& source_;
-  Dialect dialect_;
-  ObservationFormat format_;
-  detail::SimulationRows simulation_;
-  ComplaintReport report_;
-  double bottom_, top_;
   ObservationColumns::Target target_;
   std::optional<StateRange<double>> phi_;  ///< that the scene allows, if there is one
-  std::optional<ObservationColumns> columns_;
-  std::vector<CsvField> fields_;  ///< of the line that is being read
-  std::size_t n_rows_ = 0;        ///< read so far; the number of the row that is being read
-  double width_ = 0;              ///< of every bin, from the format; 0: from a column or none
-  std::size_t n_preamble_ = 0;    ///< lines before the header that are no comments
-  std::string averaged_;          ///< what was averaged, in words
-  Observations result_;
-  std::vector<Origin> origins_;  ///< of result_.rows
+  std::size_t n_preamble_ = 0;             ///< lines before the header that are no comments
+  std::string averaged_;                   ///< what was averaged, in words
 };
 
 }  // namespace

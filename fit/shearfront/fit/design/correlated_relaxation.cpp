@@ -22,6 +22,8 @@ using Eigen::VectorXd;
 
 /// Of the least eigenvalue: what is left of the covariance must not be negative by rounding.
 constexpr double kWithinSpectrum = 1 - 1e-9;
+/// Of the largest: a least eigenvalue of repeated measurements may come out as 0 or less, and s must be above that.
+constexpr double kResolved = 4 * std::numeric_limits<double>::epsilon();
 /// How far the bound may be below the relaxed criterion.
 constexpr double kGap = 1e-6;
 constexpr int kMostWeightRounds = 40;
@@ -165,7 +167,8 @@ VectorXd first_parts(const CorrelatedInformation& information, const Information
 std::optional<ContinuousDesign> continuous_design(const CorrelatedInformation& information,
                                                   const InformationCriterion& criterion, std::size_t n) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(information.covariance, Eigen::EigenvaluesOnly);
-  const double s = kWithinSpectrum * spectrum.eigenvalues()[0];
+  const VectorXd& values = spectrum.eigenvalues();
+  const double s = std::max(kWithinSpectrum * values[0], kResolved * values[values.size() - 1]);
   const auto count = static_cast<double>(n);
   VectorXd parts = first_parts(information, criterion, s, n);
   RelaxedAt at = relaxed_at(information, criterion, s, parts);
@@ -198,6 +201,7 @@ std::optional<ContinuousDesign> continuous_design(const CorrelatedInformation& i
         static_cast<int>(std::clamp<double>((kMostWork - work) / of_free, 5, options.most_factors));
     const InteriorParts interior =
         interior_parts(given_full(information, units), criterion, s, start, options);
+    if (interior.factors == 0) return found;
     parts(free) = settled(interior.parts, rest);
     work += of_full + interior.factors * of_free;
     at = relaxed_at(information, criterion, s, parts);
