@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Derivatives that fronts carry, on the road of datasets/traffic-us-101 (run in the folder of the project): a plain run with all
-// observations; the gradient of the misfit with all 400 states beyond the ends unknown, backwards; and columns forwards.
-// docs/evidence/performance.md quotes the ratios.
+// observations; the gradient of the misfit with all 400 states beyond the ends unknown, backwards; columns forwards; and the same
+// as a fit and a sampler ask for it, against the value alone. docs/evidence/performance.md quotes the ratios.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <any>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "shearfront/fit.hpp"
+#include "shearfront/fit/fit_file.hpp"
+#include "shearfront/fit/misfit_rows.hpp"
+#include "shearfront/fit/objective.hpp"
+#include "shearfront/fit/posterior.hpp"
 #include "shearfront/io/observations_csv.hpp"
 #include "shearfront/io/scene_file.hpp"
 #include "shearfront/scene/entries.hpp"
@@ -63,7 +69,7 @@ BENCHMARK(us_101_plain)->Unit(benchmark::kMillisecond);
 void us_101_gradient(benchmark::State& state) {
   const Road road;
   for (auto _ : state) {
-    const TrackingGradient result = tracking_gradient(
+    const LinearSum result = tracking_gradient(
         road.scene, kOptions, road.places,
         [&](const std::vector<Sample>& samples) { return road.weigh(samples); }, road.outside);
     benchmark::DoNotOptimize(result.gradient.data());
@@ -81,7 +87,48 @@ void us_101_columns(benchmark::State& state) {
     benchmark::DoNotOptimize(
         FrontTrackingSolver::linearise(road.scene, kOptions, road.places, wanted, memory));
 }
-BENCHMARK(us_101_columns)->Arg(1)->Arg(8)->Arg(64)->Arg(400)->Unit(benchmark::kMillisecond);
+BENCHMARK(us_101_columns)->Arg(1)->Arg(4)->Arg(8)->Arg(16)->Arg(64)->Arg(400)->Unit(benchmark::kMillisecond);
+
+/// The fit of the road with its first n states beyond the ends unknown, or all.
+fit::FitSpec fit_of_ends(std::size_t n) {
+  fit::FitSpec spec = fit::read_fit(kFolder + "fit.toml");
+  const std::vector<Entry> all = entries(spec.scene.spec());
+  spec.unknown = {};
+  for (const std::size_t i : Road().outside)
+    if (spec.unknown.parameters.size() < n) spec.unknown.parameters.push_back(all[i].name());
+  return spec;
+}
+
+Eigen::VectorXd start_of(const fit::FitSpec& spec) {
+  return fit::Parameters(spec.scene, spec.unknown).start();
+}
+
+/// Arguments: unknowns; whether with the gradient.
+void us_101_posterior(benchmark::State& state) {
+  const fit::FitSpec spec = fit_of_ends(static_cast<std::size_t>(state.range(0)));
+  const fit::Posterior posterior(spec);
+  const Eigen::VectorXd p = start_of(spec);
+  for (auto _ : state) benchmark::DoNotOptimize(posterior.at(p, state.range(1) != 0).value);
+}
+BENCHMARK(us_101_posterior)->ArgsProduct({{1, 4, 8, 9, 16, 64, 400}, {0, 1}})->Unit(benchmark::kMillisecond);
+
+/// What a search by NLopt asks for.
+void us_101_objective(benchmark::State& state) {
+  const fit::FitSpec spec = fit_of_ends(static_cast<std::size_t>(state.range(0)));
+  const fit::Parameters parameters(spec.scene, spec.unknown);
+  const fit::Coordinates coordinates(parameters);
+  fit::RunControl control(std::numeric_limits<std::size_t>::max());
+  fit::Objective objective(parameters, coordinates, spec.forward,
+                           fit::rows_of(fit::quantity_of(spec), spec, parameters),
+                           fit::find_loss(fit::loss_of(spec), 0), control);
+  Eigen::VectorXd u = coordinates.coordinates(parameters.start());
+  for (auto _ : state) {
+    u[0] *= 1 + 1e-12;  // the last point would not be solved again
+    const auto& at = objective.evaluate_misfit(u, state.range(1) != 0);
+    if (state.range(1) != 0) benchmark::DoNotOptimize(objective.gradient(at).data());
+  }
+}
+BENCHMARK(us_101_objective)->ArgsProduct({{400}, {0, 1}})->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace shearfront

@@ -198,7 +198,7 @@ TEST_P(TrackingDerivatives, BackwardsAreThoseForwards) {
       weights.push_back({make.uniform(-1, 1), make.uniform(-1, 1)});
     std::any memory;
     const Linearisation forward = FrontTrackingSolver::linearise(scene, options, places, wanted, memory);
-    const TrackingGradient backward = tracking_gradient(
+    const LinearSum backward = tracking_gradient(
         scene, options, places, [&](const std::vector<Sample>&) { return weights; }, wanted);
     EXPECT_EQ(backward.summary.remark, forward.summary.remark);
     for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(backward.samples[i].M, forward.samples[i].M);

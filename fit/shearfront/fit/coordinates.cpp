@@ -86,17 +86,24 @@ std::vector<Index> Coordinates::bound_together(Index j) const {
   return {place, place + std::min<std::ptrdiff_t>(shaped_.end() - place, shape_ == Shape::convex ? 3 : 2)};
 }
 
-MatrixXd Coordinates::derivative(const VectorXd& u) const {
-  MatrixXd d = MatrixXd::Zero(u.size(), u.size());
-  for (Index i = 0; i < u.size(); ++i) d(i, i) = slope(i, unscaled(i, u[i]));
-  Eigen::RowVectorXd step = Eigen::RowVectorXd::Zero(u.size());
-  for (std::size_t k = shaped_.size(); k-- > 1;) {
-    const Index above = shaped_[k], below = shaped_[k - 1];
-    if (shape_ != Shape::convex) step.setZero();
-    step[below] += step_unit();
-    d.row(below) = d.row(above) + step;
+MatrixXd Coordinates::turned(const VectorXd& u, MatrixXd d) const {
+  // v_k = v_{k+1} + step_k, from the bottom up: what v_k changes, v_{k+1} and the steps change.
+  VectorXd of_step = VectorXd::Zero(d.rows());
+  for (std::size_t k = 0; k + 1 < shaped_.size(); ++k) {
+    const Index below = shaped_[k], above = shaped_[k + 1];
+    if (shape_ != Shape::convex) of_step.setZero();
+    of_step += d.col(below);
+    d.col(above) += d.col(below);
+    d.col(below) = step_unit() * of_step;
   }
+  const auto steps = shaped_.empty() ? shaped_.end() : shaped_.end() - 1;
+  for (Index i = 0; i < u.size(); ++i)
+    if (std::find(shaped_.begin(), steps, i) == steps) d.col(i) *= slope(i, unscaled(i, u[i]));
   return d;
+}
+
+MatrixXd Coordinates::derivative(const VectorXd& u) const {
+  return turned(u, MatrixXd::Identity(u.size(), u.size()));
 }
 
 }  // namespace shearfront::fit

@@ -38,6 +38,8 @@ class Coordinates {
   /// equal (u_j = v_j - v_{j+1} = 0) or put on a straight line.
   [[nodiscard]] std::vector<Eigen::Index> bound_together(Eigen::Index j) const;
   [[nodiscard]] Eigen::VectorXd unbounded(const Eigen::VectorXd& p) const;  ///< u(p), wherever it is
+  /// Derivatives with respect to p (one row per number that has them) turned into those with respect to u, d dp/du.
+  [[nodiscard]] Eigen::MatrixXd turned(const Eigen::VectorXd& u, Eigen::MatrixXd d) const;
   /// dp/du: column j belongs to u_j.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& u) const;
 

@@ -2,6 +2,7 @@
 #include "shearfront/fit/forward.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "shearfront/io/text.hpp"
@@ -46,6 +47,12 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
   };
   has_derivatives_ =
       std::all_of(entries_.begin(), entries_.end(), [&](std::size_t i) { return has_derivative(all[i]); });
+  // Forwards eight unknowns cost what backwards all do, and their derivatives are there to be kept.
+  constexpr std::size_t kMostForwards = 8;
+  has_gradient_ =
+      has_derivatives_ && entries_.size() > kMostForwards && method_.has_linear_sum() &&
+      observable != Observable::bed_height &&
+      std::all_of(places_.begin(), places_.end(), [](const Place& p) { return std::isfinite(p.t); });
   can_linearise_ = has_derivatives_ || std::any_of(all.begin(), all.end(), has_derivative);
   // A polygonal flux has derivatives where its levels stay, and jumps where one appears.
   is_smooth_ = is_smooth_ || (can_linearise_ && !method_.guarantees().has_fronts);
@@ -60,6 +67,31 @@ Prediction Forward::predict(const VectorXd& values, bool with_derivatives,
     predict_heights(*scene, with_derivatives && has_derivatives_, progress, prediction);
   else
     predict_samples(*scene, with_derivatives && has_derivatives_, progress, prediction);
+  return prediction;
+}
+
+Prediction Forward::predict_gradient(const VectorXd& values, const ValueSlopes& slopes,
+                                     const shearfront::Progress& progress) const {
+  Prediction prediction;
+  const auto scene = parameters_->scene_at(values, prediction.failure);
+  if (!scene) return prediction;
+  if (prediction.failure = method_.refusal(*scene); !prediction.is_valid()) return prediction;
+  const auto weights = [&](const std::vector<Sample>& samples) {
+    take(samples, prediction);
+    const VectorXd by_value = slopes(prediction.values);
+    std::vector<Sample> all(samples.size(), Sample{0, 0});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (observable_ == Observable::phi ? all[i].phi : all[i].M) = by_value[static_cast<Index>(i)];
+    return all;
+  };
+  const LinearSum result = method_.linearise_sum(*scene, places_, weights, entries_, progress);
+  if (!result.summary.usable()) {
+    prediction.failure = result.summary.message;
+    return prediction;
+  }
+  prediction.remark = result.summary.remark;
+  prediction.gradient =
+      Eigen::Map<const VectorXd>(result.gradient.data(), static_cast<Index>(result.gradient.size()));
   return prediction;
 }
 

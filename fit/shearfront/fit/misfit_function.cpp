@@ -40,10 +40,14 @@ MisfitFunction::MisfitFunction(const FitSpec& spec)
       objective_(parameters_, coordinates_, spec.forward, whitened_rows(spec, parameters_),
                  find_loss(loss_of(spec), spec.misfit.loss_scale.value_or(0)), control_) {}
 
-MisfitFunction::Value MisfitFunction::at(const VectorXd& p, bool with_jacobian) const {
+void MisfitFunction::expect_size(const VectorXd& p) const {
   if (p.size() != coordinates_.size())
     throw InputError("p", "(" + std::to_string(p.size()) + " entries)",
                      "must have one number per unknown (" + std::to_string(coordinates_.size()) + ")");
+}
+
+MisfitFunction::Value MisfitFunction::at(const VectorXd& p, bool with_jacobian) const {
+  expect_size(p);
   const std::scoped_lock one_at_a_time(mutex_);
   const ResidualRows& rows = objective_.rows();
   const bool is_exact = objective_.has_derivatives();
@@ -67,6 +71,25 @@ MisfitFunction::Value MisfitFunction::at(const VectorXd& p, bool with_jacobian) 
   }
   const auto turned = coordinates_.derivative(u).transpose().fullPivLu();
   value.jacobian = turned.solve(differences.jacobian.transpose()).transpose();
+  return value;
+}
+
+MisfitFunction::Value MisfitFunction::with_gradient(const VectorXd& p) const {
+  if (!objective_.forward().has_gradient()) {
+    Value value = at(p, true);
+    if (value.is_valid()) value.gradient = value.jacobian.transpose() * value.residuals;
+    return value;
+  }
+  expect_size(p);
+  const std::scoped_lock one_at_a_time(mutex_);
+  const ResidualRows& rows = objective_.rows();
+  Value value;
+  const Prediction prediction = objective_.forward().predict_gradient(p, [&](const VectorXd& X) {
+    value.residuals = rows.residuals(X);
+    return rows.slopes(value.residuals);
+  });
+  value.failure = prediction.failure;
+  value.gradient = prediction.gradient;
   return value;
 }
 

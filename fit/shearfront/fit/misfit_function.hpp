@@ -22,6 +22,7 @@ class MisfitFunction {
   struct Value {
     Eigen::VectorXd residuals;
     Eigen::MatrixXd jacobian;  ///< dr/dp: row = residual, column = unknown; empty unless asked for
+    Eigen::VectorXd gradient;  ///< J^T r, of sum r^2 / 2; empty unless asked for
     std::string failure;       ///< why there is none: no solution there
     [[nodiscard]] bool is_valid() const { return failure.empty(); }
   };
@@ -36,10 +37,14 @@ class MisfitFunction {
   /// Derivatives are exact where the forward model has them, otherwise by differences: some 4 runs for each unknown.
   /// Errors: InputError (key "p") unless there is one number per unknown.
   [[nodiscard]] Value at(const Eigen::VectorXd& p, bool with_jacobian) const;
+  /// The residuals and the gradient; a Jacobian only where that costs less than the gradient by itself.
+  [[nodiscard]] Value with_gradient(const Eigen::VectorXd& p) const;
   /// sum rho(r_i^2) / 2, rho the loss of the fit.
   [[nodiscard]] double misfit(const Eigen::VectorXd& residuals) const;
 
  private:
+  void expect_size(const Eigen::VectorXd& p) const;
+
   Parameters parameters_;
   Coordinates coordinates_;
   RunControl control_;

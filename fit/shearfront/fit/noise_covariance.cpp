@@ -148,6 +148,11 @@ MatrixXd NoiseCovariance::whitened(const MatrixXd& x) const {
   return unsorted(factor_.triangularView<Eigen::Lower>().solve(sorted(x)));
 }
 
+MatrixXd NoiseCovariance::whitened_transposed(const MatrixXd& x) const {
+  if (places_->is_grid_) return on_grid(x, -0.5);  // symmetric
+  return unsorted(factor_.triangularView<Eigen::Lower>().transpose().solve(sorted(x)));
+}
+
 MatrixXd NoiseCovariance::coloured(const MatrixXd& x) const {
   if (places_->is_grid_) return on_grid(x, 0.5);
   return unsorted(factor_.triangularView<Eigen::Lower>() * sorted(x));

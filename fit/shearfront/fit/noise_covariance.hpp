@@ -57,9 +57,10 @@ class NoiseCovariance {
  public:
   NoiseCovariance(std::shared_ptr<const NoisePlaces> places, const NoiseShape& shape);
 
-  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const;    ///< W x; a row per observation
-  [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& x) const;    ///< W^-1 x
-  [[nodiscard]] double log_determinant() const { return log_determinant_; }  ///< of C
+  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const;  ///< W x; a row per observation
+  [[nodiscard]] Eigen::MatrixXd whitened_transposed(const Eigen::MatrixXd& x) const;  ///< W^T x
+  [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& x) const;             ///< W^-1 x
+  [[nodiscard]] double log_determinant() const { return log_determinant_; }           ///< of C
   /// About the most that whitening enlarges a number by.
   [[nodiscard]] double gain() const { return gain_; }
   [[nodiscard]] const NoisePlaces& places() const { return *places_; }

@@ -64,19 +64,25 @@ void Objective::set_tether(VectorXd centre, double tether) {
   best_ = {};
 }
 
-Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) const {
+Objective::Evaluation Objective::run(const VectorXd& u, Derivatives derivatives) const {
   Evaluation at;
   at.misfit = std::numeric_limits<double>::infinity();
   if (!u.allFinite()) return at;
   const VectorXd values = coordinates_->values(u);
   if (!values.allFinite() || !parameters_->within_bounds(values)) return at;
-  const bool exact = with_jacobian && has_derivatives();
   if (!control_->may_run()) {
     at.failure = "interrupted";
     return at;
   }
+  const bool with_jacobian = derivatives == Derivatives::jacobian,
+             with_gradient = derivatives == Derivatives::gradient;
+  const auto progress = [this](double, std::uint64_t) { return control_->may_run(); };
   const Prediction prediction =
-      forward_.predict(values, exact, [this](double, std::uint64_t) { return control_->may_run(); });
+      with_gradient
+          ? forward_.predict_gradient(
+                values, [this](const VectorXd& X) { return rows_.slopes(slopes(rows_.residuals(X))); },
+                progress)
+          : forward_.predict(values, with_jacobian, progress);
   at.failure = prediction.failure;
   if (!prediction.is_valid()) return at;
   at.residuals = rows_.residuals(prediction.values);
@@ -96,7 +102,8 @@ Objective::Evaluation Objective::run(const VectorXd& u, bool with_jacobian) cons
     at.failure = kTooLarge;
     return at;
   }
-  if (exact) at.jacobian = rows_.jacobian(prediction.derivatives) * coordinates_->derivative(u);
+  if (with_jacobian) at.jacobian = coordinates_->turned(u, rows_.jacobian(prediction.derivatives));
+  if (with_gradient) at.gradient = coordinates_->turned(u, prediction.gradient.transpose()).transpose();
   if (centre_.size() > 0) add_tether(u, at);
   return at;
 }
@@ -106,6 +113,7 @@ void Objective::add_tether(const VectorXd& u, Evaluation& at) const {
   at.residuals.conservativeResize(n + p);
   at.residuals.tail(p) = tether_ * (u - centre_);
   at.misfit += at.residuals.tail(p).squaredNorm() / 2;
+  if (at.gradient.size() > 0) at.gradient += tether_ * at.residuals.tail(p);
   if (at.jacobian.size() == 0) return;
   at.jacobian.conservativeResize(n + p, p);
   at.jacobian.bottomRows(p) = tether_ * Eigen::MatrixXd::Identity(p, p);
@@ -113,7 +121,7 @@ void Objective::add_tether(const VectorXd& u, Evaluation& at) const {
 
 void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* control) const {
   const auto residuals = [&](const VectorXd& v) {
-    Evaluation there = run(v, false);
+    Evaluation there = run(v, Derivatives::none);
     if (control) control->count(std::numeric_limits<double>::infinity());
     return there.is_valid ? there.residuals : VectorXd();
   };
@@ -136,21 +144,30 @@ void Objective::differentiate(const VectorXd& u, Evaluation& at, RunControl* con
       at.failure = "there is none a small step to either side in " + coordinates_->name(j);
 }
 
+VectorXd Objective::slopes(const VectorXd& residuals) const {
+  VectorXd weighted = residuals;
+  for (double& r : weighted.head(rows_.size())) r *= loss_(r * r).first;
+  return weighted;
+}
+
 VectorXd Objective::gradient(const Evaluation& at) const {
-  VectorXd weighted = at.residuals;
-  for (double& r : weighted) r *= loss_(r * r).first;
-  return at.jacobian.transpose() * weighted;
+  return at.gradient.size() > 0 ? at.gradient : VectorXd(at.jacobian.transpose() * slopes(at.residuals));
+}
+
+void Objective::go_to(const VectorXd& u, Derivatives derivatives) {
+  last_ = run(u, derivatives);
+  last_u_ = u;
+  control_->count(last_.misfit);
 }
 
 const Objective::Evaluation& Objective::evaluate(const VectorXd& u, bool with_jacobian) {
   const bool is_last = last_u_.size() == u.size() && last_u_ == u;
-  if (!is_last) {
-    last_ = run(u, has_derivatives());  // exact derivatives cost less than coming back for them
-    last_u_ = u;
-    control_->count(last_.misfit);
-  }
+  const bool lacks_jacobian = with_jacobian && last_.is_valid && last_.jacobian.size() == 0;
+  const bool is_new = !is_last || (lacks_jacobian && has_derivatives());
+  // Exact derivatives cost less than coming back for them.
+  if (is_new) go_to(u, has_derivatives() ? Derivatives::jacobian : Derivatives::none);
   const bool is_to_differentiate = with_jacobian && last_.is_valid && last_.jacobian.size() == 0;
-  if ((!is_last || is_to_differentiate) && last_.is_valid && !(best_.is_valid && best_.misfit < last_.misfit))
+  if ((is_new || is_to_differentiate) && last_.is_valid && !(best_.is_valid && best_.misfit < last_.misfit))
     best_ = last_, best_u_ = u;
   if (!is_to_differentiate) return last_;
   differentiate(u, last_, control_);
@@ -158,8 +175,18 @@ const Objective::Evaluation& Objective::evaluate(const VectorXd& u, bool with_ja
   return last_;
 }
 
+const Objective::Evaluation& Objective::evaluate_misfit(const VectorXd& u, bool with_gradient) {
+  if (!forward_.has_gradient()) return evaluate(u, with_gradient);
+  const bool is_last = last_u_.size() == u.size() && last_u_ == u;
+  const bool has_slope = last_.gradient.size() > 0 || last_.jacobian.size() > 0;
+  if (is_last && (has_slope || !with_gradient || !last_.is_valid)) return last_;
+  go_to(u, with_gradient ? Derivatives::gradient : Derivatives::none);
+  if (last_.is_valid && !(best_.is_valid && best_.misfit < last_.misfit)) best_ = last_, best_u_ = u;
+  return last_;
+}
+
 Objective::Evaluation Objective::inspect(const VectorXd& u, bool with_jacobian) const {
-  Evaluation at = run(u, with_jacobian);
+  Evaluation at = run(u, with_jacobian && has_derivatives() ? Derivatives::jacobian : Derivatives::none);
   if (with_jacobian && at.is_valid && at.jacobian.size() == 0) differentiate(u, at, nullptr);
   return at;
 }

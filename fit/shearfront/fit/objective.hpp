@@ -36,17 +36,20 @@ class Objective {
     std::string failure;    ///< why the solver has no solution; empty where it was not asked
     Eigen::VectorXd residuals;
     Eigen::MatrixXd jacobian;      ///< row = residual, column = coordinate; empty unless asked for
+    Eigen::VectorXd gradient;      ///< dF/du, where it is known without a Jacobian
     double misfit = 0;             ///< infinite if not valid
     Eigen::VectorXd column_error;  ///< of a numeric jacobian from inspect(), relative; empty: rounding only
     double rounding = 0;           ///< norm of what rounding alone makes of the residuals
   };
-  /// dF/du = sum_i rho'(r_i^2) r_i dr_i/du from an evaluation with its Jacobian.
+  /// dF/du = sum_i rho'(r_i^2) r_i dr_i/du from an evaluation with its gradient or Jacobian.
   [[nodiscard]] Eigen::VectorXd gradient(const Evaluation& at) const;
 
   Objective(const Parameters& parameters, const Coordinates& coordinates, const ForwardSpec& forward,
             ResidualRows rows, Loss loss, RunControl& control);
 
   [[nodiscard]] const Evaluation& evaluate(const Eigen::VectorXd& u, bool with_jacobian);
+  /// The same for who looks at F and gradient() alone: where the forward model has gradients of sums there is no Jacobian.
+  [[nodiscard]] const Evaluation& evaluate_misfit(const Eigen::VectorXd& u, bool with_gradient);
   /// The same without touching the count: for the report after a search. A numeric Jacobian costs twice as
   /// much here, to know its error.
   [[nodiscard]] Evaluation inspect(const Eigen::VectorXd& u, bool with_jacobian) const;
@@ -71,7 +74,12 @@ class Objective {
   [[nodiscard]] Eigen::Index n_residuals() const { return rows_.size() + centre_.size(); }
 
  private:
-  [[nodiscard]] Evaluation run(const Eigen::VectorXd& u, bool with_jacobian) const;
+  enum class Derivatives { none, gradient, jacobian };
+  [[nodiscard]] Evaluation run(const Eigen::VectorXd& u, Derivatives derivatives) const;
+  /// run() at the next point of a search: counted, and kept.
+  void go_to(const Eigen::VectorXd& u, Derivatives derivatives);
+  /// dF/dr.
+  [[nodiscard]] Eigen::VectorXd slopes(const Eigen::VectorXd& residuals) const;
   void add_tether(const Eigen::VectorXd& u, Evaluation& at) const;
   void differentiate(const Eigen::VectorXd& u, Evaluation& at, RunControl* control) const;
 

@@ -100,14 +100,13 @@ struct Posterior::Parts {
       value += prior.log;
       slopes[i] = prior.slope;
     }
-    const MisfitFunction::Value at = residuals.at(p, with_gradient);
+    const MisfitFunction::Value at = with_gradient ? residuals.with_gradient(p) : residuals.at(p, false);
     density.failure = at.failure;
     if (!at.is_valid()) return density;
     const double squares = at.residuals.squaredNorm(), m = static_cast<double>(residuals.size());
     density.value = value - (has_sigma ? squares / 2 : m / 2 * std::log(squares));
     if (with_gradient && std::isfinite(density.value))
-      density.gradient =
-          slopes - (has_sigma ? 1 : m / squares) * (at.jacobian.transpose() * at.residuals).eval();
+      density.gradient = slopes - (has_sigma ? 1 : m / squares) * at.gradient;
     return density;
   }
 

@@ -50,8 +50,9 @@ struct LogDensity {
 /// Errors: InputError for what holds between entries of the specification (keys as in a fit file); for priors of what is no
 /// unknown, with numbers that make no distribution, or that leave no room between the bounds (key "prior"); for vectors of
 /// another length than n (keys "p", "x"). Threads may share one, but wait for each other; each its own is faster.
-/// Cost: one run of the forward model, with derivatives if the gradient is asked for; the rest is m n + n^3. Example 4, 1980
-/// bins, five rates: 0.33 ms, with gradient 0.42 ms.
+/// Cost: one run of the forward model, with derivatives if the gradient is asked for (of many unknowns by front tracking: one pass
+/// backwards, about two runs whatever their number); the rest is m n + n^3. Example 4, 1980 bins, five rates: 0.33 ms, with
+/// gradient 0.42 ms.
 class Posterior {
  public:
   explicit Posterior(const FitSpec& spec);

@@ -35,6 +35,19 @@ Eigen::MatrixXd ResidualRows::jacobian(const Eigen::MatrixXd& derivatives) const
   return noise ? noise->whitened(j) : j;
 }
 
+Eigen::VectorXd ResidualRows::slopes(const Eigen::VectorXd& of_rows) const {
+  Eigen::VectorXd s = of_rows;
+  if (noise) s = noise->whitened_transposed(s);
+  Eigen::VectorXd of_points = Eigen::VectorXd::Zero(static_cast<Index>(points.size()));
+  double later = 0;  // of this row and of those that go on from it
+  for (std::size_t i = rows.size(); i-- > 0;) {
+    later += rows[i].weight * s[static_cast<Index>(i)];
+    for (const Term& term : model(i)) of_points[static_cast<Index>(term.index)] += term.coefficient * later;
+    if (!rows[i].continues) later = 0;
+  }
+  return of_points;
+}
+
 bool ResidualRows::are_single() const {
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].continues || data(i).size() != 1) return false;

@@ -60,6 +60,8 @@ struct ResidualRows {
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& values) const;
   /// The same combination of derivatives at the points (row = point).
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::MatrixXd& derivatives) const;
+  /// sum_i s_i dr_i/dX at each point, s one number per row: the transpose of jacobian().
+  [[nodiscard]] Eigen::VectorXd slopes(const Eigen::VectorXd& of_rows) const;
   /// What was whitened, back in units of sigma_i.
   [[nodiscard]] Eigen::MatrixXd coloured(const Eigen::MatrixXd& whitened) const {
     return noise ? noise->coloured(whitened) : whitened;

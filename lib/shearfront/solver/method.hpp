@@ -46,6 +46,10 @@ class AnySolver {
                                                           const std::vector<std::size_t>&,
                                                           std::any&) const = 0;
   [[nodiscard]] virtual bool has_steps() const = 0;
+  [[nodiscard]] virtual bool has_linear_sum() const = 0;
+  [[nodiscard]] virtual LinearSum linearise_sum(const Scene<double>&, const std::vector<Place>&,
+                                                const SumWeights&, const std::vector<std::size_t>&,
+                                                const Progress&) const = 0;
 };
 
 template <Solver S>
@@ -146,8 +150,25 @@ class Configured final : public AnySolver {
     else
       return false;
   }
+  [[nodiscard]] bool has_linear_sum() const override {
+    if constexpr (kHasLinearSum)
+      return S::has_linear_sum(options_);
+    else
+      return false;
+  }
+  [[nodiscard]] LinearSum linearise_sum(const Scene<double>& scene, const std::vector<Place>& places,
+                                        const SumWeights& weights, const std::vector<std::size_t>& entries,
+                                        const Progress& progress) const override {
+    if constexpr (kHasLinearSum) {
+      return S::linearise_sum(scene, options_, places, weights, entries, progress);
+    } else {
+      SHEARFRONT_EXPECTS(false, "a method with derivatives of sums");
+      return {};
+    }
+  }
 
  private:
+  static constexpr bool kHasLinearSum = requires { &S::linearise_sum; };
   static constexpr bool kHasLinearIntegrals = requires { &S::linearise_integrals; };
   static constexpr bool kHasLinearTimeline = requires { &S::linearise_timeline; };
 
@@ -230,6 +251,15 @@ class Method {
   }
   /// Whether derivatives of phi say nothing of jumps that move (DifferentiableSolver).
   [[nodiscard]] bool has_steps() const { return solver_->has_steps(); }
+  /// Whether linearise_sum() does for the entries for which has_derivative().
+  [[nodiscard]] bool has_linear_sum() const { return solver_->has_linear_sum(); }
+  /// See DifferentiableSolver. Preconditions: as linearise(); has_linear_sum(); finite times. Errors: as check_places().
+  [[nodiscard]] LinearSum linearise_sum(const Scene<double>& scene, const std::vector<Place>& places,
+                                        const SumWeights& weights, const std::vector<std::size_t>& entries,
+                                        const Progress& progress = {}) const {
+    check_places(scene, places);
+    return solver_->linearise_sum(scene, places, weights, entries, progress);
+  }
   /// Whether linearise_integrals() and linearise_timeline() do for the entries for which has_derivative().
   [[nodiscard]] bool has_linear_integrals() const { return solver_->has_linear_integrals(); }
   [[nodiscard]] bool has_linear_timeline() const { return solver_->has_linear_timeline(); }

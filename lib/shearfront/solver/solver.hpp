@@ -92,6 +92,16 @@ struct Linearisation {
   Summary summary;
 };
 
+/// Samples at some places and the derivatives of one weighted sum of them.
+struct LinearSum {
+  std::vector<Sample> samples;   ///< one per place
+  std::vector<double> gradient;  ///< one per entry
+  Summary summary;
+};
+
+/// Called with the samples once they are known; returns the weights of phi and M of each in a sum.
+using SumWeights = std::function<std::vector<Sample>(const std::vector<Sample>&)>;
+
 /// Integrals of a function of the share at some times, and their derivatives.
 struct LinearIntegrals {
   std::vector<double> integrals;         ///< one per time
@@ -144,6 +154,10 @@ template <Solver S>
 ///                       are empty
 ///   has_steps           optional: whether phi is constant between jumps that move with the entries. Its derivative at a place is then 0 or
 ///                       that of a state, and what a misfit of phi changes with the jumps is not in it
+///   linearise_sum       optional: samples and d/dp sum_i (w_i.phi phi_i + w_i.M M_i), p the entries, at a cost that hardly grows with their
+///                       number, where has_linear_sum(options) says so: that of what linearise gives, up to rounding, and the
+///                       samples to the bit. `weights` is not called for a run that does not come to its end. Preconditions:
+///                       those of linearise, and finite times
 ///   linearise_integrals, linearise_timeline  optional: the same of int c g(phi / c) dz at some times, 0 <= t <= infinity, where g
 ///                       has a slope, and of the event times
 template <class S>

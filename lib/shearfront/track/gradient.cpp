@@ -91,16 +91,15 @@ class GradientBed {
 };
 
 template <class Grid>
-TrackingGradient tracking_gradient_on(
-    const Scene<double>& scene, const TrackOptions& options, const std::vector<Place>& places,
-    const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
-    const std::vector<std::size_t>& wanted, const Progress& progress) {
+LinearSum tracking_gradient_on(const Scene<double>& scene, const TrackOptions& options,
+                               const std::vector<Place>& places, const SumWeights& weigh,
+                               const std::vector<std::size_t>& wanted, const Progress& progress) {
   const GradientBed<Grid> apart(scene, options, wanted);
   const track_detail::MovingBed<Grid>& bed = apart.bed();
   Tracker<Grid, FrontTape> tracker(bed.setup().grid, bed.setup().pieces, bed.setup().ends,
                                    FrontTape(bed.setup().initial.tops),
                                    static_cast<std::size_t>(options.max_fronts));
-  TrackingGradient result;
+  LinearSum result;
   result.samples.resize(places.size());
   std::vector<std::size_t> snapshot_of(places.size());
   const std::vector<std::size_t> order = track_detail::by_time(places);
@@ -121,6 +120,7 @@ TrackingGradient tracking_gradient_on(
   Summary& summary = result.summary;
   summary.status = status;
   summary.message = track_detail::message_of(status, tracker.n_collisions(), tracker.n_unreachable());
+  if (tracker.has_too_many_fronts()) summary.message = "stopped at more fronts than allowed";
   summary.collisions = tracker.n_collisions();
   summary.fronts_max = tracker.n_fronts_max();
   summary.levels = bed.setup().grid.n_levels();
@@ -137,10 +137,9 @@ TrackingGradient tracking_gradient_on(
 
 }  // namespace
 
-TrackingGradient tracking_gradient(
-    const Scene<double>& scene, const TrackOptions& options, const std::vector<Place>& places,
-    const std::function<std::vector<Sample>(const std::vector<Sample>&)>& weigh,
-    const std::vector<std::size_t>& wanted, const Progress& progress) {
+LinearSum tracking_gradient(const Scene<double>& scene, const TrackOptions& options,
+                            const std::vector<Place>& places, const SumWeights& weigh,
+                            const std::vector<std::size_t>& wanted, const Progress& progress) {
   return track_detail::with_grid(scene, exact_layers(scene), [&]<class Grid>(std::type_identity<Grid>) {
     return tracking_gradient_on<Grid>(scene, options, places, weigh, wanted, progress);
   });

@@ -8,6 +8,7 @@
 #include "shearfront/numeric/number_text.hpp"
 #include "shearfront/track/curved_scene.hpp"
 #include "shearfront/track/curved_tracking.hpp"
+#include "shearfront/track/gradient.hpp"
 #include "shearfront/track/linearise.hpp"
 
 namespace shearfront {
@@ -81,6 +82,13 @@ Linearisation FrontTrackingSolver::linearise(const Scene<double>& scene, const O
                                              const std::vector<std::size_t>& wanted, std::any& /*memory*/,
                                              const Progress& progress) {
   return linearise_tracking(scene, options, places, wanted, progress);
+}
+
+LinearSum FrontTrackingSolver::linearise_sum(const Scene<double>& scene, const Options& options,
+                                             const std::vector<Place>& places, const SumWeights& weights,
+                                             const std::vector<std::size_t>& wanted,
+                                             const Progress& progress) {
+  return tracking_gradient(scene, options, places, weights, wanted, progress);
 }
 
 }  // namespace shearfront

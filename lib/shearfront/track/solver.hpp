@@ -49,6 +49,13 @@ struct FrontTrackingSolver {
   static Linearisation linearise(const Scene<double>& scene, const Options& options,
                                  const std::vector<Place>& places, const std::vector<std::size_t>& wanted,
                                  std::any& memory, const Progress& progress = {});
+  /// See track/gradient.hpp.
+  static bool has_linear_sum(const Options& options) {
+    return options.reconstruct == Reconstruction::constant;
+  }
+  static LinearSum linearise_sum(const Scene<double>& scene, const Options& options,
+                                 const std::vector<Place>& places, const SumWeights& weights,
+                                 const std::vector<std::size_t>& wanted, const Progress& progress = {});
 };
 static_assert(DifferentiableSolver<FrontTrackingSolver>);
 

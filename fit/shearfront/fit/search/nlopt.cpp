@@ -32,9 +32,11 @@ using Optimiser = std::unique_ptr<nlopt_opt_s, Destroy>;
 /// afterwards.
 class Session {
  public:
-  Session(Objective& objective, const NloptSpace& space, const Allowance& allowance, SearchResult& best)
+  Session(Objective& objective, const NloptSpace& space, const NloptAlgorithm& algorithm,
+          const Allowance& allowance, SearchResult& best)
       : objective_(&objective),
         space_(&space),
+        algorithm_(&algorithm),
         allowance_(&allowance),
         best_(&best),
         worst_(std::max(best.misfit, 1e-300)) {}
@@ -75,7 +77,9 @@ class Session {
       return penalty();
     }
     const VectorXd u = space_->u(v);
-    const Objective::Evaluation& at = objective_->evaluate(u, gradient != nullptr);
+    // Who follows derivatives asks for them next, where not at once.
+    const bool with_gradient = gradient || (algorithm_->uses_derivatives && objective_->has_derivatives());
+    const Objective::Evaluation& at = objective_->evaluate_misfit(u, with_gradient);
     if (!at.is_valid) return penalty();
     worst_ = std::max(worst_, at.misfit);
     const Coordinates& coordinates = objective_->coordinates();
@@ -87,12 +91,14 @@ class Session {
     }
     ++best_->iterations;
     if (gradient)
-      Eigen::Map<VectorXd>(gradient, v.size()) = space_->derivative(u).transpose() * objective_->gradient(at);
+      Eigen::Map<VectorXd>(gradient, v.size()) =
+          space_->turned(u, objective_->gradient(at).transpose()).transpose();
     return at.misfit;
   }
 
   Objective* objective_;
   const NloptSpace* space_;
+  const NloptAlgorithm* algorithm_;
   const Allowance* allowance_;
   SearchResult* best_;
   nlopt_opt optimiser_ = nullptr;
@@ -150,7 +156,8 @@ class NloptSearch {
         allowance_(objective.control(), spec.max_evaluations) {
     check(objective.coordinates(), space_, algorithm);
     best_.u = start;
-    best_.misfit = objective.evaluate(start, false).misfit;
+    const bool with_gradient = algorithm.uses_derivatives && objective.has_derivatives();
+    best_.misfit = objective.evaluate_misfit(start, with_gradient).misfit;
   }
 
   SearchResult operator()() {
@@ -219,7 +226,7 @@ class NloptSearch {
       return;
     }
     VectorXd v = space.is_preconditioned() ? VectorXd::Zero(n) : space.v(best_.u);
-    Session session(*objective_, space, allowance_, best_);
+    Session session(*objective_, space, algorithm, allowance_, best_);
     session.set_optimiser(optimiser.get());
     nlopt_set_min_objective(optimiser.get(), &Session::misfit, &session);
     nlopt_set_stopval(optimiser.get(), objective_->rounding_misfit());
@@ -245,7 +252,7 @@ class NloptSearch {
     if (allowance_.must_stop()) return;
     const Coordinates& coordinates = objective_->coordinates();
     const VectorXd end = u.cwiseMax(coordinates.lower()).cwiseMin(coordinates.upper());
-    if (const double misfit = objective_->evaluate(end, false).misfit; misfit < best_.misfit) {
+    if (const double misfit = objective_->evaluate_misfit(end, false).misfit; misfit < best_.misfit) {
       best_.u = end;
       best_.misfit = misfit;
     }

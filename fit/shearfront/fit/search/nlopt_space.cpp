@@ -56,19 +56,23 @@ VectorXd NloptSpace::v(const VectorXd& u) const {
   return v.cwiseMax(lower_).cwiseMin(upper_);
 }
 
-MatrixXd NloptSpace::derivative(const VectorXd& u) const {
-  VectorXd d = VectorXd::Ones(u.size());
+MatrixXd NloptSpace::turned(const VectorXd& u, const MatrixXd& d) const {
+  VectorXd slopes = VectorXd::Ones(u.size());
   if (kind_ == Kind::logarithmic_steps)
-    for (const Index k : steps_) d[k] = u[k] + unit_;
-  if (kind_ != Kind::values) return d.asDiagonal();
+    for (const Index k : steps_) slopes[k] = u[k] + unit_;
+  if (kind_ != Kind::values) return d * slopes.asDiagonal();
   const VectorXd p = coordinates_->values(u);
-  for (Index j = 0; j < u.size(); ++j) d[j] = coordinates_->slope(j, p[j]);
-  return coordinates_->derivative(u).partialPivLu().solve(MatrixXd(d.asDiagonal()));
+  for (Index j = 0; j < u.size(); ++j) slopes[j] = coordinates_->slope(j, p[j]);
+  return d * coordinates_->derivative(u).partialPivLu().solve(MatrixXd(slopes.asDiagonal()));
+}
+
+MatrixXd NloptSpace::derivative(const VectorXd& u) const {
+  return turned(u, MatrixXd::Identity(u.size(), u.size()));
 }
 
 void NloptSpace::precondition(const VectorXd& u, const MatrixXd& jacobian) {
   constexpr double kMostUneven = 100;
-  const MatrixXd of_v = jacobian * derivative(u);
+  const MatrixXd of_v = turned(u, jacobian);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(of_v.transpose() * of_v);
   VectorXd steepness = parts.eigenvalues().cwiseMax(0).cwiseSqrt();
   steepness = steepness.cwiseMax(std::max(steepness.maxCoeff() / kMostUneven, 1e-300));

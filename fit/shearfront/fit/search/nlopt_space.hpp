@@ -27,6 +27,8 @@ class NloptSpace {
   [[nodiscard]] Eigen::VectorXd v(
       const Eigen::VectorXd& u) const;  ///< inside lower()..upper(); not preconditioned
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::VectorXd& u) const;  ///< du/dv
+  /// Derivatives with respect to u (a row for each number that has them) turned into those with respect to v.
+  [[nodiscard]] Eigen::MatrixXd turned(const Eigen::VectorXd& u, const Eigen::MatrixXd& d) const;
   /// First steps: a tenth of the value, for heights a tenth of their range.
   [[nodiscard]] Eigen::VectorXd steps(const Eigen::VectorXd& u) const;
   /// What must be <= 0 besides the box: -u_k of the steps, and the box itself once preconditioned.

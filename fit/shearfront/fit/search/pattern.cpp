@@ -20,7 +20,7 @@ class PatternSearch {
         allowance_(objective.control(), spec.max_evaluations),
         p_(objective.coordinates().values(start)) {
     best_.u = start;
-    best_.misfit = objective.evaluate(start, false).misfit;
+    best_.misfit = objective.evaluate_misfit(start, false).misfit;
   }
 
   SearchResult operator()() {
@@ -49,7 +49,7 @@ class PatternSearch {
         if (trial[j] == p_[j] || !is_feasible(trial)) continue;
         if (allowance_.must_stop()) return false;
         const VectorXd u = objective_->coordinates().unbounded(trial);
-        const double misfit = objective_->evaluate(u, false).misfit;
+        const double misfit = objective_->evaluate_misfit(u, false).misfit;
         if (!(misfit < best_.misfit)) continue;
         best_.u = u;
         best_.misfit = misfit;
