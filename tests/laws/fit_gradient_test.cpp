@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "shearfront/fit.hpp"
 #include "shearfront/fit/misfit_function.hpp"
 #include "shearfront/fit/misfit_rows.hpp"
 #include "shearfront/fit/objective.hpp"
 #include "shearfront/fit/posterior.hpp"
+#include "shearfront/fit/search/search.hpp"
 #include "shearfront/fit/unbounded_coordinates.hpp"
 #include "shearfront/solver/method.hpp"
 #include "shearfront/track/solver.hpp"
@@ -32,8 +32,10 @@ using support::SceneMaker;
 
 /// Backwards sums are made in another order.
 constexpr double kRounding = 1e-10;
+/// What is 0 is so up to this part of the largest.
+constexpr double kNothing = 1e-13;
 /// More unknowns than are differentiated forwards in any case.
-constexpr std::size_t kManyUnknowns = 9;
+constexpr std::size_t kManyUnknowns = 5;
 
 Method tracking(double resolution = 0.05) {
   return Method::of<FrontTrackingSolver>({.resolution = resolution, .reconstruct = Reconstruction::constant});
@@ -82,7 +84,7 @@ void expect_product(const MatrixXd& jacobian, const VectorXd& weights, const Vec
   const VectorXd expected = jacobian.transpose() * weights,
                  size = jacobian.cwiseAbs().transpose() * weights.cwiseAbs();
   for (Index j = 0; j < gradient.size(); ++j)
-    EXPECT_NEAR(gradient[j], expected[j], kRounding * size[j] + kRounding * kRounding)
+    EXPECT_NEAR(gradient[j], expected[j], kRounding * size[j] + kNothing * size.maxCoeff())
         << parameters[static_cast<std::size_t>(j)].name();
 }
 
@@ -199,9 +201,10 @@ FitSpec shaped_fit(Shape shape) {
   truth.initial_breaks = {0.5};
   truth.initial_values = {0.1, 0.9};
   truth.shear_rate = rates;
-  const ObservationPlan plan{{0.2, 0.4, 0.7}, {0.1, 0.3, 0.5, 0.7, 0.9}, Quantity::bin, 0.2};
+  ObservationPlan plan{{0.1, 0.2, 0.3, 0.5, 0.7, 1}, {}, Quantity::bin, 0.05};
+  for (int k = 0; k < 20; ++k) plan.depths.push_back((k + 0.5) / 20);
   FitSpec spec =
-      support::fit_of(truth, support::observed(truth, plan, 0.02, 1, false), {"shear_rate.values"});
+      support::fit_of(truth, support::observed(truth, plan, 0.005, 1, false), {"shear_rate.values"});
   spec.unknown.shape = shape;
   spec.forward.method = tracking(0.02);
   return spec;
@@ -231,17 +234,23 @@ TEST(FitGradientOfAShape, TurnsDerivativesAsTheCoordinatesMove) {
   }
 }
 
-/// Searches that follow gradients end where least squares do, in no more runs than they have steps.
+/// Searches that follow gradients end where least squares do.
 TEST(FitGradientOfAShape, LeadsSearchesToTheMinimum) {
-  FitSpec spec = shaped_fit(Shape::none);
-  spec.unknown.start.assign(12, 1.5);
-  const double least = fit(spec).misfit;
-  for (const char* const algorithm : {"nlopt:lbfgs", "nlopt:slsqp"}) {
-    spec.search.algorithm = algorithm;
-    const Estimate found = fit(spec);
-    EXPECT_TRUE(found.usable()) << found.message;
-    EXPECT_NEAR(found.misfit, least, 1e-3 * least) << algorithm << ": " << found.message;
-  }
+  const FitSpec spec = shaped_fit(Shape::none);
+  const Parameters parameters(spec.scene, spec.unknown);
+  const Coordinates coordinates(parameters);
+  const ResidualRows rows = rows_of("bin", spec, parameters);
+  const auto least = [&](const std::string& algorithm) {
+    RunControl control(3000);
+    Objective objective(parameters, coordinates, spec.forward, rows, find_loss("squared", 0), control);
+    SearchSpec how = spec.search;
+    how.algorithm = algorithm;
+    how.max_evaluations = 1000;
+    return search(objective, coordinates.coordinates(parameters.start()), how).misfit;
+  };
+  const double by_squares = least("ceres");
+  for (const char* const algorithm : {"nlopt:lbfgs", "nlopt:slsqp", "nlopt:ccsa"})
+    EXPECT_LT(least(algorithm), 1.01 * by_squares) << algorithm;
 }
 
 /// Nothing but front tracking with constant states goes backwards, and of few unknowns nothing does.
