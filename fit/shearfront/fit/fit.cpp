@@ -37,6 +37,11 @@ void mind_bounds(const FitSpec& spec, const Parameters& parameters, const Object
   const bool has_bound = std::any_of(estimate.parameters.begin(), estimate.parameters.end(),
                                      [](const ParameterEstimate& p) { return p.at_bound; });
   if (!has_bound || spec.unknown.shape != Shape::none || !objective.has_derivatives()) return;
+  if (!has_profiles(spec, objective)) {
+    estimate.warnings.emplace_back(
+        "intervals take the parameters at a bound as known: so many unknowns have no profiles beside them");
+    return;
+  }
   const Profiles profiles = intervals_beside_bounds(spec, parameters, objective, estimate, progress);
   std::string names;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -68,7 +73,7 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
   mind_bounds(spec, parameters, objective, progress, estimate);
   // Those asked for, and of what the plain ones are not good enough for: by derivatives they are to be had in a few evaluations.
   std::vector<bool> profiled(parameters.size(), spec.uncertainty.profile);
-  if (!spec.uncertainty.profile && objective.has_derivatives() && spec.unknown.shape == Shape::none)
+  if (!spec.uncertainty.profile && has_profiles(spec, objective))
     for (std::size_t i = 0; i < profiled.size(); ++i) {
       const ParameterEstimate& p = estimate.parameters[i];
       const bool is_doubtful = p.check && p.check->is_doubtful();

@@ -66,7 +66,7 @@ std::optional<VectorXd> beyond_flat(Objective& objective, const VectorXd& u) {
       for (double distance = kFirstReach; distance < most && !objective.control().must_stop();
            distance *= 4) {
         const VectorXd there = moved(u, j, sign * distance);
-        const double misfit = objective.evaluate(there, false).misfit;
+        const double misfit = objective.evaluate_misfit(there, false).misfit;
         if (misfit < smallest) smallest = misfit, best = there;
       }
     }

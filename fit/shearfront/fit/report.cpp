@@ -249,6 +249,12 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
   return estimate;
 }
 
+bool has_profiles(const FitSpec& spec, const Objective& objective) {
+  if (spec.unknown.shape != Shape::none) return false;
+  return spec.uncertainty.profile ||
+         (objective.has_derivatives() && objective.parameters().size() <= kMostProfiled);
+}
+
 bool is_barely_seen(const Parameter& parameter, const ParameterEstimate& estimate) {
   constexpr double kHugeError = 0.5;
   return parameter.entry.range == Range::positive && estimate.std_error &&

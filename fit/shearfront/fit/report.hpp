@@ -32,6 +32,11 @@ struct Minimum {
 /// trusted; residuals with structure or far larger than their sigma; too few data.
 [[nodiscard]] std::vector<std::string> warnings(const Minimum& minimum, const Estimate& estimate);
 
+/// Whether parameters whose plain intervals do not do get profile intervals: those of all were asked for, or derivatives make them
+/// cheap. They take some ten Jacobians and systems of all unknowns for each of them: of more than kMostProfiled nobody would wait for them.
+[[nodiscard]] bool has_profiles(const FitSpec& spec, const Objective& objective);
+inline constexpr std::size_t kMostProfiled = 50;
+
 /// Whether the standard error of a positive number is more than half of its estimate: a 95 % interval by a factor of e or more.
 [[nodiscard]] bool is_barely_seen(const Parameter& parameter, const ParameterEstimate& estimate);
 

@@ -180,11 +180,6 @@ class Writer {
                     short_text(low), short_text(high)));
     return true;
   }
-  /// Of what is doubtful or barely seen.
-  [[nodiscard]] bool has_profile() const {
-    return spec_.unknown.shape == Shape::none &&
-           (spec_.uncertainty.profile || minimum_.objective.has_derivatives());
-  }
   [[nodiscard]] bool is_relative(Index i) const {
     return parameters_[static_cast<std::size_t>(i)].entry.range == Range::positive;
   }
@@ -239,11 +234,12 @@ class Writer {
     for (Index i = 0; i < values_.size(); ++i) {
       const ParameterEstimate& p = of(i);
       if (!is_barely_seen(parameters_[static_cast<std::size_t>(i)], p)) continue;
-      texts_.push_back(fmt::format(
-          "{} is barely seen by these data: its standard error {} is {} % of the "
-          "estimate {}{}",
-          p.name, short_text(*p.std_error), number_text(std::round(100 * *p.std_error / p.estimate)),
-          short_text(p.estimate), has_profile() ? "; believe its profile interval" : ""));
+      texts_.push_back(
+          fmt::format("{} is barely seen by these data: its standard error {} is {} % of the "
+                      "estimate {}{}",
+                      p.name, short_text(*p.std_error),
+                      number_text(std::round(100 * *p.std_error / p.estimate)), short_text(p.estimate),
+                      has_profiles(spec_, minimum_.objective) ? "; believe its profile interval" : ""));
     }
   }
 
@@ -267,7 +263,8 @@ class Writer {
           "do not trust the 95 % interval of {}, {} to {}: {}{}; {}", p.name, short_text(p.ci95->low),
           short_text(p.ci95->high),
           is_off(p.check->low) || is_off(p.check->high) ? "the misfit is no parabola, " : "", listed(faults),
-          has_profile() ? "believe its profile interval" : "ask for uncertainty.profile = true"));
+          has_profiles(spec_, minimum_.objective) ? "believe its profile interval"
+                                                  : "ask for uncertainty.profile = true"));
     }
   }
 

@@ -100,7 +100,7 @@ class GlobalSearch {
     double smallest = objective_->evaluate(u, false).misfit;
     for (int k = -kOctaves; k <= kOctaves && !rates_.empty() && !allowance_.must_stop(); ++k) {
       const VectorXd there = with_factor(u, std::exp2(k));
-      const double misfit = objective_->evaluate(there, false).misfit;
+      const double misfit = objective_->evaluate_misfit(there, false).misfit;
       if (misfit < smallest) smallest = misfit, best = there;
     }
     return best;
@@ -114,7 +114,7 @@ class GlobalSearch {
     double smallest = INFINITY;
     for (Index k = 0; k < 2 * centre.size() + 2 && !allowance_.must_stop(); ++k) {
       const VectorXd there = points.next();
-      const double misfit = objective_->evaluate(there, false).misfit;
+      const double misfit = objective_->evaluate_misfit(there, false).misfit;
       if (misfit < smallest) smallest = misfit, best = there;
     }
     if (!allowance_.must_stop() && std::isfinite(smallest)) climb_down(best);
