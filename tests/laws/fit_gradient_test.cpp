@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "shearfront/fit.hpp"
 #include "shearfront/fit/misfit_function.hpp"
 #include "shearfront/fit/misfit_rows.hpp"
 #include "shearfront/fit/objective.hpp"
@@ -251,6 +252,31 @@ TEST(FitGradientOfAShape, LeadsSearchesToTheMinimum) {
   const double by_squares = least("ceres");
   for (const char* const algorithm : {"nlopt:lbfgs", "nlopt:slsqp", "nlopt:ccsa"})
     EXPECT_LT(least(algorithm), 1.01 * by_squares) << algorithm;
+}
+
+/// Sixty steps of the start, all unknown: nobody waits for refits of each.
+TEST(FitGradientOfManyUnknowns, EndsWithoutProfilesThatNobodyAskedFor) {
+  constexpr int kSteps = 60;
+  ObservationPlan plan{{0.02, 0.05}, {}, Quantity::bin, 1.0 / kSteps};
+  SceneSpec<double> truth;
+  truth.shear_rate = Piecewise<double>{{}, {1}};
+  truth.initial_values = {};
+  for (int k = 0; k < kSteps; ++k) {
+    if (k > 0) truth.initial_breaks.push_back(static_cast<double>(k) / kSteps);
+    truth.initial_values.push_back(0.5 + 0.3 * std::sin(0.3 * k));
+    plan.depths.push_back((k + 0.5) / kSteps);
+  }
+  FitSpec spec = support::fit_of(truth, support::observed(truth, plan, 0.01, 1, true), {"initial.values"});
+  spec.forward.method = tracking();
+  spec.search.algorithm = "nlopt:lbfgs";
+  const Estimate found = fit(spec);
+  ASSERT_TRUE(found.usable()) << found.message;
+  for (const ParameterEstimate& p : found.parameters) {
+    EXPECT_FALSE(p.check.has_value()) << p.name;
+    EXPECT_FALSE(p.profile95.has_value()) << p.name;
+  }
+  const auto says = [](const std::string& w) { return w.find("are not checked") != std::string::npos; };
+  EXPECT_EQ(std::count_if(found.warnings.begin(), found.warnings.end(), says), 1);
 }
 
 /// Nothing but front tracking with constant states goes backwards, and of few unknowns nothing does.

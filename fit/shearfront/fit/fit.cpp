@@ -36,12 +36,7 @@ void mind_bounds(const FitSpec& spec, const Parameters& parameters, const Object
                  const Progress& progress, Estimate& estimate) {
   const bool has_bound = std::any_of(estimate.parameters.begin(), estimate.parameters.end(),
                                      [](const ParameterEstimate& p) { return p.at_bound; });
-  if (!has_bound || spec.unknown.shape != Shape::none || !objective.has_derivatives()) return;
-  if (!has_profiles(spec, objective)) {
-    estimate.warnings.emplace_back(
-        "intervals take the parameters at a bound as known: so many unknowns have no profiles beside them");
-    return;
-  }
+  if (!has_bound || !objective.has_derivatives() || !has_profiles(spec, objective)) return;
   const Profiles profiles = intervals_beside_bounds(spec, parameters, objective, estimate, progress);
   std::string names;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -70,6 +65,11 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
   const auto warn = [&](const std::vector<std::string>& texts) {
     estimate.warnings.insert(estimate.warnings.end(), texts.begin(), texts.end());
   };
+  if (parameters.size() > kMostProfiled && !spec.uncertainty.profile && spec.unknown.shape == Shape::none)
+    estimate.warnings.emplace_back(
+        "the intervals of so many unknowns are not checked against the misfit, and take parameters at a "
+        "bound as "
+        "known; uncertainty.profile = true finds better ones, which takes long");
   mind_bounds(spec, parameters, objective, progress, estimate);
   // Those asked for, and of what the plain ones are not good enough for: by derivatives they are to be had in a few evaluations.
   std::vector<bool> profiled(parameters.size(), spec.uncertainty.profile);

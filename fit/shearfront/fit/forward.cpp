@@ -47,8 +47,8 @@ Forward::Forward(const Parameters& parameters, const ForwardSpec& forward, Obser
   };
   has_derivatives_ =
       std::all_of(entries_.begin(), entries_.end(), [&](std::size_t i) { return has_derivative(all[i]); });
-  // Two to four unknowns cost as much forwards as all backwards, whatever the bed, and leave a Jacobian; eight cost
-  // 1.1 to 1.6 times as much.
+  // Forwards four unknowns cost 1 to 1.2 times what all of them cost backwards, and leave a Jacobian; eight 1.1 to 1.7 times, by the
+  // bed (tests/bench/tracking_derivatives_bench.cpp).
   constexpr std::size_t kMostForwards = 4;
   has_gradient_ =
       has_derivatives_ && entries_.size() > kMostForwards && method_.has_linear_sum() &&

@@ -108,7 +108,7 @@ std::vector<std::optional<IntervalCheck>> check_intervals(const Minimum& minimum
   std::vector<std::optional<IntervalCheck>> checks(estimate.parameters.size());
   const bool leaves_out = quantity_of(minimum.spec) == name_of(Quantity::point) &&
                           minimum.objective.rows().rows.size() < minimum.spec.observations.rows.size();
-  if (minimum.parameters.shape() != Shape::none || leaves_out) return checks;
+  if (minimum.parameters.shape() != Shape::none || leaves_out || checks.size() > kMostProfiled) return checks;
   const Checker checker(minimum);
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const auto j = static_cast<Index>(k);

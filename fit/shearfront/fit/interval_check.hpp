@@ -20,7 +20,7 @@ namespace shearfront::fit {
 /// end beyond it is never called too near.
 ///
 /// Empty for parameters without interval or with one that is rounding (exact data); for all with a shape
-/// (intervals of differences have no such line) and where points near a shock are left out (which ones
+/// (intervals of differences have no such line), of more than kMostProfiled unknowns, and where points near a shock are left out (which ones
 /// depends on the estimate). Cost: two runs of the model per parameter; one more, or a refit of about ten,
 /// for an end where rise(1) is far from 1. Source: Bates & Watts (1988), Nonlinear Regression Analysis,
 /// section 6.1 (profile t plots).

@@ -33,7 +33,8 @@ struct Minimum {
 [[nodiscard]] std::vector<std::string> warnings(const Minimum& minimum, const Estimate& estimate);
 
 /// Whether parameters whose plain intervals do not do get profile intervals: those of all were asked for, or derivatives make them
-/// cheap. They take some ten Jacobians and systems of all unknowns for each of them: of more than kMostProfiled nobody would wait for them.
+/// cheap. They take some ten Jacobians and systems of all unknowns for each of them: of more than kMostProfiled nobody would wait
+/// for what was not asked for.
 [[nodiscard]] bool has_profiles(const FitSpec& spec, const Objective& objective);
 inline constexpr std::size_t kMostProfiled = 50;
 
