@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,10 +86,21 @@ struct Place {
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
+/// How far a number may be moved to smaller and to larger values, in its own unit.
+struct StepRange {
+  double down = std::numeric_limits<double>::infinity();
+  double up = std::numeric_limits<double>::infinity();
+};
+
 /// Samples at some places and their derivatives with respect to some numbers of the scene.
 struct Linearisation {
   std::vector<Sample> samples;      ///< one per place
   std::vector<Sample> derivatives;  ///< [place * number of entries + entry]: d phi, d M
+  /// Of a solution made of events, empty otherwise: per entry, how far it may be moved alone while the order of events up to the last
+  /// place stays as it is to first order (track/event_order.hpp). Beyond that the derivatives are those of another order.
+  std::vector<StepRange> order_holds;
+  /// The order itself as a number: of two runs with equal ones it is the same. 0 where order_holds is empty.
+  std::uint64_t order = 0;
   Summary summary;
 };
 

@@ -239,7 +239,7 @@ class FrontSystem {
     Node &first = fronts_[a], &second = fronts_[b];
     const Scalar speed = grid_->speed(first.layer, l, r);
     const TwoSum<Scalar> z = merging_point(first, second, speed, now_);
-    begin_view(z.high, CollisionView<Scalar>::kNoBoundary);
+    begin_view(z.high, CollisionView<Scalar>::kNoBoundary, first.prev, second.next);
     if constexpr (Observer::kActive) view_.incoming = {fronts_.view_of(a), fronts_.view_of(b)};
     remove(b);
     agenda_.unschedule(first);
@@ -257,7 +257,7 @@ class FrontSystem {
     const TwoSum<Scalar> z = meeting_point(*grid_, fronts_, a, b, l, r, now_);
     const FrontIndex under = fronts_[a].prev;
     const std::size_t layer = fronts_[a].layer;
-    begin_view(z.high, CollisionView<Scalar>::kNoBoundary);
+    begin_view(z.high, CollisionView<Scalar>::kNoBoundary, under, fronts_[b].next);
     remove_all(a, b, kNoFront);
     const FrontIndex top = emit_in_layer(under, layer, l, r, z.high, z.low);
     end_view();
@@ -268,7 +268,7 @@ class FrontSystem {
     const FrontIndex under = fronts_[a].prev;
     Waves& waves = waves_[boundary];
     if (!waves.first) waves.first_edge = first_edge(boundary);
-    begin_view(fronts_[boundary].z, boundary);
+    begin_view(fronts_[boundary].z, boundary, under, fronts_[b].next);
     remove_all(a, b, boundary);
     const FrontIndex top = emit_at_boundary(boundary, l, r);
     end_view();
@@ -326,8 +326,20 @@ class FrontSystem {
     }
   }
 
+  /// Of a point that has these nodes beside it; at an end of a periodic bed there is one at the other end.
+  void begin_view(const Scalar& z, std::size_t boundary, FrontIndex under, FrontIndex over) {
+    begin_view(z, boundary);
+    if constexpr (Observer::kActive) {
+      if (is_periodic_ && under == kNoFront) under = fronts_[static_cast<FrontIndex>(grid_->n_layers())].prev;
+      if (is_periodic_ && over == kNoFront) over = fronts_[0].next;
+      if (under != kNoFront) view_.under = fronts_.view_of(under);
+      if (over != kNoFront) view_.over = fronts_.view_of(over);
+    }
+  }
   void begin_view(const Scalar& z, std::size_t boundary) {
     if constexpr (Observer::kActive) {
+      view_.under.reset();
+      view_.over.reset();
       view_.t = now_;
       view_.z = z;
       view_.boundary = boundary;

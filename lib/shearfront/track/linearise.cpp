@@ -37,6 +37,7 @@ class TangentRun {
         progress_(progress) {
     result_.samples.resize(places.size());
     result_.derivatives.resize(places.size() * bed.n_columns());
+    result_.order_holds.resize(bed.n_columns());
   }
 
   /// All columns, as many at once as memory should hold.
@@ -66,7 +67,8 @@ class TangentRun {
                                    [&](std::size_t column, std::size_t layer, State l, State r) {
                                      return bed_.motion().speed(columns[column].scene, columns[column].states,
                                                                 layer, l, r);
-                                   }),
+                                   },
+                                   bed_.setup().grid.n_layers(), bed_.setup().ends.is_periodic),
                      static_cast<std::size_t>(options_.max_fronts));
     Status status = Status::ok;
     for (std::size_t i = 0, end = 0; i < order_.size(); i = end) {
@@ -81,7 +83,26 @@ class TangentRun {
         for (std::size_t first = 0; first < to - from; first += kColumnsAtOnce)
           take_linear(tracker, columns, first, i, end, from);
     }
+    take_order(tracker, columns, from);
     summarise(tracker, status);
+  }
+  void take_order(const Tracking& tracker, const std::vector<track_detail::MotionColumn>& columns,
+                  std::size_t from) {
+    const auto& setup = bed_.setup();
+    const StateRows& rows = bed_.motion().rows();
+    const FrontTangents& tangents = tracker.observer();
+    OrderSteps steps = tangents.steps();
+    const bool is_decided = tangents.order().n_undecided() == 0;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      steps.keep_states(setup.grid, rows, tangents.has_front(), j, columns[j].states);
+      result_.order_holds[from + j] = is_decided ? steps.range(j) : StepRange{0, 0};
+    }
+    std::vector<State> states;
+    for (std::size_t i = 0; i < setup.wanted.size(); ++i) {
+      const State state = setup.wanted_states[i];
+      states.push_back(tangents.has_front()[rows(setup.wanted[i].layer, state)] ? state + 1 : 0);
+    }
+    result_.order = tangents.signature().value(setup.grid.n_levels(), states);
   }
   void take_samples(const Tracking& tracker, std::size_t begin, std::size_t end) {
     const Profile<double> profile =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,13 +26,15 @@ struct FrontView {
 };
 
 /// Fronts that met in one point and fronts that left it. boundary is the index of the interface or wall in
-/// whose point they met (0 the bottom wall, n_layers the top wall), kNoBoundary inside a layer.
+/// whose point they met (0 the bottom wall, n_layers the top wall), kNoBoundary inside a layer. After time 0 `under` and `over` are the
+/// neighbours of these fronts, which are boundaries if slot <= n_layers (their layer is then their index); none beyond the ends.
 template <Real Scalar>
 struct CollisionView {
   static constexpr std::size_t kNoBoundary = static_cast<std::size_t>(-1);
   Scalar t, z;
   std::size_t boundary = kNoBoundary;
   std::vector<FrontView<Scalar>> incoming, outgoing;
+  std::optional<FrontView<Scalar>> under, over;
 };
 
 struct NoObserver {
