@@ -217,7 +217,8 @@ class FrontTangents {
                    bool is_over) {
     const bool is_in_layer = view.boundary == CollisionView<double>::kNoBoundary;
     const double toward = is_over ? 1 : -1;
-    double before = 0, after = is_in_layer ? -toward * infinity<double>() : 0;  // speeds of the outermost node
+    double before = 0,
+           after = is_in_layer ? -toward * infinity<double>() : 0;  // speeds of the outermost node
     if (!view.incoming.empty()) {
       const FrontView<double>& f = is_over ? view.incoming.back() : view.incoming.front();
       if (is_in_layer || (f.layer == view.boundary) == is_over) before = f.speed;
@@ -294,9 +295,9 @@ class FrontTangents {
   CloseSpeed close_speed_;
   std::size_t n_, n_layers_, n_changes_ = 0, n_begun_ = 0;
   bool is_periodic_;
-  std::vector<double> dt_, dz_, a_, b_;  // of the point, and what two fronts have moved there
-  std::vector<double> closing_;          // of their closing speed, relative to it
-  std::vector<double> rows_;             // per slot: g, ds and dt0
+  std::vector<double> dt_, dz_, a_, b_;   // of the point, and what two fronts have moved there
+  std::vector<double> closing_;           // of their closing speed, relative to it
+  std::vector<double> rows_;              // per slot: g, ds and dt0
   std::vector<double> last_t_, last_dt_;  // of each boundary: its last event after time 0
   double last_begin_z_ = 0;
   std::vector<double> last_begin_;  // of the last point at time 0

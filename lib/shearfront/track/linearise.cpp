@@ -63,12 +63,13 @@ class TangentRun {
       table.set(first, some);
     }
     Tracking tracker(bed_.setup().grid, bed_.setup().pieces, bed_.setup().ends,
-                     FrontTangents(table, bed_.setup().initial.tops,
-                                   [&](std::size_t column, std::size_t layer, State l, State r) {
-                                     return bed_.motion().speed(columns[column].scene, columns[column].states,
-                                                                layer, l, r);
-                                   },
-                                   bed_.setup().grid.n_layers(), bed_.setup().ends.is_periodic),
+                     FrontTangents(
+                         table, bed_.setup().initial.tops,
+                         [&](std::size_t column, std::size_t layer, State l, State r) {
+                           return bed_.motion().speed(columns[column].scene, columns[column].states, layer, l,
+                                                      r);
+                         },
+                         bed_.setup().grid.n_layers(), bed_.setup().ends.is_periodic),
                      static_cast<std::size_t>(options_.max_fronts));
     Status status = Status::ok;
     for (std::size_t i = 0, end = 0; i < order_.size(); i = end) {
