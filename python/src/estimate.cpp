@@ -92,6 +92,14 @@ nb::dict facts_of(const Fitted& self) {
     add("tau", e.noise->tau, e.noise->tau95);
     all["noise"] = noise;
   }
+  all["order_of_events"] = nb::none();
+  if (e.order) {
+    nb::dict order;
+    order["parameter"] = e.order->parameter;
+    order["std_errors"] = e.order->std_errors;
+    order["changes"] = e.order->changes;
+    all["order_of_events"] = order;
+  }
   all["warnings"] = e.warnings;
   all["status"] = std::string(name_of(e.status));
   all["message"] = e.message;

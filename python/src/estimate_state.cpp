@@ -63,6 +63,11 @@ void members(T& x, Visit&& visit) {
   visit(x.length_t95), visit(x.independent95), visit(x.tau95), visit(x.estimated);
 }
 
+template <python::Of<OrderOfEvents> T, class Visit>
+void members(T& x, Visit&& visit) {
+  visit(x.parameter), visit(x.std_errors), visit(x.changes);
+}
+
 template <python::Of<ParameterEstimate> T, class Visit>
 void members(T& x, Visit&& visit) {
   visit(x.name), visit(x.start), visit(x.estimate), visit(x.std_error), visit(x.ci95), visit(x.profile95);
@@ -76,7 +81,7 @@ void members(T& x, Visit&& visit) {
   visit(x.misfit), visit(x.residual_norm), visit(x.sigma), visit(x.freedom), visit(x.sigma_is_given);
   visit(x.observations), visit(x.left_out), visit(x.evaluations), visit(x.iterations), visit(x.wall_s);
   visit(x.correlation), visit(x.replicates), visit(x.aic), visit(x.bic), visit(x.structure), visit(x.noise),
-      visit(x.predicted), visit(x.steps);
+      visit(x.order), visit(x.predicted), visit(x.steps);
   visit(x.warnings), visit(x.status), visit(x.message);
 }
 

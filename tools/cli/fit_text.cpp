@@ -84,6 +84,12 @@ std::string estimate_text(const fit::Estimate& estimate) {
                       : std::isnan(estimate.sigma) ? "not known"
                                                    : fmt::format("{:.3g} (estimated)", estimate.sigma));
   if (estimate.noise) text += "correlated noise: " + noise_text(*estimate.noise) + "\n";
+  if (estimate.order)
+    text += fmt::format(
+        "order of events: fixed within {:.2g} standard errors of {}, beyond that derivatives are those of "
+        "another; "
+        "changed by {} steps of the search\n",
+        estimate.order->std_errors, estimate.order->parameter, estimate.order->changes);
   if (estimate.aic && estimate.bic)
     text += fmt::format("AIC {:.6g}, BIC {:.6g}\n", *estimate.aic, *estimate.bic);
   text += fmt::format("{} observations", estimate.observations);

@@ -74,6 +74,14 @@ struct NoiseEstimate {
   std::size_t estimated = 0;  ///< how many of them were
 };
 
+/// How far the derivatives of front tracking reach: of all unknowns alone, the one of which fewest standard errors from the estimate
+/// change the order of events, to first order (Linearisation::order_holds).
+struct OrderOfEvents {
+  std::string parameter;
+  double std_errors = 0;
+  std::size_t changes = 0;  ///< steps of the search that changed the order
+};
+
 /// The result of a fit.
 struct Estimate {
   std::string name;
@@ -99,6 +107,8 @@ struct Estimate {
   std::optional<double> aic, bic;  ///< of all observations, Gaussian; smaller is better
   std::optional<ResidualStructure> structure;
   std::optional<NoiseEstimate> noise;  ///< empty: independent
+  std::optional<OrderOfEvents>
+      order;  ///< empty where fronts carry no derivatives, or no standard error is known
 
   /// Of every observation in its own quantity, in the order of the data (NaN: no prediction).
   std::vector<double> predicted;

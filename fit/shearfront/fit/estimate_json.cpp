@@ -50,6 +50,11 @@ Json to_json(const std::optional<NoiseEstimate>& e) {
   return all;
 }
 
+Json to_json(const std::optional<OrderOfEvents>& order) {
+  if (!order) return {};
+  return {{"parameter", order->parameter}, {"std_errors", order->std_errors}, {"changes", order->changes}};
+}
+
 Json to_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -98,6 +103,7 @@ Json to_json(const Estimate& estimate) {
            {"covariance", to_json(covariance_of(estimate))},
            {"structure", to_json(estimate.structure)},
            {"noise", to_json(estimate.noise)},
+           {"order_of_events", to_json(estimate.order)},
            {"warnings", estimate.warnings},
            {"status", name_of(estimate.status)},
            {"message", estimate.message}};

@@ -119,6 +119,8 @@ void Forward::predict_samples(const Scene<double>& scene, bool with_derivatives,
   prediction.remark = result.summary.remark;
   take(result.samples, prediction);
   if (!with_derivatives) return;
+  prediction.order_holds = result.order_holds;
+  prediction.order = result.order;
   const std::size_t n = entries_.size();
   prediction.derivatives.resize(static_cast<Index>(places_.size()), static_cast<Index>(n));
   for (std::size_t i = 0; i < places_.size(); ++i)

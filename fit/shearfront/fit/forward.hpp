@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <any>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct Prediction {
   Eigen::VectorXd gradient;  ///< of a sum of the values: one per parameter
   std::string failure;       ///< why there is none: the scene is invalid, or the solver's message
   std::string remark;        ///< the solver's, on what is less good than usual
+  std::vector<StepRange>
+      order_holds;  ///< per parameter, with derivatives of a solution made of events: as in Linearisation
+  std::uint64_t order = 0;  ///< likewise
   [[nodiscard]] bool is_valid() const { return failure.empty(); }
 };
 

@@ -104,6 +104,8 @@ Objective::Evaluation Objective::run(const VectorXd& u, Derivatives derivatives)
   }
   if (with_jacobian) at.jacobian = coordinates_->turned(u, rows_.jacobian(prediction.derivatives));
   if (with_gradient) at.gradient = coordinates_->turned(u, prediction.gradient.transpose()).transpose();
+  at.order_holds = prediction.order_holds;
+  at.order = prediction.order;
   if (centre_.size() > 0) add_tether(u, at);
   return at;
 }
@@ -157,6 +159,10 @@ VectorXd Objective::gradient(const Evaluation& at) const {
 void Objective::go_to(const VectorXd& u, Derivatives derivatives) {
   last_ = run(u, derivatives);
   last_u_ = u;
+  if (last_.order != 0) {
+    if (last_order_ != 0 && last_.order != last_order_) ++n_order_changes_;
+    last_order_ = last_.order;
+  }
   control_->count(last_.misfit);
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shearfront/fit/coordinates.hpp"
 #include "shearfront/fit/forward.hpp"
@@ -40,6 +43,8 @@ class Objective {
     double misfit = 0;             ///< infinite if not valid
     Eigen::VectorXd column_error;  ///< of a numeric jacobian from inspect(), relative; empty: rounding only
     double rounding = 0;           ///< norm of what rounding alone makes of the residuals
+    std::vector<StepRange> order_holds;  ///< of the Prediction, per parameter, with an exact jacobian
+    std::uint64_t order = 0;             ///< likewise
   };
   /// dF/du = sum_i rho'(r_i^2) r_i dr_i/du from an evaluation with its gradient or Jacobian.
   [[nodiscard]] Eigen::VectorXd gradient(const Evaluation& at) const;
@@ -65,6 +70,8 @@ class Objective {
   [[nodiscard]] const Forward& forward() const { return forward_; }
   [[nodiscard]] RunControl& control() const { return *control_; }
   [[nodiscard]] bool has_derivatives() const { return forward_.has_derivatives(); }
+  /// How often the order of events was another one than at the point before.
+  [[nodiscard]] std::size_t n_order_changes() const { return n_order_changes_; }
   /// The misfit that rounding alone makes: sum (kUlps eps weight_i X sum_j |c_ij| (1 + n_i))^2 / 2 for solutions of
   /// size X and residuals made of n_i observations. A search that is there has nothing left to find.
   [[nodiscard]] double rounding_misfit() const { return rounding_misfit_; }
@@ -94,6 +101,8 @@ class Objective {
   mutable Eigen::VectorXd step_;  ///< of the differences, chosen at the first use
   Eigen::VectorXd last_u_, best_u_;
   Evaluation last_, best_;
+  std::uint64_t last_order_ = 0;
+  std::size_t n_order_changes_ = 0;
 };
 
 }  // namespace shearfront::fit

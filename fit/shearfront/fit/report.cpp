@@ -96,6 +96,17 @@ void set_error_bars(const Minimum& minimum, Estimate& estimate) {
   }
 }
 
+void set_order(const Minimum& minimum, Estimate& estimate) {
+  for (std::size_t i = 0; i < minimum.at.order_holds.size(); ++i) {
+    const ParameterEstimate& parameter = estimate.parameters[i];
+    if (!parameter.std_error) continue;
+    const StepRange& range = minimum.at.order_holds[i];
+    const double n = std::min(range.down, range.up) / *parameter.std_error;
+    if (!std::isfinite(n) || (estimate.order && estimate.order->std_errors <= n)) continue;
+    estimate.order = {parameter.name, n, minimum.objective.n_order_changes()};
+  }
+}
+
 /// The predictions, or what they would be if the noise were what is left of it when it is whitened.
 std::vector<double> with_white_residuals(const FitSpec& spec, const ResidualRows& rows,
                                          const VectorXd& residuals, std::vector<double> predicted) {
@@ -236,6 +247,7 @@ Estimate report(const FitSpec& spec, const Parameters& parameters, const Objecti
     set_errors(minimum, held, estimate);
   mark_bounds(minimum, estimate);
   set_error_bars(minimum, estimate);
+  set_order(minimum, estimate);
   set_information_criteria(spec, minimum, estimate);
   if (!control.is_interrupted()) {
     auto checks = check_intervals(minimum, estimate);

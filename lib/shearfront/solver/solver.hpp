@@ -97,7 +97,7 @@ struct Linearisation {
   std::vector<Sample> samples;      ///< one per place
   std::vector<Sample> derivatives;  ///< [place * number of entries + entry]: d phi, d M
   /// Of a solution made of events, empty otherwise: per entry, how far it may be moved alone while the order of events up to the last
-  /// place stays as it is to first order (track/event_order.hpp). Beyond that the derivatives are those of another order.
+  /// place stays as it is to first order (track/linearise.hpp). Beyond that the derivatives are those of another order.
   std::vector<StepRange> order_holds;
   /// The order itself as a number: of two runs with equal ones it is the same. 0 where order_holds is empty.
   std::uint64_t order = 0;

@@ -21,8 +21,20 @@
 /// a boundary together, or where the state outside changes) or tears states that are one in the grid apart (two entries equal, a state
 /// at an extremum), the derivative is that of a scene whose numbers differ by some 1e-9 (torn states) or holds to one side at most
 /// (events), and Summary::remark says so. Steps that make a level appear or vanish are beyond any derivative.
+///
+/// How far that is: Linearisation::order_holds, per entry in its unit, and Linearisation::order (track/event_order.hpp). With g > 0 a gap
+/// that must not close and dg its derivative, moving an entry down holds for min g / dg over dg > 0, up for min g / -dg over dg < 0, of
+///   (1) the gap between what meets in an event, at the birth of each of them, and at the event before at the same boundary;
+///   (2) the gap between an event and a neighbour that was coming closer and does so no more: it would have met one of these fronts;
+///   (3) the widths of layers and of initial pieces that fronts begin from;
+///   (4) the gaps in phi and in flux between a state that has a front and the next states of the grid: a front of no strength is born
+///       where one closes. Beside an extremum phi or flux is square in the other, and what is said is half of the step at worst.
+/// In none are levels that appear by the rule of the grid, and, where a flux has inflections or kinks, a state that comes to lie on the
+/// hull of a front which passed over it: these change Linearisation::order only. Nor are the places: an event that comes to lie before
+/// the last of them changes the order, and a front that passes one bends M there. Beyond a step M need not bend: fronts of a layer that
+/// become one are moved as their mass is, whichever of them meet first. Where events coincide (Summary::remark) all steps are 0.
 /// Errors: none; a run that does not come to its end says why in its summary.
-/// Cost: that of a run, for each event as much again for some eight entries, for each entry a pass over the states of all layers, and of
+/// Cost: that of a run, for each event as much again for some eight entries (a tenth of it for the order), for each entry a pass over the states of all layers, and of
 /// the linear reconstruction a microsecond per front, time and eight entries. Beds of more than 64 layers are refused: differences
 /// cost less there.
 namespace shearfront {

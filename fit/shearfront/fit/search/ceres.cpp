@@ -29,10 +29,7 @@ class Batch final : public ceres::EvaluationCallback {
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool /*new_evaluation_point*/) override {
     at_ = &objective_->evaluate(u_, evaluate_jacobians);
-    if (at_->is_valid && at_->misfit < best_misfit_) {
-      best_misfit_ = at_->misfit;
-      best_u_ = u_;
-    }
+    if (at_->is_valid) take_if_best();
     if (!at_->is_valid)
       failure_ = at_->failure.empty() ? "it is out of bounds" : at_->failure, failed_u_ = u_;
   }
@@ -56,12 +53,25 @@ class Batch final : public ceres::EvaluationCallback {
   }
 
  private:
+  /// At a minimum the misfit is flat, and the same to rounding over some 1e-7 of the unknowns: there the gradient tells which point is
+  /// nearer to it.
+  void take_if_best() {
+    const bool has_gradient = at_->jacobian.size() > 0 && objective_->has_derivatives();
+    const double rounding = has_gradient ? std::sqrt(2 * at_->misfit) * at_->rounding : 0,
+                 gradient = has_gradient ? objective_->gradient(*at_).norm() : 0;
+    const bool is_same = std::abs(at_->misfit - best_misfit_) <= rounding;
+    if (!(is_same ? gradient < best_gradient_ : at_->misfit < best_misfit_)) return;
+    best_misfit_ = at_->misfit;
+    best_gradient_ = gradient;
+    best_u_ = u_;
+  }
+
   Objective* objective_;
   VectorXd u_, best_u_;
   double size_;
   VectorXd failed_u_;
   std::string failure_;
-  double best_misfit_ = std::numeric_limits<double>::infinity();
+  double best_misfit_ = std::numeric_limits<double>::infinity(), best_gradient_ = best_misfit_;
   const Objective::Evaluation* at_ = nullptr;
 };
 
