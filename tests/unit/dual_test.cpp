@@ -12,36 +12,36 @@
 namespace shearfront {
 namespace {
 
-using D = Dual<2>;
+using TwoWays = Dual<2>;
 
 /// x = 0.3 and y = 1.7 with the unit derivatives.
-D variable(std::size_t j) {
-  D x(j == 0 ? 0.3 : 1.7);
+TwoWays variable(std::size_t j) {
+  TwoWays x(j == 0 ? 0.3 : 1.7);
   x.d[j] = 1;
   return x;
 }
 
-void expect(const D& f, double value, double by_x, double by_y) {
+void expect(const TwoWays& f, double value, double by_x, double by_y) {
   EXPECT_DOUBLE_EQ(f.v, value);
   EXPECT_NEAR(f.d[0], by_x, 1e-15 * (1 + std::abs(by_x)));
   EXPECT_NEAR(f.d[1], by_y, 1e-15 * (1 + std::abs(by_y)));
 }
 
 TEST(Dual, CarriesDerivativesThroughArithmetic) {
-  static_assert(Real<D>);
-  const D x = variable(0), y = variable(1);
+  static_assert(Real<TwoWays>);
+  const TwoWays x = variable(0), y = variable(1);
   expect(x + y, 2.0, 1, 1);
   expect(x - 2 * y, 0.3 - 2 * 1.7, 1, -2);
   expect(x * y, 0.3 * 1.7, 1.7, 0.3);
   expect(x / y, 0.3 / 1.7, 1 / 1.7, -0.3 / (1.7 * 1.7));
   expect(-x, -0.3, -1, 0);
-  D z = x;
+  TwoWays z = x;
   z *= z;  // of itself
   expect(z, 0.3 * 0.3, 0.6, 0);
 }
 
 TEST(Dual, CarriesDerivativesThroughFunctions) {
-  const D x = variable(0), y = variable(1);
+  const TwoWays x = variable(0), y = variable(1);
   expect(sqrt(y), std::sqrt(1.7), 0, 0.5 / std::sqrt(1.7));
   expect(exp(x), std::exp(0.3), std::exp(0.3), 0);
   expect(expm1(x), std::expm1(0.3), std::exp(0.3), 0);
@@ -55,11 +55,11 @@ TEST(Dual, CarriesDerivativesThroughFunctions) {
 }
 
 TEST(Dual, IsComparedByItsValue) {
-  const D x = variable(0), y = variable(1);
+  const TwoWays x = variable(0), y = variable(1);
   EXPECT_LT(x, y);
-  EXPECT_EQ(x, D(0.3));
+  EXPECT_EQ(x, TwoWays(0.3));
   EXPECT_EQ(std::max(x, y).d[1], 1);
-  EXPECT_FALSE(is_finite(infinity<D>()));
+  EXPECT_FALSE(is_finite(infinity<TwoWays>()));
   EXPECT_EQ(to_double(y), 1.7);
 }
 
