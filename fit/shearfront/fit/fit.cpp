@@ -68,8 +68,7 @@ void add_uncertainty(const FitSpec& spec, const Parameters& parameters, const Ob
   if (parameters.size() > kMostProfiled && !spec.uncertainty.profile && spec.unknown.shape == Shape::none)
     estimate.warnings.emplace_back(
         "the intervals of so many unknowns are not checked against the misfit, and take parameters at a "
-        "bound as "
-        "known; uncertainty.profile = true finds better ones, which takes long");
+        "bound as known; uncertainty.profile = true finds better ones, which takes long");
   mind_bounds(spec, parameters, objective, progress, estimate);
   // Those asked for, and of what the plain ones are not good enough for: by derivatives they are to be had in a few evaluations.
   std::vector<bool> profiled(parameters.size(), spec.uncertainty.profile);
