@@ -98,6 +98,42 @@ TEST(EventOrder, OfAFrontAndAChangeOutside) {
   EXPECT_NE(after_step(spec, change, 0.101, options, places)->order, at.order);
 }
 
+/// A shock of speed 1/8 would leave the top at 0.7, but a faster front catches it 0.025 before, and what they become rests there: the
+/// event that did not happen is none of a front that ends.
+TEST(EventOrder, OfAFrontThatIsStoppedBeforeTheTop) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.top = 0.7;
+  spec.initial_values = {0.875, 1, 0.125};
+  spec.initial_breaks = {0.5, 0.65};
+  spec.outside_bottom = OutsideState<double>{{}, {0.875}};
+  spec.outside_top = OutsideState<double>{{}, {0.125}};
+  const TrackOptions options{.resolution = 0.15};
+  const std::vector<Place> places{{1, 0.6}};
+  const std::size_t faster = entry_of(spec, "initial.breaks[0]"), shock = entry_of(spec, "initial.breaks[1]");
+  const Linearisation at = linearised(spec, options, places, {faster, shock});
+  ASSERT_EQ(at.summary.remark, "");
+  // They rest at (7 z1 - z0) / 6.
+  EXPECT_NEAR(at.order_holds[0].down, 6 * 0.025, 1e-14);
+  EXPECT_NEAR(at.order_holds[1].up, 6.0 / 7 * 0.025, 1e-14);
+  EXPECT_EQ(after_step(spec, faster, -0.149, options, places)->order, at.order);
+  EXPECT_NE(after_step(spec, faster, -0.151, options, places)->order, at.order);
+}
+
+/// Two jumps of the start that come to be one.
+TEST(EventOrder, OfThePiecesOfTheStart) {
+  SceneSpec<double> spec;
+  spec.shear_rate = Piecewise<double>{{}, {1}};
+  spec.initial_values = {0.25, 0.375, 0.5};  // fans, which part
+  spec.initial_breaks = {0.5, 0.53125};
+  spec.outside_bottom = OutsideState<double>{{}, {0.25}};
+  spec.outside_top = OutsideState<double>{{}, {0.5}};
+  const std::size_t entry = entry_of(spec, "initial.breaks[0]");
+  const Linearisation at = linearised(spec, {.resolution = 0.15}, {{0.1, 0.5}}, {entry});
+  ASSERT_EQ(at.summary.remark, "");
+  EXPECT_EQ(at.order_holds[0].up, 0.03125);
+}
+
 /// What a run is told with one entry it is told with all.
 TEST(EventOrder, IsThatOfTheRunWhateverEntriesAreAskedFor) {
   const SceneSpec<double> spec = two_shocks_at_an_interface();
