@@ -158,12 +158,12 @@ struct Steps {
 };
 
 class EventOrders : public testing::TestWithParam<std::string> {};
-std::string test_name(const testing::TestParamInfo<std::string>& flux) {
-  std::string name = flux.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-INSTANTIATE_TEST_SUITE_P(Fluxes, EventOrders, testing::ValuesIn(support::flux_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Fluxes, EventOrders, testing::ValuesIn(support::flux_names()),
+                         [](const testing::TestParamInfo<std::string>& flux) {
+                           std::string name = flux.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST_P(EventOrders, ChangeBeyondTheStepAndNotWithin) {
   // Of the number that moves: what is linear is known to some part of that. Heights and times move fronts by what is all but linear.

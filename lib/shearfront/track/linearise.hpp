@@ -34,7 +34,7 @@
 /// the last of them changes the order, and a front that passes one bends M there. Beyond a step M need not bend: fronts of a layer that
 /// become one are moved as their mass is, whichever of them meet first. Where events coincide (Summary::remark) all steps are 0.
 /// Errors: none; a run that does not come to its end says why in its summary.
-/// Cost: that of a run, for each event as much again for some eight entries (a tenth of it for the order), for each entry a pass over the states of all layers, and of
+/// Cost: that of a run, for each event as much again for some eight entries (of which a sixth is for the order), for each entry a pass over the states of all layers, and of
 /// the linear reconstruction a microsecond per front, time and eight entries. Beds of more than 64 layers are refused: differences
 /// cost less there.
 namespace shearfront {
