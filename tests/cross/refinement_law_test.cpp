@@ -27,8 +27,9 @@ constexpr double kSlack = 2;
 /// Of the promised order, in the mean over so many scenes: monotone schemes lose the logarithm at shocks, and starts are late.
 constexpr double kMeanShare = 0.7;
 constexpr int kMany = 10;
-/// Times of events go down in steps, each as wide as several halvings: their mean order takes more of them.
-constexpr int kLevelsOfTimes = 9;
+/// Errors of fronts go down in steps, those of times of events in steps as wide as several halvings: a new level is of use to one
+/// scene and not to the next one. Their mean order takes more of them.
+constexpr int kLevelsOfFronts = 9;
 constexpr std::uint64_t kManyCollisions = 20'000;  ///< no finer than this
 
 /// What the scenes of one kind showed of one order.
@@ -64,7 +65,7 @@ class RefinementLaw : public testing::TestWithParam<SceneKind> {
             return all.shows_order(kSlack) || (is_slow && all.comes_to_order(is_time ? 2 : 3));
           };
           for (int levels = kLevels + 3;
-               is_time && levels <= kLevelsOfTimes && !is_shown() && refinement.collisions() > 0 &&
+               levels <= kLevelsOfFronts && !is_shown() && refinement.collisions() > 0 &&
                refinement.collisions() < kManyCollisions;
                ++levels)
             all = refinement.errors(levels)[what];
@@ -72,7 +73,7 @@ class RefinementLaw : public testing::TestWithParam<SceneKind> {
             ShownOrder& shown = orders[{name, what.substr(0, what.find('('))}];
             double observed = all.observed();
             if (n_scenes >= kMany && what.front() == 't')
-              for (int levels = kLevels + 1; levels <= kLevelsOfTimes && refinement.collisions() > 0 &&
+              for (int levels = kLevels + 1; levels <= kLevelsOfFronts && refinement.collisions() > 0 &&
                                              refinement.collisions() < kManyCollisions;
                    ++levels)
                 observed = refinement.errors(levels)[what].observed();
