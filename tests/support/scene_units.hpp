@@ -14,8 +14,12 @@ inline double unit_factor(const Entry& entry, double L, double T) {
   const std::string_view name = entry.field;
   // Positive lengths are found by their logarithm in fits and do not say that they are heights.
   if (entry.measure == Measure::height || name.ends_with(".decay") || name.ends_with(".length") ||
-      name.ends_with(".load") || name.ends_with(".width") || name.ends_with(".wavelength"))
+      name.ends_with(".load") || name.ends_with(".width") || name.ends_with(".wavelength") ||
+      name.ends_with(".small_diameter"))
     return L;
+  // Density and gravity keep their numbers; so does the shear rate of a law that makes of it a speed, by a length.
+  if (name.ends_with(".pressure")) return L;
+  if (name == "shear_rate.B") return 1 / L;
   if (name == "shear_rate.scale") return L / T;
   if (name == "diffusion.D") return L * L / T;
   if (name.starts_with("boundary.") && name.ends_with(".breaks")) return T;
