@@ -20,6 +20,7 @@
 #include "support/checked.hpp"
 #include "support/flux_scenes.hpp"
 #include "support/scene_cast.hpp"
+#include "support/table_scenes.hpp"
 
 namespace shearfront {
 namespace {
@@ -102,17 +103,7 @@ SceneSpec<double> bent_scene(SceneMaker& make, FluxShape shape) {
     spec.shear_rate = Exponential<double>{rate(), std::exp(make.uniform(-1.5, 1))};
     return spec;
   }
-  Table<double> table{{0}, {rate()}};
-  for (const double z : make.heights(make.integer(0, 10), 0, 1)) {
-    table.z.push_back(z);
-    table.values.push_back(make.integer(0, 4) == 0 ? table.values.back() : rate());
-    if (make.integer(0, 4) > 0) continue;
-    table.z.push_back(z);
-    table.values.push_back(rate());
-  }
-  table.z.push_back(1);
-  table.values.push_back(rate());
-  spec.shear_rate = std::move(table);
+  spec.shear_rate = support::random_table(make, make.heights(make.integer(0, 10), 0, 1), rate);
   return spec;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "shearfront/scene/scene_spec.hpp"
+#include "support/random_scene.hpp"
 
 /// Beds whose rate is a table, in 0 .. 1.
 namespace shearfront::support {
@@ -16,6 +17,21 @@ inline SceneSpec<double> table_scene(Table<double> table, std::vector<double> br
   spec.initial_breaks = std::move(breaks);
   spec.initial_values = std::move(values);
   return spec;
+}
+/// A table in 0 .. 1 with knots at these heights, of rates that rate() makes: humps, throats, flats, jumps.
+template <class Rate>
+Table<double> random_table(SceneMaker& make, const std::vector<double>& knots, const Rate& rate) {
+  Table<double> table{{0}, {rate()}};
+  for (const double z : knots) {
+    table.z.push_back(z);
+    table.values.push_back(make.integer(0, 4) == 0 ? table.values.back() : rate());
+    if (make.integer(0, 4) > 0) continue;
+    table.z.push_back(z);
+    table.values.push_back(rate());
+  }
+  table.z.push_back(1);
+  table.values.push_back(rate());
+  return table;
 }
 /// One piece: a = 2 - 1.5 z.
 inline SceneSpec<double> one_piece() { return table_scene({{0, 1}, {2, 0.5}}, {0.5}, {0, 1}, 1.3); }

@@ -14,6 +14,7 @@
 #include "shearfront/solver/solve.hpp"
 #include "support/random_scene.hpp"
 #include "support/smooth_starts.hpp"
+#include "support/table_scenes.hpp"
 
 namespace shearfront {
 namespace {
@@ -28,18 +29,8 @@ SceneSpec<double> bed_for_a_sweep(support::SceneMaker& make) {
     std::sort(z.begin(), z.end());
     return z;
   };
-  Table<double> table{{0}, {rate()}};
-  for (const double z : heights(18)) {
-    table.z.push_back(z);
-    table.values.push_back(make.integer(0, 4) == 0 ? table.values.back() : rate());
-    if (make.integer(0, 4) > 0) continue;
-    table.z.push_back(z);
-    table.values.push_back(rate());
-  }
-  table.z.push_back(1);
-  table.values.push_back(rate());
   SceneSpec<double> spec;
-  spec.shear_rate = table;
+  spec.shear_rate = support::random_table(make, heights(18), rate);
   if (make.integer(0, 4) == 0) {
     spec.initial_state = support::random_start(make, 0, 1);
     return spec;
