@@ -103,7 +103,7 @@ SceneSpec<double> bent_scene(SceneMaker& make, FluxShape shape) {
     spec.shear_rate = Exponential<double>{rate(), std::exp(make.uniform(-1.5, 1))};
     return spec;
   }
-  spec.shear_rate = support::random_table(make, make.heights(make.integer(0, 10), 0, 1), rate);
+  spec.shear_rate = support::table_with_knots(make, make.heights(make.integer(0, 10), 0, 1), rate);
   return spec;
 }
 

@@ -20,7 +20,7 @@ inline SceneSpec<double> table_scene(Table<double> table, std::vector<double> br
 }
 /// A table in 0 .. 1 with knots at these heights, of rates that rate() makes: humps, throats, flats, jumps.
 template <class Rate>
-Table<double> random_table(SceneMaker& make, const std::vector<double>& knots, const Rate& rate) {
+Table<double> table_with_knots(SceneMaker& make, const std::vector<double>& knots, const Rate& rate) {
   Table<double> table{{0}, {rate()}};
   for (const double z : knots) {
     table.z.push_back(z);

@@ -30,7 +30,7 @@ SceneSpec<double> bed_for_a_sweep(support::SceneMaker& make) {
     return z;
   };
   SceneSpec<double> spec;
-  spec.shear_rate = support::random_table(make, heights(18), rate);
+  spec.shear_rate = support::table_with_knots(make, heights(18), rate);
   if (make.integer(0, 4) == 0) {
     spec.initial_state = support::random_start(make, 0, 1);
     return spec;
