@@ -18,7 +18,7 @@ inline double unit_factor(const Entry& entry, double L, double T) {
       name.ends_with(".small_diameter"))
     return L;
   // Density and gravity keep their numbers; so does the shear rate of a law that makes of it a speed, by a length.
-  if (name.ends_with(".pressure")) return L;
+  if (name.ends_with(".pressure") || name == "shear_rate.velocity") return L;
   if (name == "shear_rate.B") return 1 / L;
   if (name == "shear_rate.scale") return L / T;
   if (name == "diffusion.D") return L * L / T;
